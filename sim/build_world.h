@@ -1,0 +1,40 @@
+#pragma once
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "sim/mesh.h"
+#include "sim/world.h"
+
+namespace espalier::sim {
+
+/// A mesh to be tiled, in place in world space.
+struct TiledMesh {
+  Mesh mesh;
+  bool solid = false;  ///< fill its inside too
+};
+
+/// What filling found out about a mesh that may leak.
+struct FillReport {
+  std::string object;
+  std::size_t filled = 0;    ///< voxels inside
+  std::size_t doubtful = 0;  ///< voxels where the votes of the lines disagreed
+};
+
+/// Tiles meshes into a new world, in parallel; the result does not depend on the thread count.
+/// A voxel that several triangles cross takes the part that covers most of it, the mean colour by area, and the
+/// area-weighted normal; meshes that come first keep their voxels. Triangles outside the frame are clipped away.
+/// Filling is robust: lines through each free voxel along several directions vote on inside or outside by parity
+/// of their crossings; a line that crosses the mesh an odd number of times in all has leaked and has no vote.
+/// Throws InputError if the world is too large for memory, naming the voxel size that would fit.
+World buildWorld(const Frame& frame, const std::vector<TiledMesh>& meshes, int layers,
+                 std::vector<FillReport>* fills = nullptr);
+
+/// The smallest frame of whole voxels that holds the meshes plus a margin on every side.
+/// Throws InputError where there is nothing to hold or voxel_m is not positive.
+Frame frameAround(const std::vector<TiledMesh>& meshes, double voxel_m, double margin_m);
+
+/// Throws InputError when a world of this size would not fit, naming the voxel size that would.
+void requireFits(const Frame& frame);
+
+}  // namespace espalier::sim

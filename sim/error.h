@@ -1,0 +1,19 @@
+#pragma once
+#include <stdexcept>
+#include <string>
+
+namespace espalier::sim {
+
+/// Something that the caller gave is wrong; the message says what, what was expected, and where if there is a place.
+class InputError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+/// The job was stopped by the caller (Ctrl-C); nothing was written.
+class Stopped : public std::runtime_error {
+ public:
+  Stopped() : std::runtime_error("stopped") {}
+};
+
+}  // namespace espalier::sim

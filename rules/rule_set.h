@@ -1,0 +1,102 @@
+#pragma once
+#include <limits>
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "rules/value.h"
+#include "sim/vec.h"
+
+/// Rule sets as plain values: what a rule file says. rules/registry.h describes every key (type, unit, default,
+/// range, meaning); the reader, the JSON Schema and the reference page are derived from it.
+namespace espalier::rules {
+
+inline constexpr double kNoLimit = std::numeric_limits<double>::infinity();
+
+/// A length as it was written: in voxel widths, or in metres until a job's voxel size is known.
+struct Length {
+  Value value;
+  bool metres = false;
+  friend bool operator==(const Length&, const Length&) = default;
+};
+
+/// Greene's random walk: each tip grows by its best trial, and nodes branch when they come of age.
+struct RandomTree {
+  Length length{2.4};
+  int branch_age_min = 1;      ///< iterations before a node branches, drawn evenly from [min, max]
+  int branch_age_max = 3;
+  Value branch_angle_deg = 60.0;
+  Value wander_deg = 35.0;     ///< a trial's direction lies within this angle of the way that the limb was going
+  int trials_min = 150;        ///< trials before the best one is taken
+  int trials_max = 300;        ///< trials before the tip gives up
+};
+
+/// Each bends a trial's direction towards a vector by its weight: 0 not at all, 1 all the way.
+struct Bias {
+  Value up = 0.0;
+  Value gravity = 0.0;
+  Value light = 0.0;   ///< towards the brightest part of the sky
+  Value away = 0.0;    ///< from the nearest scene object
+  Value toward = 0.0;  ///< to the nearest scene object
+  Value twist = 0.0;   ///< to one side of the plane through the last segment and the local centre of mass
+  double twist_radius_vx = 8.0;  ///< how far the centre of mass looks
+};
+
+/// A trial that does not meet these is rejected.
+struct Require {
+  bool clear = true;  ///< intersects nothing but its own parent
+  double proximity_min_vx = 0.0;
+  double proximity_max_vx = kNoLimit;
+  double exposure_min = 0.0;
+  double exposure_max = 1.0;
+};
+
+/// Ranks the trials that are left.
+struct Prefer {
+  bool has_proximity = false;
+  double proximity_vx = 0.0;  ///< the mean proximity nearest to this wins
+};
+
+struct Light {
+  double sun = 0.5;    ///< weights of the blend; they are normalized to a sum of 1
+  double sky = 0.5;
+  double boost = 1.0;  ///< growth rate, leaf count and leaf size at full exposure over those at the minimum
+};
+
+struct Element {
+  std::string name = "leaf";
+  int trials = 30;
+  Value per_segment = 1.0;  ///< expected number on a segment at the least exposure
+  Value size = 1.0;         ///< scale of the polygons at the least exposure
+  Value face = 0.7;         ///< how much the face turns from the stem's own way to the open and the sky, 0..1
+  sim::Colour colour{0.13f, 0.30f, 0.05f};  ///< linear RGB
+  std::vector<std::vector<sim::Vec3>> polygons;  ///< corners, voxel widths (see sim::ElementShape)
+};
+
+struct RuleSet;
+
+/// What holds where a region of the scene is nearest.
+struct RegionRule {
+  bool forbidden = false;
+  std::shared_ptr<const RuleSet> rules;  ///< null: the enclosing rule set
+};
+
+enum class Propagate { random_tree };
+
+struct RuleSet {
+  std::string name = "unnamed";
+  Propagate propagate = Propagate::random_tree;
+  RandomTree random_tree;
+  Bias bias;
+  Require require;
+  Prefer prefer;
+  Light light;
+  sim::Colour stem_colour{0.16f, 0.10f, 0.05f};  ///< linear RGB
+  double stem_radius_vx = 0.22;  ///< of a twig at its tip
+  std::vector<Element> elements;
+  std::map<std::string, RegionRule> regions;    ///< by region name
+  std::shared_ptr<const RuleSet> otherwise;     ///< tried where this one fails (Greene's secondary set)
+};
+
+}  // namespace espalier::rules

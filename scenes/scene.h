@@ -1,0 +1,108 @@
+#pragma once
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "render/camera.h"
+#include "rules/rule_set.h"
+#include "sim/vec.h"
+
+/// A scene as plain structs: what was asked for, with nothing yet read but the rule files it names.
+/// Positions are in world metres, y up. scenes/registry.h describes every key.
+namespace espalier::scenes {
+
+enum class RegionsFrom { group, material };
+
+/// A mesh, a polyline or points, to be tiled into the world.
+struct SceneMesh {
+  std::string name;                            ///< defaults to the file's stem
+  std::filesystem::path file;
+  RegionsFrom regions_from = RegionsFrom::group;  ///< which names of the file become regions
+  bool solid = false;                          ///< fill the inside
+  bool optional = false;                       ///< a missing file skips the scene instead of being an error
+  double scale = 1.0;
+  sim::Vec3 rotate_deg{0.0};                   ///< about x, then y, then z
+  sim::Vec3 translate_m{0.0};
+  std::optional<sim::Colour> colour;           ///< instead of the file's materials; linear RGB
+};
+
+struct WorldSpec {
+  std::optional<double> voxel_m;               ///< either this
+  std::optional<int> resolution;               ///< or the number of voxels along the longest side
+  double margin_m = 0.0;
+  std::optional<std::array<sim::Vec3, 2>> bounds_m;  ///< instead of the meshes' bounds plus margin
+  int layers = 4;
+};
+
+enum class SkyWeighting { uniform, cosine };
+
+struct SkySpec {
+  SkyWeighting weighting = SkyWeighting::uniform;
+  int directions = 128;
+};
+
+/// Greene's sun: a half circle from horizon to horizon through a point `tilt` from the zenith.
+struct SunSpec {
+  double tilt_deg = 20.0;       ///< the arc's inclination from the vertical
+  double toward_deg = 180.0;    ///< the compass way to which it leans: 0 = -z (north), 90 = +x (east), 180 = +z
+  int samples = 48;
+  double shadow_hour = 15.0;    ///< time of day of the shadow matte: 6 sunrise .. 12 top of the arc .. 18 sunset
+};
+
+struct Scatter {
+  std::string region;  ///< seeds stand on the voxels of this region that look up
+  int count = 0;
+};
+
+struct PlantSpec {
+  std::string name;
+  std::filesystem::path rules_file;
+  std::shared_ptr<const rules::RuleSet> rules;
+  std::vector<sim::Vec3> seeds_m;
+  std::optional<Scatter> scatter;
+};
+
+struct NamedCamera {
+  std::string name;
+  render::Camera camera;
+};
+
+enum class ImageKind {
+  sun_exposure, sky_exposure, threshold, shadow_matte, surface_colour, first_pass,  // Greene's figure 6
+  vines,         // the plant itself, leaves and stems
+  section,       // a cut through the world with its boundary layers
+  attempts,      // every trial of a flat walk and the voxels taken, beside the skeleton
+  contact_sheet
+};
+
+struct ImageSpec {
+  std::string name;     ///< file name without an ending
+  ImageKind kind = ImageKind::vines;
+  std::string camera;   ///< empty: the first one
+  std::string caption;
+  char axis = 'y';                ///< section: which way the cut looks
+  double at_m = 0.0;              ///< section: where the cut lies on that axis
+  std::vector<std::string> of;    ///< contact_sheet: names of the images on it, in order
+};
+
+struct Scene {
+  std::string name = "unnamed";
+  std::filesystem::path file;   ///< where it was read from
+  std::vector<SceneMesh> meshes;
+  WorldSpec world;
+  SkySpec sky;
+  SunSpec sun;
+  std::vector<PlantSpec> plants;
+  int iterations = 50;
+  std::uint64_t seed = 1;
+  int image_width = 1280;
+  int image_height = 960;
+  std::vector<NamedCamera> cameras;
+  std::vector<ImageSpec> images;
+};
+
+}  // namespace espalier::scenes

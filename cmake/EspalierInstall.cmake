@@ -1,1 +1,1 @@
-# To be written with the first install test.
+# Installing comes with the first test of it.

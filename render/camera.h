@@ -19,7 +19,7 @@ class CameraRays {
   sim::Vec3 direction(double x, double y) const;
 
  private:
-  sim::Vec3 eye_m_, corner_, right_, down_;
+  sim::Vec3 eye_m_{0.0}, corner_{0.0}, right_{0.0}, down_{0.0};
 };
 
 }  // namespace espalier::render

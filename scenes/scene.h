@@ -5,6 +5,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "render/camera.h"
@@ -78,6 +79,9 @@ enum class ImageKind {
   attempts,      // every trial of a flat walk and the voxels taken, beside the skeleton
   contact_sheet
 };
+
+/// The kind's name in scene files.
+std::string_view nameOf(ImageKind kind);
 
 struct ImageSpec {
   std::string name;     ///< file name without an ending

@@ -24,7 +24,8 @@ std::vector<sim::TiledMesh> readMeshes(const Scene& scene) {
   }
   std::vector<sim::TiledMesh> meshes;
   for (const SceneMesh& spec : scene.meshes) {
-    sim::Mesh mesh = placeMesh(importMesh(spec.file, spec.regions_from), spec.scale, spec.rotate_deg, spec.translate_m);
+    sim::Mesh mesh =
+        placeMesh(importMesh(spec.file, spec.regions_from), spec.scale, spec.rotate_deg, spec.translate_m);
     mesh.name = spec.name;
     if (spec.colour) {
       for (sim::Material& material : mesh.materials) material.colour = *spec.colour;
@@ -60,16 +61,18 @@ sim::Frame frameFor(const Scene& scene, const std::vector<sim::TiledMesh>& meshe
   // A thousandth of a voxel too much is a rounding of the file's decimals, not another voxel.
   const sim::Vec3 count = glm::ceil((high - low) / voxel_m - 1e-3);
   if (std::max({count.x, count.y, count.z}) > 16000.0) {
-    throw sim::InputError(fmt::format("{}: world: {:.0f} x {:.0f} x {:.0f} voxels; expected at most 16000 a side, as "
-                                      "with a voxel of {:.3g} m",
-                                      scene.file.string(), count.x, count.y, count.z,
-                                      std::max({high.x - low.x, high.y - low.y, high.z - low.z}) / 16000.0));
+    throw sim::InputError(
+        fmt::format("{}: world: {:.0f} x {:.0f} x {:.0f} voxels; expected at most 16000 a side, as "
+                    "with a voxel of {:.3g} m",
+                    scene.file.string(), count.x, count.y, count.z,
+                    std::max({high.x - low.x, high.y - low.y, high.z - low.z}) / 16000.0));
   }
   return {low + 0.5 * voxel_m, voxel_m, sim::Voxel(count)};
 }
 
 /// Seeds in the open voxels right above a region, drawn without putting two in one place.
-std::vector<sim::Vec3> scatter(const sim::World& world, const Scatter& spec, std::uint64_t seed, std::size_t plant) {
+std::vector<sim::Vec3> scatter(const sim::World& world, const Scatter& spec, std::uint64_t seed,
+                               std::size_t plant) {
   std::vector<sim::Voxel> open;
   for (const sim::TiledVoxel& tiled : world.surfaces()) {
     const sim::Voxel above = tiled.voxel + sim::Voxel(0, 1, 0);
@@ -98,7 +101,8 @@ void requireRegion(const sim::World& world, const std::string& region) {
     if (part.region == region) return;
     known.push_back(part.region);
   }
-  throw sim::InputError(fmt::format("there is no region '{}'; the meshes have: {}", region, fmt::join(known, ", ")));
+  throw sim::InputError(
+      fmt::format("there is no region '{}'; the meshes have: {}", region, fmt::join(known, ", ")));
 }
 
 sim::Planting plant(Job& job, const PlantSpec& spec, std::size_t number) {
@@ -118,7 +122,9 @@ sim::Planting plant(Job& job, const PlantSpec& spec, std::size_t number) {
 
 }  // namespace
 
-sim::SunArc sunArc(const SunSpec& spec) { return {spec.tilt_deg, spec.toward_deg, spec.samples}; }
+sim::SunArc sunArc(const SunSpec& spec) {
+  return {spec.tilt_deg, spec.toward_deg, spec.samples};
+}
 
 Job prepareJob(Scene scene) {
   std::vector<sim::TiledMesh> meshes = readMeshes(scene);
@@ -138,8 +144,8 @@ Job prepareJob(Scene scene) {
                                                              : sim::Weighting::uniform);
           sun = sim::sunDirections(sunArc(scene.sun));
         });
-    Job job{std::move(scene), std::move(meshes), std::move(fills), std::move(*world), {}, {}, std::move(sky),
-            std::move(sun)};
+    Job job{std::move(scene), std::move(meshes), std::move(fills), std::move(*world), {}, {},
+            std::move(sky),   std::move(sun)};
     for (std::size_t i = 0; i < job.scene.plants.size(); ++i) {
       job.plantings.push_back(plant(job, job.scene.plants[i], i));
     }

@@ -12,7 +12,6 @@
 namespace espalier::sim {
 namespace {
 
-constexpr int kSkyLongest = 8;  // spread matters more than aim: weights follow the directions that were taken
 constexpr int kSunLongest = 24;  // within about a degree
 constexpr int kShareSamples = 1 << 16;
 
@@ -22,6 +21,12 @@ double cosine(double radians) {
 }
 double sine(double radians) {
   return std::sin(static_cast<float>(radians));
+}
+
+/// Vectors long enough that snapping to the lattice moves a direction by much less than the way to its
+/// neighbours: short ones would crowd on the planes of symmetry, which is where walls stand.
+int longestForSky(int count) {
+  return std::clamp(static_cast<int>(std::lround(1.4 * std::sqrt(count))), 6, 40);
 }
 
 /// Point i of n on the hemisphere, evenly spread: equal steps of height, golden-ratio steps of azimuth.
@@ -99,7 +104,8 @@ Voxel nearestLatticeVector(Vec3 unit, int longest) {
 
 DirectionSet skyDirections(int count, Weighting weighting, Vec3 normal) {
   std::vector<Voxel> vectors;
-  for (int i = 0; i < count; ++i) vectors.push_back(nearestLatticeVector(spiralPoint(i, count), kSkyLongest));
+  for (int i = 0; i < count; ++i)
+    vectors.push_back(nearestLatticeVector(spiralPoint(i, count), longestForSky(count)));
   std::sort(vectors.begin(), vectors.end(), before);
   vectors.erase(std::unique(vectors.begin(), vectors.end()), vectors.end());
 

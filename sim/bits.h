@@ -10,8 +10,8 @@ namespace espalier::sim {
 
 /// One bit a voxel: the packed occupancy that rays and sweeps read.
 /// Rows run along x, slices are xz-planes and y is slowest: a sky sweep goes down the slices one by one.
-/// A whole word of zeros lies before and behind each row, so that a read shifted by up to 63 voxels either
-/// way needs no bounds check.
+/// A whole word of zeros lies before and behind each row (and one more behind the last), so that a read
+/// shifted by up to 63 voxels either way needs no bounds check.
 class BitVolume {
  public:
   static constexpr int kWordBits = 64;
@@ -20,7 +20,7 @@ class BitVolume {
   explicit BitVolume(Voxel size)
       : size_(size),
         row_words_((size.x + kWordBits - 1) / kWordBits + 1),
-        words_(1 + static_cast<std::size_t>(row_words_) * static_cast<std::size_t>(size.y) *
+        words_(2 + static_cast<std::size_t>(row_words_) * static_cast<std::size_t>(size.y) *
                        static_cast<std::size_t>(size.z)) {}
 
   Voxel size() const { return size_; }

@@ -10,17 +10,25 @@
 namespace espalier::sim {
 namespace {
 
+// The hot loops are compiled for several x86 levels; the loader picks the best one that the processor has.
+#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && !defined(__SANITIZE_THREAD__)
+#define ESPALIER_HOT __attribute__((target_clones("arch=skylake-avx512", "avx2", "default")))
+#else
+#define ESPALIER_HOT
+#endif
+
 using Word = std::uint64_t;
 
-/// out |= row moved down by `shift` voxels: bit x of out gets bit x + shift of row. |shift| < 64, which the
-/// zero words around each row make safe.
-void orShifted(Word* out, const Word* row, int data_words, int shift) {
+/// out |= in moved down by `shift` voxels: bit x of out gets bit x + shift of in. |shift| < 64; reads one
+/// word before or behind the range.
+ESPALIER_HOT void orShifted(Word* __restrict out, const Word* __restrict in, std::size_t words, int shift) {
   if (shift == 0) {
-    for (int w = 0; w < data_words; ++w) out[w] |= row[w];
+    for (std::size_t w = 0; w < words; ++w) out[w] |= in[w];
   } else if (shift > 0) {
-    for (int w = 0; w < data_words; ++w) out[w] |= (row[w] >> shift) | (row[w + 1] << (64 - shift));
+    for (std::size_t w = 0; w < words; ++w) out[w] |= (in[w] >> shift) | (in[w + 1] << (64 - shift));
   } else {
-    for (int w = 0; w < data_words; ++w) out[w] |= (row[w] << -shift) | (row[w - 1] >> (64 + shift));
+    const Word* const before = in - 1;
+    for (std::size_t w = 0; w < words; ++w) out[w] |= (in[w] << -shift) | (before[w] >> (64 + shift));
   }
 }
 
@@ -34,7 +42,8 @@ constexpr auto kLanes = [] {
 }();
 
 /// sums[x] += weight for every set bit.
-void addWhereSet(std::uint16_t* sums, const Word* bits, int data_words, std::uint16_t weight) {
+ESPALIER_HOT void addWhereSet(std::uint16_t* __restrict sums, const Word* __restrict bits, int data_words,
+                              std::uint16_t weight) {
   for (int w = 0; w < data_words; ++w, sums += 64) {
     if (bits[w] == 0) continue;  // open sky above: by far the most common word outdoors
     for (int byte = 0; byte < 8; ++byte) {
@@ -54,32 +63,40 @@ class Sweep {
         direction_(direction),
         slice_words_(static_cast<std::size_t>(occupied.rowWords()) *
                      static_cast<std::size_t>(occupied.size().z)),
-        ring_(1 + slice_words_ * static_cast<std::size_t>(direction.v.y + 1)) {}
+        ring_(1 + (slice_words_ + 1) * static_cast<std::size_t>(direction.v.y + 1)) {}
 
   /// Computes slice y, whose higher ones are done, and adds the weight to the sums of the blocked voxels.
   void run(int y, std::span<std::uint16_t> sums) {
     const int data_words = occupied_.rowWords() - 1;
-    const auto [nx, ny, nz] = std::array{occupied_.size().x, occupied_.size().y, occupied_.size().z};
+    const int ny = occupied_.size().y, nz = occupied_.size().z;
+    Word* const out = ring(y, 0);
+    std::fill_n(out, slice_words_, Word{0});
+    for (const Voxel o : direction_.crossed) {
+      if (y + o.y < ny) orSlice(y, occupied_.row(y + o.y, 0), o);
+    }
+    if (y + direction_.v.y < ny) orSlice(y, ring(y + direction_.v.y, 0), direction_.v);
+    // Whole slices are shifted at once, which lets bits run over into the zero words between the rows.
+    for (int z = 0; z < nz; ++z) ring(y, z)[data_words] = 0;
     for (int z = 0; z < nz; ++z) {
-      Word* const out = ring(y, z);
-      std::fill_n(out, data_words, Word{0});
-      for (const Voxel o : direction_.crossed) {
-        if (y + o.y < ny && z + o.z >= 0 && z + o.z < nz) {
-          orShifted(out, occupied_.row(y + o.y, z + o.z), data_words, o.x);
-        }
-      }
-      const Voxel v = direction_.v;
-      if (y + v.y < ny && z + v.z >= 0 && z + v.z < nz)
-        orShifted(out, ring(y + v.y, z + v.z), data_words, v.x);
-      addWhereSet(sums.data() + static_cast<std::size_t>(z) * static_cast<std::size_t>(data_words) * 64, out,
-                  data_words, direction_.weight);
+      addWhereSet(sums.data() + static_cast<std::size_t>(z) * static_cast<std::size_t>(data_words) * 64,
+                  ring(y, z), data_words, direction_.weight);
     }
   }
 
  private:
+  /// Slice y |= the slice `from` seen by o: row z takes row z + o.z where there is one.
+  void orSlice(int y, const Word* from, Voxel o) {
+    const int nz = occupied_.size().z, first = std::max(0, -o.z), rows = nz - std::abs(o.z);
+    if (rows <= 0) return;
+    const auto row_words = static_cast<std::size_t>(occupied_.rowWords());
+    orShifted(ring(y, first), from + static_cast<std::size_t>(first + o.z) * row_words,
+              static_cast<std::size_t>(rows) * row_words, o.x);
+  }
+
+  /// A zero word lies before and behind each slice, so that none reads into another that is being written.
   Word* ring(int y, int z) {
     const auto slot = static_cast<std::size_t>(y % (direction_.v.y + 1));
-    return ring_.data() + 1 + slot * slice_words_ +
+    return ring_.data() + 1 + slot * (slice_words_ + 1) +
            static_cast<std::size_t>(z) * static_cast<std::size_t>(occupied_.rowWords());
   }
 

@@ -27,6 +27,20 @@ void sortTail(std::vector<Voxel>& voxels, std::size_t from) {
   std::sort(voxels.begin() + static_cast<std::ptrdiff_t>(from), voxels.end(), beforeInRows);
 }
 
+/// Makes one set of two: the voxels from `start` and those from `middle`, each without repeats.
+void uniteTail(std::vector<Voxel>& voxels, std::size_t start, std::size_t middle) {
+  const auto first = voxels.begin() + static_cast<std::ptrdiff_t>(start);
+  const auto added = voxels.begin() + static_cast<std::ptrdiff_t>(middle);
+  constexpr std::size_t kFew = 64;  // a leaf's voxels: looking through them is quicker than sorting them
+  if (voxels.size() - start <= kFew) {
+    const auto known = [&](Voxel v) { return std::find(first, added, v) != added; };
+    voxels.erase(std::remove_if(added, voxels.end(), known), voxels.end());
+  } else {
+    std::sort(first, voxels.end(), beforeInRows);
+    voxels.erase(std::unique(first, voxels.end()), voxels.end());
+  }
+}
+
 /// One axis of a segment on its way through the planes between voxels.
 struct AxisWalk {
   std::int64_t length;    ///< |d|
@@ -132,12 +146,11 @@ void tilePolygon(const std::vector<Vec3>& corners_vx, std::vector<Voxel>& voxels
   Fixed previous = cornerFixed(corners_vx[1]);
   for (std::size_t i = 2; i < corners_vx.size(); ++i) {
     const Fixed next = cornerFixed(corners_vx[i]);
+    const std::size_t known = voxels.size();
     tileFixed({hub, previous, next}, voxels);
+    uniteTail(voxels, start, known);
     previous = next;
   }
-  if (corners_vx.size() == 3) return;
-  sortTail(voxels, start);
-  voxels.erase(std::unique(voxels.begin() + static_cast<std::ptrdiff_t>(start), voxels.end()), voxels.end());
 }
 
 }  // namespace espalier::sim

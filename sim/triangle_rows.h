@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <utility>
 
 #include "sim/tiling.h"
 
@@ -63,25 +64,20 @@ struct HalfPlane {
   std::int64_t limit;
 };
 
-/// What the three edges of a projected triangle ask of the voxels, each on its outer side. The projected
-/// triangle must have an area, `turn` its sign.
-inline std::array<HalfPlane, 3> outerEdges(const std::array<glm::i64vec2, 3>& p, bool anticlockwise) {
-  std::array<HalfPlane, 3> edges;
-  for (std::size_t i = 0; i < 3; ++i) {
-    const glm::i64vec2 from = p[i];
-    const glm::i64vec2 along = p[(i + 1) % 3] - from;
-    // Outward normal; the whole triangle lies at or below `top` along it.
-    const glm::i64vec2 out =
-        anticlockwise ? glm::i64vec2(along.y, -along.x) : glm::i64vec2(-along.y, along.x);
-    const std::int64_t top = out.x * from.x + out.y * from.y;
-    const std::int64_t cube_low =
-        kFixedOne * (std::min<std::int64_t>(out.x, 0) + std::min<std::int64_t>(out.y, 0));
-    const bool shifted_up = out.x > 0 || (out.x == 0 && out.y > 0);
-    // The cube's low side must not lie above the top: 4096 m + cube_low <= top, or < where the shift lowers
-    // the top.
-    edges[i] = {out.x, out.y, (top - cube_low - (shifted_up ? 0 : 1)) >> 12};
-  }
-  return edges;
+/// What an edge of a projected triangle asks of the voxels on its outer side.
+inline HalfPlane outerEdge(glm::i64vec2 from, glm::i64vec2 to) {
+  const glm::i64vec2 out{to.y - from.y, from.x - to.x};  // the whole triangle lies at or below `top` along it
+  const std::int64_t top = out.x * from.x + out.y * from.y;
+  const std::int64_t cube_low = std::min<std::int64_t>(out.x, 0) + std::min<std::int64_t>(out.y, 0);
+  const bool shifted_up = out.x > 0 || (out.x == 0 && out.y > 0);
+  // 4096 m + 4096 cube_low <= top, or < where the shift lowers the top.
+  return {out.x, out.y, ((top - (shifted_up ? 0 : 1)) >> 12) - cube_low};
+}
+
+inline std::array<HalfPlane, 3> outerEdges(glm::i64vec2 p, glm::i64vec2 q, glm::i64vec2 r,
+                                           bool anticlockwise) {
+  if (!anticlockwise) std::swap(q, r);
+  return {outerEdge(p, q), outerEdge(q, r), outerEdge(r, p)};
 }
 
 /// lo <= a.v <= hi: the cube reaches the triangle's plane.
@@ -91,16 +87,15 @@ struct PlaneSlab {
   Int lo, hi;
 };
 
-/// The normal must not be zero, with coordinates from a corner near the triangle.
+/// Of the plane through p with a normal that is not zero.
 template <typename Int>
-PlaneSlab<Int> planeSlab(const std::array<Fixed, 3>& q, glm::i64vec3 n) {
+PlaneSlab<Int> planeSlab(Fixed p, glm::i64vec3 n) {
   if (n.x < 0 || (n.x == 0 && (n.y < 0 || (n.y == 0 && n.z < 0)))) n = -n;
-  const Int at = Int{n.x} * q[0].x + Int{n.y} * q[0].y + Int{n.z} * q[0].z;
-  const Int low =
-      Int{std::min<std::int64_t>(n.x, 0)} + std::min<std::int64_t>(n.y, 0) + std::min<std::int64_t>(n.z, 0);
-  const Int high =
-      Int{std::max<std::int64_t>(n.x, 0)} + std::max<std::int64_t>(n.y, 0) + std::max<std::int64_t>(n.z, 0);
-  return {n.x, n.y, n.z, ((at - kFixedOne * high) >> 12) + 1, (at - kFixedOne * low) >> 12};
+  const Int at = Int{n.x} * p.x + Int{n.y} * p.y + Int{n.z} * p.z;
+  const glm::i64vec3 zero(0);
+  const glm::i64vec3 low = glm::min(n, zero);
+  const glm::i64vec3 high = glm::max(n, zero);
+  return {n.x, n.y, n.z, (at >> 12) - (high.x + high.y + high.z) + 1, (at >> 12) - (low.x + low.y + low.z)};
 }
 
 /// cross(b - a, c - a): exact, as the coordinates stay below 2^26.
@@ -111,35 +106,44 @@ inline glm::i64vec3 normalOf(const std::array<Fixed, 3>& q) {
 }
 
 template <typename Int, typename Visit>
-void walkRows(const std::array<Fixed, 3>& q, glm::i64vec3 n, Voxel base, Voxel first, Voxel last,
-              Visit& visit) {
-  const PlaneSlab<Int> plane = planeSlab<Int>(q, n);
-  // A projection that has no area asks nothing that the plane does not ask.
+void walkRows(const std::array<Fixed, 3>& q, glm::i64vec3 n, Voxel span, Voxel first, Voxel last,
+              Visit visit) {
+  // A projection that is a single voxel wide asks nothing that the bounds do not ask (small triangles live on
+  // this); one without area asks nothing that the plane does not ask.
+  const bool wide_xy = span.x > 0 && span.y > 0;
+  const bool wide_xz = span.x > 0 && span.z > 0;
+  const bool wide_yz = span.y > 0 && span.z > 0;
+  const bool use_xy = wide_xy && n.z != 0;
+  const bool use_xz = wide_xz && n.y != 0;
+  const bool use_yz = wide_yz && n.x != 0;
+  const bool use_plane = (wide_xy && wide_xz) || wide_xy != use_xy || wide_xz != use_xz || wide_yz != use_yz;
   std::array<HalfPlane, 3> xy, xz, yz;
-  if (n.z != 0) xy = outerEdges({glm::i64vec2(q[0].x, q[0].y), {q[1].x, q[1].y}, {q[2].x, q[2].y}}, n.z > 0);
-  if (n.y != 0) xz = outerEdges({glm::i64vec2(q[0].x, q[0].z), {q[1].x, q[1].z}, {q[2].x, q[2].z}}, n.y < 0);
-  if (n.x != 0) yz = outerEdges({glm::i64vec2(q[0].y, q[0].z), {q[1].y, q[1].z}, {q[2].y, q[2].z}}, n.x > 0);
+  PlaneSlab<Int> plane{};
+  if (use_xy) xy = outerEdges({q[0].x, q[0].y}, {q[1].x, q[1].y}, {q[2].x, q[2].y}, n.z > 0);
+  if (use_xz) xz = outerEdges({q[0].x, q[0].z}, {q[1].x, q[1].z}, {q[2].x, q[2].z}, n.y < 0);
+  if (use_yz) yz = outerEdges({q[0].y, q[0].z}, {q[1].y, q[1].z}, {q[2].y, q[2].z}, n.x > 0);
+  if (use_plane) plane = planeSlab<Int>(q[0], n);
   for (int y = first.y; y <= last.y; ++y) {
     IntRange xs_of_slice{first.x, last.x};
-    if (n.z != 0) {
+    IntRange zs{first.z, last.z};
+    if (use_xy) {
       for (const HalfPlane& e : xy) keepAtMost<std::int64_t>(xs_of_slice, e.a, e.limit - e.b * y);
     }
-    IntRange zs{first.z, last.z};
-    if (n.x != 0) {
+    if (use_yz) {
       for (const HalfPlane& e : yz) keepAtMost<std::int64_t>(zs, e.b, e.limit - e.a * y);
     }
     if (xs_of_slice.empty()) continue;
     for (int z = zs.first; z <= zs.last; ++z) {
       IntRange xs = xs_of_slice;
-      if (n.y != 0) {
+      if (use_xz) {
         for (const HalfPlane& e : xz) keepAtMost<std::int64_t>(xs, e.a, e.limit - e.b * z);
       }
-      if (xs.empty()) continue;
-      const Int rest = plane.y * y + plane.z * z;
-      keepAtMost<Int>(xs, plane.x, plane.hi - rest);
-      if (xs.empty()) continue;
-      keepAtMost<Int>(xs, -plane.x, rest - plane.lo);
-      if (!xs.empty()) visit(base.y + y, base.z + z, base.x + xs.first, base.x + xs.last);
+      if (use_plane) {
+        const Int rest = plane.y * y + plane.z * z;
+        keepAtMost<Int>(xs, plane.x, plane.hi - rest);
+        keepAtMost<Int>(xs, -plane.x, rest - plane.lo);
+      }
+      if (!xs.empty()) visit(y, z, xs);
     }
   }
 }
@@ -151,18 +155,20 @@ void forEachTriangleRow(const std::array<Fixed, 3>& corners, Voxel lo, Voxel hi,
   const Fixed low = glm::min(glm::min(corners[0], corners[1]), corners[2]);
   const Fixed high = glm::max(glm::max(corners[0], corners[1]), corners[2]);
   const Voxel base = cellOf(low);
-  const Voxel first = glm::max(base, lo) - base;
-  const Voxel last = glm::min(cellOf(high), hi) - base;
+  const Voxel span = cellOf(high) - base;
+  const Voxel first = glm::max(lo - base, Voxel(0));
+  const Voxel last = glm::min(hi - base, span);
   if (first.x > last.x || first.y > last.y || first.z > last.z) return;
   const Fixed shift = Fixed(base) * kFixedOne;
   const std::array<Fixed, 3> q{corners[0] - shift, corners[1] - shift, corners[2] - shift};
-  const glm::i64vec3 n = normalOf(q);
+  const auto shifted = [&](int y, int z, IntRange xs) {
+    visit(base.y + y, base.z + z, base.x + xs.first, base.x + xs.last);
+  };
   // With an extent E a plane's products reach 6 E^3; 64 bits hold them up to 256 voxels.
-  const Fixed extent = high - low;
-  if (std::max({extent.x, extent.y, extent.z}) < (std::int64_t{1} << 20) - kFixedOne) {
-    walkRows<std::int64_t>(q, n, base, first, last, visit);
+  if (std::max({span.x, span.y, span.z}) < 255) {
+    walkRows<std::int64_t>(q, normalOf(q), span, first, last, shifted);
   } else {
-    walkRows<Int128>(q, n, base, first, last, visit);
+    walkRows<Int128>(q, normalOf(q), span, first, last, shifted);
   }
 }
 

@@ -12,7 +12,8 @@
 namespace espalier::cli {
 
 void addCheck(CLI::App& app, int& exit_status) {
-  auto* const command = app.add_subcommand("check", "Name every error in rule and scene files; silent when all is well");
+  auto* const command =
+      app.add_subcommand("check", "Name every error in rule and scene files; silent when all is well");
   const auto files = std::make_shared<std::vector<std::string>>();
   command->add_option("file", *files, "Rule and scene files")->required();
   command->callback([files, &exit_status] {

@@ -63,16 +63,22 @@ int grow(const GrowArguments& arguments) {
 }  // namespace
 
 void addGrow(CLI::App& app, int& exit_status) {
-  auto* const command = app.add_subcommand("grow", "Grow a scene's plants; write the model, the world and the pictures");
+  auto* const command =
+      app.add_subcommand("grow", "Grow a scene's plants; write the model, the world and the pictures");
   const auto arguments = std::make_shared<GrowArguments>();
   command->add_option("scene", arguments->scene, "Scene file")->required();
-  command->add_option("-o,--output", arguments->folder, "Folder to write to (default: out/<scene's file name>)");
+  command->add_option("-o,--output", arguments->folder,
+                      "Folder to write to (default: out/<scene's file name>)");
   command->add_option("--seed", arguments->seed, "Random seed instead of the scene's own");
-  command->add_option("--threads", arguments->threads, "Threads to use; the result does not depend on it (default: all)")
+  command
+      ->add_option("--threads", arguments->threads,
+                   "Threads to use; the result does not depend on it (default: all)")
       ->check(CLI::Range(1, 1024));
-  command->add_flag("--no-pictures", arguments->no_pictures, "Write the model, the world and the report alone");
+  command->add_flag("--no-pictures", arguments->no_pictures,
+                    "Write the model, the world and the report alone");
   command->add_flag("--quiet", arguments->quiet, "Say nothing but errors");
-  command->add_flag("--json", arguments->json, "Print the report as JSON on standard output, and no progress");
+  command->add_flag("--json", arguments->json,
+                    "Print the report as JSON on standard output, and no progress");
   command->callback([arguments, &exit_status] { exit_status = grow(*arguments); });
 }
 

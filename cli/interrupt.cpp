@@ -1,8 +1,8 @@
 #include "cli/interrupt.h"
 
+#include <unistd.h>
 #include <csignal>
 #include <ctime>
-#include <unistd.h>
 
 #include "cli/commands.h"
 

@@ -4,8 +4,8 @@
 
 namespace espalier::cli {
 
-/// While it lives, the first Ctrl-C (SIGINT) or SIGTERM asks the work to stop, and the second ends the program at
-/// once. Make it before any other thread: it has the signals blocked in all of them.
+/// While it lives, the first Ctrl-C (SIGINT) or SIGTERM asks the work to stop, and the second ends the
+/// program at once. Make it before any other thread: it has the signals blocked in all of them.
 class Interrupt {
  public:
   Interrupt();

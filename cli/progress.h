@@ -6,8 +6,8 @@
 
 namespace espalier::cli {
 
-/// Says on standard error how far the work has come: a bar with the time left on a terminal, plain lines elsewhere,
-/// nothing when quiet.
+/// Says on standard error how far the work has come: a bar with the time left on a terminal, plain lines
+/// elsewhere, nothing when quiet.
 class Progress {
  public:
   explicit Progress(bool quiet);

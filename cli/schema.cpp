@@ -11,7 +11,8 @@
 namespace espalier::cli {
 
 void addSchema(CLI::App& app, int&) {
-  auto* const command = app.add_subcommand("schema", "Print the JSON Schema of rule or scene files, for editors");
+  auto* const command =
+      app.add_subcommand("schema", "Print the JSON Schema of rule or scene files, for editors");
   const auto kind = std::make_shared<std::string>();
   command->add_option("kind", *kind, "rules or scene")->required()->check(CLI::IsMember({"rules", "scene"}));
   command->callback([kind] {

@@ -93,7 +93,7 @@ struct RuleSet {
   Prefer prefer;
   Light light;
   sim::Colour stem_colour{0.16f, 0.10f, 0.05f};  ///< linear RGB
-  double stem_radius_vx = 0.22;                  ///< of a twig at its tip
+  double stem_radius_vx = 0.11;  ///< of a twig that does not fork
   std::vector<Element> elements;
   std::map<std::string, RegionRule> regions;  ///< by region name
   std::shared_ptr<const RuleSet> otherwise;   ///< tried where this one fails (Greene's secondary set)

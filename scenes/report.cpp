@@ -38,7 +38,8 @@ std::string toJson(const Report& report) {
                    {"degenerate_triangles_dropped", report.degenerate_triangles}};
   Json fills = Json::array();
   for (const auto& fill : report.fills) {
-    fills.push_back({{"object", fill.object}, {"filled_voxels", fill.filled}, {"doubtful_voxels", fill.doubtful}});
+    fills.push_back(
+        {{"object", fill.object}, {"filled_voxels", fill.filled}, {"doubtful_voxels", fill.doubtful}});
   }
   json["world"]["fills"] = fills;
   Json plants = Json::array();

@@ -13,15 +13,15 @@ namespace espalier::scenes {
 struct Report {
   std::string scene;
   sim::Frame frame;
-  std::size_t occupied_voxels = 0;      ///< with the plants
-  std::size_t scene_voxels = 0;         ///< before they grew
+  std::size_t occupied_voxels = 0;  ///< with the plants
+  std::size_t scene_voxels = 0;     ///< before they grew
   std::size_t degenerate_triangles = 0;
   std::vector<sim::FillReport> fills;
   int iterations = 0;
   std::vector<std::pair<std::string, std::array<std::size_t, 2>>> plants;  ///< name, segments and elements
   sim::OutcomeCounts buds{}, trials{};
   std::uint64_t state_hash = 0;
-  std::vector<std::string> files;       ///< that were written, in the output folder
+  std::vector<std::string> files;  ///< that were written, in the output folder
 
   struct Run {
     std::vector<std::pair<std::string, double>> stages_s;

@@ -17,10 +17,10 @@ struct RunOptions {
   std::function<void(const sim::GrowthProgress&)> on_growth;
 };
 
-/// The main job: reads a scene's meshes, tiles them, grows its plants, and writes the model (plant.glb), the world
-/// (world.vdb), the pictures that the scene asks for and report.json into the folder, every file whole or not at
-/// all, the report last. Nothing is written before the growth is done. Throws sim::InputError; MeshMissing;
-/// sim::Stopped when stopped, and then nothing more is written.
+/// The main job: reads a scene's meshes, tiles them, grows its plants, and writes the model (plant.glb), the
+/// world (world.vdb), the pictures that the scene asks for and report.json into the folder, every file whole
+/// or not at all, the report last. Nothing is written before the growth is done. Throws sim::InputError;
+/// MeshMissing; sim::Stopped when stopped, and then nothing more is written.
 Report runScene(Scene scene, const RunOptions& options);
 
 /// What a person wants to know of a run: a few lines that end with the files.

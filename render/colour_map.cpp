@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <array>
 
-#include "render/tone.h"
 #include "sim/error.h"
 
 namespace espalier::render {
@@ -34,8 +33,8 @@ ColourMap::ColourMap(const std::string& name) {
   for (int i = 0; i < kEntries; ++i) {
     std::array<float, 3> rgb{};
     mapped.getpixel(i, 0, rgb.data(), 3);
-    // The maps are published as display values.
-    table_[static_cast<std::size_t>(i)] = linearFromSrgb(sim::Colour(rgb[0], rgb[1], rgb[2]));
+    // note: the maps are published as display values; OpenImageIO gives them back linear.
+    table_[static_cast<std::size_t>(i)] = sim::Colour(rgb[0], rgb[1], rgb[2]);
   }
 }
 

@@ -14,7 +14,7 @@ using sim::Colour;
 using sim::Voxel;
 
 /// How bright faces of the six directions are drawn, so that a cube reads as a cube under any data.
-constexpr std::array<float, kSky> kFaceRelief = {0.80f, 0.80f, 0.62f, 1.0f, 0.90f, 0.90f};
+constexpr std::array<float, kSky> kFaceRelief = {0.74f, 0.74f, 0.58f, 1.0f, 0.86f, 0.86f};
 /// How much of that is left deep in a corner between cubes.
 constexpr float kCreaseRelief = 0.62f;
 
@@ -84,6 +84,9 @@ float smoothStep(float low, float high, float value) {
   return t * t * (3 - 2 * t);
 }
 
+/// Of the threshold panel, linear.
+const Colour kAbove(0.98f, 0.66f, 0.24f), kBelow(0.055f, 0.075f, 0.12f);
+
 /// Neutral and calm, so that colours that mean something stand out.
 Colour neutralBackdrop(float down) {
   return glm::mix(Colour(0.50f, 0.53f, 0.57f), Colour(0.72f, 0.72f, 0.71f), down);
@@ -144,10 +147,16 @@ Image measure(const Visibility& seen, bool divide, Values values) {
 
 }  // namespace
 
+ThresholdColours thresholdColours() {
+  return {srgbFromLinear(kAbove), srgbFromLinear(kBelow)};
+}
+
 Colour skyColour(sim::Vec3 direction) {
-  const float up = static_cast<float>(std::clamp(direction.y, 0.0, 1.0));
-  const Colour horizon(0.80f, 0.86f, 0.90f), zenith(0.22f, 0.42f, 0.72f);
-  return glm::mix(horizon, zenith, powf(up, 0.6f));
+  const Colour ground(0.66f, 0.70f, 0.70f), horizon(0.84f, 0.89f, 0.92f), zenith(0.20f, 0.40f, 0.72f);
+  const float height = static_cast<float>(std::clamp(direction.y, -1.0, 1.0));
+  // Pale at the horizon, as haze makes it, and towards a quiet ground far below it.
+  return height >= 0.0f ? glm::mix(horizon, zenith, powf(height, 0.45f))
+                        : glm::mix(horizon, ground, powf(-height, 0.8f));
 }
 
 PanelPainter::PanelPainter(const Visibility& seen, const PanelWorld& world, PanelLook look,
@@ -200,11 +209,10 @@ PanelPicture PanelPainter::paint(Panel panel) const {
     case Panel::sky_exposure:
       return field(pure_sky_, sky_, look_.sky_map, "sky_exposure");
     case Panel::threshold: {
-      const Colour bright(0.98f, 0.66f, 0.24f), dim(0.055f, 0.075f, 0.12f);
       const auto shade = [&](std::size_t i) {
         const float above =
             smoothStep(look_.threshold - 0.006f, look_.threshold + 0.006f, exposure(sun_, sky_, i));
-        return relief_[i] * (0.45f + 0.55f * sky_[i]) * glm::mix(dim, bright, above);
+        return relief_[i] * (0.45f + 0.55f * sky_[i]) * glm::mix(kBelow, kAbove, above);
       };
       return {compose(seen_, shade, neutral),
               measure<2>(seen_, true,
@@ -238,7 +246,7 @@ PanelPicture PanelPainter::paint(Panel panel) const {
     const float slant = static_cast<float>(
         std::max(0.0, glm::dot(sim::Vec3(kFaceNormals[seen_.fragments[i].face]), look_.to_sun)));
     return colour_[i] *
-           (sky_[i] * Colour(0.27f, 0.30f, 0.34f) + lit_[i] * slant * Colour(0.95f, 0.86f, 0.70f));
+           (sky_[i] * Colour(0.28f, 0.32f, 0.38f) + lit_[i] * slant * Colour(1.15f, 1.0f, 0.78f));
   };
   const auto shade = [&](std::size_t i) {
     const Colour c = light(i);

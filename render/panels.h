@@ -29,7 +29,7 @@ struct PanelLook {
   float blend_sun = 0.8f, blend_sky = 0.2f;  ///< of exposure
   float threshold = 0.3f;                    ///< least exposure at which the plant lives
   sim::Vec3 to_sun{0.0, 1.0, 0.0};           ///< unit; the sun of the shadow matte and of the first pass
-  std::string sun_map = "inferno";
+  std::string sun_map = "magma";
   std::string sky_map = "viridis";
   ToneCurve tone;  ///< of the first pass
 };
@@ -61,6 +61,12 @@ class PanelPainter {
   std::vector<float> lit_;
   std::vector<sim::Colour> colour_;
 };
+
+/// The two colours of the threshold panel, display values, for its legend.
+struct ThresholdColours {
+  sim::Colour above, below;
+};
+ThresholdColours thresholdColours();
 
 /// The sky behind pictures in colour, linear light, in a direction of unit length.
 sim::Colour skyColour(sim::Vec3 direction);

@@ -15,7 +15,7 @@
 namespace espalier::sim {
 namespace {
 
-/// Voxels that were taken earlier in the same iteration, and from which node.
+/// Voxels that were taken earlier in the same iteration, and by the limb of which node.
 class Claims {
  public:
   explicit Claims(Voxel size) : taken_(size) {}
@@ -26,12 +26,8 @@ class Claims {
       return taken_.at(v) && !(besides(v, start) && owner_.at(key(v)) == nodeOf(bud));
     });
   }
-  void take(std::span<const Voxel> voxels, const Bud& bud) {
-    for (const Voxel v : voxels) {
-      taken_.set(v);
-      owner_.emplace(key(v), nodeOf(bud));
-    }
-  }
+  void takeForLimb(std::span<const Voxel> voxels, const Bud& bud) { take(voxels, nodeOf(bud)); }
+  void takeForElement(std::span<const Voxel> voxels) { take(voxels, {-1, kNoNode}); }
   void clear() {
     for (const auto& [packed, owner] : owner_) taken_.clear(unpack(packed));
     owner_.clear();
@@ -40,6 +36,12 @@ class Claims {
  private:
   using Node = std::pair<std::int32_t, NodeId>;
   static Node nodeOf(const Bud& bud) { return {bud.plant, bud.node}; }
+  void take(std::span<const Voxel> voxels, Node owner) {
+    for (const Voxel v : voxels) {
+      taken_.set(v);
+      owner_.emplace(key(v), owner);
+    }
+  }
   static std::uint64_t key(Voxel v) {
     return (static_cast<std::uint64_t>(v.y) << 42) | (static_cast<std::uint64_t>(v.z) << 21) |
            static_cast<std::uint64_t>(v.x);
@@ -118,7 +120,7 @@ void occupyWith(std::vector<TiledVoxel>& edit, std::span<const Voxel> voxels, co
 /// Grows a proposal's segment and those of its elements that nobody else's claim hinders.
 void accept(Plant& plant, const Bud& bud, Proposal& proposal, int iteration, Claims& claims,
             std::vector<TiledVoxel>& edit) {
-  claims.take(proposal.voxels, bud);
+  claims.takeForLimb(proposal.voxels, bud);
   const double r = plant.stem_radius_vx;
   occupyWith(edit, proposal.voxels,
              {plant.stem_part, plant.stem_colour, static_cast<float>(std::min(1.0, std::numbers::pi * r * r)),
@@ -128,7 +130,7 @@ void accept(Plant& plant, const Bud& bud, Proposal& proposal, int iteration, Cla
   for (ProposedElement& leaf : proposal.elements) {
     const Voxel start = voxelAt(leaf.element.position_vx);
     if (!claims.allow(leaf.voxels, bud, start)) continue;
-    claims.take(leaf.voxels, bud);
+    claims.takeForElement(leaf.voxels);
     leaf.element.node = node;
     leaf.element.born = iteration;
     const auto shape = static_cast<std::size_t>(leaf.element.shape);

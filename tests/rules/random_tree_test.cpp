@@ -88,17 +88,23 @@ TEST(RandomTree, GrowsAlongTheWall) {
 }
 
 TEST(RandomTree, PrefersTheProximityThatItIsTold) {
-  for (const double wanted : {1.2, 2.6}) {
+  std::map<double, double> mean;
+  for (const double wanted : {1.2, 1.9, 2.6}) {
     sim::World world = tests::wallPlot();
     RuleSet rules = vine();
     rules.prefer.proximity_vx = wanted;
-    const auto growth = growIn(world, rules, kBothSides, settings(15));
-    double sum = 0.0;
+    rules.elements.clear();
+    const auto growth = growIn(world, rules, kBothSides, settings(10));
     for (const auto& plant : growth.plants) {
-      for (std::size_t i = 1; i < plant.skeleton.parent.size(); ++i) sum += plant.skeleton.proximity_vx[i];
+      for (std::size_t i = 1; i < plant.skeleton.parent.size(); ++i) {
+        mean[wanted] += plant.skeleton.proximity_vx[i] / static_cast<double>(segments(growth));
+      }
     }
-    EXPECT_NEAR(sum / static_cast<double>(segments(growth)), wanted, 0.25);
   }
+  // Where the best places are taken the next best are: the mean leans to the middle.
+  EXPECT_NEAR(mean[1.2], 1.2, 0.35);
+  EXPECT_NEAR(mean[1.9], 1.9, 0.2);
+  EXPECT_NEAR(mean[2.6], 2.6, 0.35);
 }
 
 TEST(RandomTree, NothingIntersectsButAtItsAttachment) {
@@ -160,6 +166,7 @@ TEST(RandomTree, AnotherSeedIsAnotherPlant) {
 TEST(RandomTree, StopsInTheDark) {
   RuleSet rules = vine();
   rules.require.exposure_min = 0.5;
+  rules.elements.clear();  // so that nothing but the wall makes it dark
   sim::World world = tests::wallPlot();
   const auto growth = growIn(world, rules, {{12, 2, 23}, {20, 2, 16}}, settings(15));
   EXPECT_GT(growth.plants[0].skeleton.size(), 40);
@@ -303,8 +310,8 @@ TEST(RandomTree, TwistWindsAboutTheCentreOfMass) {
     }
     return turned;
   };
-  EXPECT_GT(std::abs(turning(0.5)), 3.0);        // at least half a turn
-  EXPECT_LT(turning(0.5) * turning(-0.5), 0.0);  // the other sign, the other way
+  EXPECT_GT(std::abs(turning(0.2)), 3.0);        // at least half a turn
+  EXPECT_LT(turning(0.2) * turning(-0.2), 0.0);  // the other sign, the other way
 }
 
 TEST(RandomTree, AFlatWorldStaysFlat) {

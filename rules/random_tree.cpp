@@ -104,7 +104,8 @@ sim::Vec3 RandomTreeRule::trialDirection(const RuleSet& rules, const Senses& sen
                                          sim::Draws& draws) const {
   sim::Vec3 direction;
   if (senses.heading == sim::Vec3(0.0)) {
-    direction = draws.onSphere();  // a seed has no way of its own yet
+    // A seed has no way of its own yet: a shoot makes for the open above, or along the wall that it stands at.
+    direction = draws.inCone(sim::Vec3(0, 1, 0), 0.5);
   } else {
     sim::Vec3 heading = senses.heading;
     if (bud.side) {

@@ -302,7 +302,6 @@ TEST(RandomTree, TwistWindsAboutTheCentreOfMass) {
     tests::addBox(world, "column", {17, 0, 17}, {23, 89, 23});
     world.setLayers(4);
     const auto growth = growIn(world, rules, {{20, 2, 25}}, settings(45));
-    printf("nodes %d\n", growth.plants[0].skeleton.size()); for (std::size_t k=0;k<sim::kOutcomes;++k) printf("%s %d %d\n", sim::nameOf((Outcome)k).data(), (int)growth.buds[k], (int)growth.trials[k]);
     double turned = 0.0;
     const auto& p = growth.plants[0].skeleton.position_vx;
     for (std::size_t i = 1; i < p.size(); ++i) {

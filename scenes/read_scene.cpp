@@ -18,7 +18,6 @@ namespace {
 namespace fs = std::filesystem;
 
 void fillNames(Scene& scene) {
-  if (scene.name == Scene{}.name) scene.name = scene.file.stem().string();
   for (auto& mesh : scene.meshes) {
     if (mesh.name.empty()) mesh.name = mesh.file.stem().string();
   }

@@ -29,8 +29,8 @@ inline sim::Colour linearFromSrgb(sim::Colour c) {
 /// up the shadows and rolls the highlights off softly. Reinhard et al. 2002, "Photographic tone
 /// reproduction", equation 4, on each channel, so that very bright colours fade towards white as on film.
 struct ToneCurve {
-  float exposure = 2.0f;  ///< multiplies the light first; > 0
-  float white = 4.0f;     ///< the exposed value that becomes pure white; >= 1
+  float exposure = 1.7f;  ///< multiplies the light first; > 0
+  float white = 2.6f;     ///< the exposed value that becomes pure white; >= 1
 
   float operator()(float linear) const {
     const float v = std::max(0.0f, linear * exposure);

@@ -1,0 +1,14 @@
+#pragma once
+#include <string>
+
+#include "sim/vec.h"
+
+/// Colours in files are sRGB (IEC 61966-2-1), colours in memory are linear.
+namespace espalier::rules {
+
+sim::Colour linearFromSrgb(sim::Colour srgb);
+sim::Colour srgbFromLinear(sim::Colour linear);
+/// "#rrggbb", sRGB.
+std::string hexFromLinear(sim::Colour linear);
+
+}  // namespace espalier::rules

@@ -1,0 +1,124 @@
+#pragma once
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <limits>
+#include <map>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+#include "rules/rule_set.h"
+#include "rules/value.h"
+#include "sim/vec.h"
+
+/// The machinery of a registry: descriptions of the keys of a file and how each finds its field in a plain
+/// struct. It knows no file format. Readers, schemas and reference pages walk a Table; nothing else says what
+/// a key is.
+namespace espalier::rules {
+
+/// What a key's value looks like in a file.
+enum class Kind {
+  header,       ///< the kind of file
+  flag,         ///< true or false
+  whole,        ///< a whole number
+  whole_range,  ///< a whole number or [a, b]
+  number,       ///< a number
+  value,        ///< Value: a constant, a range or a curve
+  length,       ///< Length: voxel widths, or text such as "12 cm"; also ranges and curves of those
+  metres,       ///< a number of metres or text such as "4 cm"
+  colour,       ///< "#rrggbb" or [r, g, b], both sRGB; stored linear
+  point,        ///< [x, y, z] of numbers
+  place,        ///< [x, y, z], each as in `metres`
+  places,       ///< a list of places
+  polygons,     ///< a list of polygons, each a list of points
+  choice,       ///< one of a few words
+  name,         ///< a word that may become part of a file name
+  text,         ///< any text of one line
+  names,        ///< a list of names
+  file,         ///< a path, relative to the file that names it
+  base,         ///< the file of a rule set to build on
+  rules,        ///< a rule set: its file, or a mapping of rule keys
+  regions,      ///< a mapping from region names to rule sets, or the word forbid
+  section,      ///< a mapping with keys of its own
+  entries,      ///< a list of such mappings
+  named         ///< a mapping from names to such mappings
+};
+
+/// Bounds of a number; of each number of a range, a curve or a point.
+struct Limits {
+  double min = -std::numeric_limits<double>::infinity();
+  double max = std::numeric_limits<double>::infinity();
+  bool above = false;  ///< min itself is refused
+};
+
+struct WholeRange {
+  std::int64_t low = 0, high = 0;
+  friend bool operator==(const WholeRange&, const WholeRange&) = default;
+};
+
+/// A rule set that a file refers to; `file` is empty where it is written in place.
+struct RuleReference {
+  std::string file;
+  std::shared_ptr<const RuleSet> rules;
+  friend bool operator==(const RuleReference&, const RuleReference&) = default;
+};
+
+/// A value on its way between a file and a struct. monostate: none.
+using Datum = std::variant<std::monostate, bool, std::int64_t, WholeRange, double, Value, Length, sim::Colour,
+                           sim::Vec3, std::string, std::vector<sim::Vec3>,
+                           std::vector<std::vector<sim::Vec3>>, std::vector<std::string>, RuleReference>;
+
+struct Table;
+
+/// One key. The functions take the struct that the key's table describes; which of them are there depends on
+/// kind.
+struct Key {
+  std::string name;
+  Kind kind = Kind::flag;
+  std::string unit;  ///< empty for a plain number
+  Limits limits;
+  std::string meaning;  ///< one line
+  std::string greene;   ///< Greene's own name for it (Voxel Space Automata, 1989, figure 4), if he has one
+  bool required = false;
+  std::size_t most = 0;  ///< entries of a list; 0: as many as the file holds
+  std::vector<std::string> choices;
+  std::string shorthand;  ///< sections and entries: the key that a value which is no mapping stands for
+  std::shared_ptr<const Table> child;  ///< section, entries, named
+  Datum default_value;
+
+  std::function<void(void*, const Datum&)> set;
+  std::function<Datum(const void*)> get;
+  std::function<void*(void*)> open;                        ///< section: the struct that its keys describe
+  std::function<void(void*)> clear;                        ///< entries, named: forget all
+  std::function<void*(void*, const std::string&)> append;  ///< entries, named: a new one, by its name
+};
+
+/// A mapping's keys and the struct that they fill.
+struct Table {
+  std::vector<Key> keys;
+  std::function<std::shared_ptr<void>()> make;  ///< a struct with every default
+};
+
+const Key* find(const Table& table, std::string_view name);
+
+/// Something that must hold between keys.
+struct Check {
+  using Given = std::function<bool(std::string_view path)>;  ///< was this key written?
+  using Complain = std::function<void(const std::string& path, const std::string& text)>;
+
+  std::vector<std::string> reads;  ///< paths; the check waits where one of these is wrong by itself
+  std::function<void(const void*, const Given&, const Complain&)> run;
+};
+
+bool within(const Limits& limits, double number);
+/// "0 to 1", "more than 0, at most 100"; empty without bounds.
+std::string rangeText(const Limits& limits);
+/// "a number from 0 to 180 (degrees), a range [a, b] of them, ...": what a reader expects here.
+std::string expectation(const Key& key);
+/// A datum as it would stand in a file; empty for none.
+std::string written(const Datum& datum);
+
+}  // namespace espalier::rules

@@ -1,0 +1,251 @@
+#include "rules/registry.h"
+
+#include "rules/key_builder.h"
+
+// Greene's names are those of figure 4 and section 6 of: Ned Greene, Voxel Space Automata, SIGGRAPH 1989.
+namespace espalier::rules {
+namespace {
+
+constexpr Limits kWeight{0.0, 1.0};
+constexpr Limits kAngle{0.0, 180.0};
+constexpr Limits kTrials{1.0, 100'000.0};
+constexpr Limits kDistance{0.0, 1000.0};
+const char* const kVoxels = "voxel widths";
+const char* const kDegrees = "degrees";
+
+std::shared_ptr<const Table> randomTreeKeys() {
+  const auto trials =
+      TableOf<RandomTree>()
+          .whole("min", &RandomTree::trials_min,
+                 {.unit = "trials",
+                  .limits = kTrials,
+                  .meaning = "Trials that are made before the best one is taken.",
+                  .greene = "no_of_trials_min"})
+          .whole("max", &RandomTree::trials_max,
+                 {.unit = "trials",
+                  .limits = kTrials,
+                  .meaning = "Trials after which a tip that found no place gives up for this iteration.",
+                  .greene = "no_of_trials_max"})
+          .shared();
+  return TableOf<RandomTree>()
+      .length("length", &RandomTree::length,
+              {.unit = kVoxels,
+               .limits = {0.0, 1000.0, true},
+               .meaning = "Length of a segment at the least exposure; light.boost lengthens it.",
+               .greene = "length"})
+      .wholeRange("branch_age_range", &RandomTree::branch_age_min, &RandomTree::branch_age_max,
+                  {.unit = "iterations",
+                   .limits = {1.0, 10'000.0},
+                   .meaning = "Age at which a node branches, drawn evenly for each node.",
+                   .greene = "branch_age_range"})
+      .value("branch_angle", &RandomTree::branch_angle_deg,
+             {.unit = kDegrees,
+              .limits = kAngle,
+              .meaning = "Angle between a branch and the limb that it leaves.",
+              .greene = "branch_angle"})
+      .value("wander", &RandomTree::wander_deg,
+             {.unit = kDegrees,
+              .limits = kAngle,
+              .meaning = "A trial's direction lies within this angle of the way that the limb was going."})
+      .section("trials", std::identity{}, trials,
+               {.meaning = "How hard a tip tries to find a place for its next segment."})
+      .shared();
+}
+
+std::shared_ptr<const Table> biasKeys() {
+  const auto weight = [](std::string meaning, std::string greene = "") {
+    return About{
+        .unit = "weight", .limits = kWeight, .meaning = std::move(meaning), .greene = std::move(greene)};
+  };
+  const auto twist =
+      TableOf<Bias>()
+          .value(
+              "amount", &Bias::twist,
+              weight(
+                  "To one side of the plane through the last segment and the local centre of mass: a helix."))
+          .number("radius", &Bias::twist_radius_vx,
+                  {.unit = kVoxels,
+                   .limits = {0.0, 1000.0, true},
+                   .meaning = "How far around a tip the centre of mass is taken."})
+          .shared();
+  return TableOf<Bias>()
+      .value("up", &Bias::up, weight("Straight up.", "vertical_bias"))
+      .value("gravity", &Bias::gravity, weight("Straight down."))
+      .value("light", &Bias::light,
+             weight("To the brightest part of the sky that the tip sees.", "seeksun_bias"))
+      .value("away", &Bias::away, weight("From the nearest scene object."))
+      .value("toward", &Bias::toward, weight("To the nearest scene object."))
+      .section("twist", std::identity{}, twist,
+               {.meaning = "Winds limbs around what has grown; a number stands for its amount."}, "amount")
+      .shared();
+}
+
+std::shared_ptr<const Table> requireKeys() {
+  const auto proximity =
+      TableOf<Require>()
+          .number("min", &Require::proximity_min_vx,
+                  {.unit = kVoxels,
+                   .limits = kDistance,
+                   .meaning = "Least mean distance of a segment from the nearest scene object."})
+          .number("max", &Require::proximity_max_vx,
+                  {.unit = kVoxels,
+                   .limits = {0.0, 1000.0, true},
+                   .meaning = "Greatest mean distance; only known within the scene's boundary layers.",
+                   .greene = "maxprox"})
+          .shared();
+  const auto exposure = TableOf<Require>()
+                            .number("min", &Require::exposure_min,
+                                    {.unit = "fraction",
+                                     .limits = kWeight,
+                                     .meaning = "A tip in less light than this becomes inactive.",
+                                     .greene = "exposure min"})
+                            .number("max", &Require::exposure_max,
+                                    {.unit = "fraction",
+                                     .limits = kWeight,
+                                     .meaning = "A tip in more light than this becomes inactive.",
+                                     .greene = "exposure max"})
+                            .shared();
+  return TableOf<Require>()
+      .flag("clear", &Require::clear,
+            {.meaning = "A segment intersects nothing but the limb from which it grows."})
+      .section("proximity", std::identity{}, proximity,
+               {.meaning = "How near to the scene a segment must stay."})
+      .section("exposure", std::identity{}, exposure,
+               {.meaning = "How much light a tip needs, as blended by light.blend."})
+      .shared();
+}
+
+std::shared_ptr<const Table> preferKeys() {
+  return TableOf<Prefer>()
+      .custom(
+          "proximity", Kind::number,
+          [](Prefer& p, const Datum& d) {
+            p.has_proximity = true;
+            p.proximity_vx = std::get<double>(d);
+          },
+          [](const Prefer& p) { return p.has_proximity ? Datum{p.proximity_vx} : Datum{}; },
+          {.unit = kVoxels,
+           .limits = kDistance,
+           .meaning = "The trial whose mean distance from the scene is nearest to this wins; without it the "
+                      "first trial does.",
+           .greene = "seekprox"})
+      .shared();
+}
+
+std::shared_ptr<const Table> lightKeys() {
+  const auto blend =
+      TableOf<Light>()
+          .number("sun", &Light::sun,
+                  {.unit = "weight",
+                   .limits = kWeight,
+                   .meaning = "Weight of sun_exposure; the two weights are made to add up to 1.",
+                   .greene = "blend sun="})
+          .number("sky", &Light::sky,
+                  {.unit = "weight",
+                   .limits = kWeight,
+                   .meaning = "Weight of sky_exposure.",
+                   .greene = "blend sky="})
+          .shared();
+  return TableOf<Light>()
+      .section("blend", std::identity{}, blend, {.meaning = "What exposure is made of."})
+      .number("boost", &Light::boost,
+              {.unit = "factor",
+               .limits = {0.1, 10.0},
+               .meaning = "Growth rate, number of elements and their size at full exposure, over those at "
+                          "require.exposure.min.",
+               .greene = "boost"})
+      .shared();
+}
+
+std::shared_ptr<const Table> stemKeys() {
+  return TableOf<RuleSet>()
+      .colour("colour", &RuleSet::stem_colour, {.meaning = "Colour of the bark."})
+      .number("radius", &RuleSet::stem_radius_vx,
+              {.unit = kVoxels, .limits = {0.0, 100.0, true}, .meaning = "Radius of a twig at its tip."})
+      .shared();
+}
+
+std::shared_ptr<const Table> elementKeys() {
+  return TableOf<Element>()
+      .name("name", &Element::name, {.meaning = "What it is called in the model and in reports."})
+      .whole("trials", &Element::trials,
+             {.unit = "trials",
+              .limits = kTrials,
+              .meaning = "Attempts to place it before giving up.",
+              .greene = "number_of_trials"})
+      .value("per_segment", &Element::per_segment,
+             {.unit = "elements",
+              .limits = {0.0, 100.0},
+              .meaning = "Expected number on a segment at the least exposure.",
+              .greene = "expected_frequency"})
+      .value("size", &Element::size,
+             {.unit = "factor",
+              .limits = {0.0, 1000.0, true},
+              .meaning = "Scale of the polygons at the least exposure."})
+      .value("face", &Element::face,
+             {.unit = "weight",
+              .limits = kWeight,
+              .meaning = "How far the face turns from the stem's own way to the open and the sky."})
+      .colour("colour", &Element::colour, {.meaning = "Colour of its polygons."})
+      .polygons(
+          "polygons", &Element::polygons,
+          {.unit = kVoxels,
+           .limits = {-1000.0, 1000.0},
+           .meaning = "Flat polygons by their corners; attached at [0, 0, 0], growing along +y, facing +z.",
+           .greene = "model, polygon",
+           .required = true,
+           .most = 256})
+      .shared();
+}
+
+Table makeTable() {
+  return TableOf<RuleSet>()
+      .header(
+          {.meaning = "The kind of this file and, if wanted, the version of the language: rules or rules/1."})
+      .text("name", &RuleSet::name, {.meaning = "A name for people."})
+      .base({.meaning = "A rule file to build on: what it says holds wherever this file is silent."})
+      .choice<Propagate>("propagate", &RuleSet::propagate, {{"random_tree", Propagate::random_tree}},
+                         {.meaning = "The process that grows the plant."})
+      .section("random_tree", &RuleSet::random_tree, randomTreeKeys(),
+               {.meaning = "Each tip walks at random, and nodes branch when they come of age."})
+      .section("bias", &RuleSet::bias, biasKeys(),
+               {.meaning = "Bends every trial: 0 not at all, 1 all the way."})
+      .section("require", &RuleSet::require, requireKeys(),
+               {.meaning = "Rejects the trials that do not meet these."})
+      .section("prefer", &RuleSet::prefer, preferKeys(), {.meaning = "Ranks the trials that are left."})
+      .section("light", &RuleSet::light, lightKeys(), {.meaning = "What light is, and what it does."})
+      .section("stem", std::identity{}, stemKeys(), {.meaning = "How stems look; growth does not ask."})
+      .list<Element>(
+          "elements", Kind::entries, &RuleSet::elements, elementKeys(),
+          {.meaning =
+               "Geometry that is placed on new segments, such as leaves; a list replaces that of the base.",
+           .most = 64})
+      .custom(
+          "otherwise", Kind::rules,
+          [](RuleSet& r, const Datum& d) { r.otherwise = std::get<RuleReference>(d).rules; },
+          [](const RuleSet& r) {
+            return r.otherwise ? Datum{RuleReference{{}, r.otherwise}} : Datum{};
+          },
+          {.meaning = "The rule set that a tip tries where this one fails; keys written in place change this "
+                      "rule set."})
+      .regions({.meaning = "What holds where a region of the scene is nearest: forbid, another file, or keys "
+                           "that differ there.",
+                .most = 256})
+      .table();
+}
+
+}  // namespace
+
+const Table& ruleTable() {
+  static const Table table = makeTable();
+  return table;
+}
+
+void finish(RuleSet& rules) {
+  const double sum = rules.light.sun + rules.light.sky;
+  if (sum <= 0.0) return;
+  rules.light.sun /= sum;
+  rules.light.sky /= sum;
+}
+
+}  // namespace espalier::rules

@@ -1,0 +1,124 @@
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "rules/registry.h"
+
+namespace espalier::rules {
+namespace {
+
+using Polygon = std::vector<sim::Vec3>;
+using Rules = std::function<void(const RuleSet&, const Check::Given&, const Check::Complain&)>;
+
+Check check(std::vector<std::string> reads, Rules run) {
+  return {std::move(reads), [run = std::move(run)](const void* rules, const Check::Given& given,
+                                                   const Check::Complain& complain) {
+            run(*static_cast<const RuleSet*>(rules), given, complain);
+          }};
+}
+
+/// Complains where a lower bound lies above its upper bound, at the one that was written.
+Check ordered(const std::string& low_path, const std::string& high_path,
+              std::function<double(const RuleSet&)> low, std::function<double(const RuleSet&)> high,
+              bool may_be_equal) {
+  return check({low_path, high_path},
+               [=](const RuleSet& rules, const Check::Given& given, const Check::Complain& complain) {
+                 const double a = low(rules), b = high(rules);
+                 if (a < b || (may_be_equal && a == b)) return;
+                 complain(given(low_path) ? low_path : high_path,
+                          fmt::format("{} is {} and {} is {}; expected {}", low_path, a, high_path, b,
+                                      may_be_equal ? "the first to be at most the second"
+                                                   : "the first to be less than the second"));
+               });
+}
+
+double longestEdge(const Polygon& polygon) {
+  double longest = 0.0;
+  for (std::size_t i = 0; i < polygon.size(); ++i) {
+    longest = std::max(longest, glm::distance(polygon[i], polygon[(i + 1) % polygon.size()]));
+  }
+  return longest;
+}
+
+/// Newell's normal, its length twice the area.
+sim::Vec3 areaNormal(const Polygon& polygon) {
+  sim::Vec3 normal{0.0};
+  for (std::size_t i = 0; i < polygon.size(); ++i)
+    normal += glm::cross(polygon[i], polygon[(i + 1) % polygon.size()]);
+  return normal;
+}
+
+std::string wrongWith(const Polygon& polygon) {
+  if (polygon.size() < 3) return fmt::format("a polygon of {} corners; expected at least 3", polygon.size());
+  for (std::size_t i = 0; i < polygon.size(); ++i) {
+    if (polygon[i] == polygon[(i + 1) % polygon.size()]) {
+      return fmt::format("corners {} and {} are the same point; expected each corner once", i + 1,
+                         (i + 1) % polygon.size() + 1);
+    }
+  }
+  const double edge = longestEdge(polygon);
+  const auto normal = areaNormal(polygon);
+  if (glm::length(normal) < 1e-6 * edge * edge)
+    return "a polygon without area; expected corners that do not lie on one line";
+  sim::Vec3 centre{0.0};
+  for (const auto& corner : polygon) centre += corner / static_cast<double>(polygon.size());
+  for (std::size_t i = 0; i < polygon.size(); ++i) {
+    const double off = std::abs(glm::dot(polygon[i] - centre, glm::normalize(normal)));
+    // Greene's own leaves are flat to about a fiftieth of their length.
+    if (off > 0.1 * edge) {
+      return fmt::format(
+          "corner {} lies {:.3g} off the polygon's plane; expected a flat polygon, within a tenth of its "
+          "longest edge",
+          i + 1, off);
+    }
+  }
+  return "";
+}
+
+void checkElements(const RuleSet& rules, const Check::Given&, const Check::Complain& complain) {
+  for (std::size_t i = 0; i < rules.elements.size(); ++i) {
+    const auto& element = rules.elements[i];
+    const auto path = fmt::format("elements[{}]", i);
+    for (std::size_t j = 0; j < i; ++j) {
+      if (rules.elements[j].name == element.name) {
+        complain(path + ".name",
+                 fmt::format("two elements are named '{}'; expected names that differ", element.name));
+        break;
+      }
+    }
+    if (element.polygons.empty())
+      complain(path + ".polygons", "an element without polygons; expected at least one");
+    for (std::size_t p = 0; p < element.polygons.size(); ++p) {
+      const auto wrong = wrongWith(element.polygons[p]);
+      if (!wrong.empty()) complain(fmt::format("{}.polygons[{}]", path, p), wrong);
+    }
+  }
+}
+
+}  // namespace
+
+const std::vector<Check>& ruleChecks() {
+  static const std::vector<Check> checks = {
+      ordered(
+          "random_tree.trials.min", "random_tree.trials.max",
+          [](auto& r) { return double(r.random_tree.trials_min); },
+          [](auto& r) { return double(r.random_tree.trials_max); }, true),
+      ordered(
+          "require.proximity.min", "require.proximity.max",
+          [](auto& r) { return r.require.proximity_min_vx; },
+          [](auto& r) { return r.require.proximity_max_vx; }, false),
+      ordered(
+          "require.exposure.min", "require.exposure.max", [](auto& r) { return r.require.exposure_min; },
+          [](auto& r) { return r.require.exposure_max; }, false),
+      check({"light.blend"},
+            [](auto& rules, auto&, auto& complain) {
+              if (rules.light.sun + rules.light.sky <= 0.0) {
+                complain("light.blend", "both weights are 0; expected sun or sky to be more than 0");
+              }
+            }),
+      check({}, checkElements),
+  };
+  return checks;
+}
+
+}  // namespace espalier::rules

@@ -1,0 +1,76 @@
+#pragma once
+#include <memory>
+#include <optional>
+#include <set>
+#include <string>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+/// What is wrong with an input file, and where. A reader finds all of a file's problems in one run.
+namespace espalier::scenes {
+
+struct Problem {
+  std::string path;  ///< as it was asked for, or beside the file that names it
+  int line = 0;      ///< from 1; 0: the file as a whole
+  int column = 0;    ///< from 1, in characters
+  std::string text;  ///< what is wrong; what was expected; did you mean 'x'?
+  friend bool operator==(const Problem&, const Problem&) = default;
+};
+
+/// "path:line:column: text".
+std::string format(const Problem& problem);
+/// One line each.
+std::string format(const std::vector<Problem>& problems);
+
+/// A value, or the problems that kept it from being one.
+template <class T>
+class Result {
+ public:
+  Result(T value) : value_(std::move(value)) {}                              // NOLINT: a value is a result
+  Result(std::vector<Problem> problems) : problems_(std::move(problems)) {}  // NOLINT: and so is failure
+
+  explicit operator bool() const { return value_.has_value(); }
+  const T& operator*() const { return *value_; }
+  T& operator*() { return *value_; }
+  const T* operator->() const { return &*value_; }
+  T* operator->() { return &*value_; }
+  /// Empty where there is a value.
+  const std::vector<Problem>& problems() const { return problems_; }
+
+ private:
+  std::optional<T> value_;
+  std::vector<Problem> problems_;
+};
+
+/// A place in an input file.
+struct Place {
+  std::shared_ptr<const std::string> path;
+  int line = 0;
+  int column = 0;
+};
+
+/// Gathers problems. The same one found twice (a file that several others build on) counts once.
+class Problems {
+ public:
+  void add(const Place& place, std::string text);
+  bool empty() const { return seen_.empty(); }
+  /// Nobody reads more than this; further ones are counted as one.
+  bool full() const { return seen_.size() >= kMost; }
+  /// File by file in the order in which they were first found wanting, each from top to bottom.
+  std::vector<Problem> sorted() const;
+
+ private:
+  static constexpr std::size_t kMost = 1000;
+  std::vector<std::string> paths_;
+  std::set<std::tuple<std::size_t, int, int, std::string>> seen_;
+};
+
+/// "; did you mean 'x'?" for the candidate nearest to a misspelt word, or nothing where none is near.
+std::string didYouMean(std::string_view word, const std::vector<std::string>& candidates);
+/// Words joined by commas, as many as a reader will look at.
+std::string listed(const std::vector<std::string>& words);
+/// A text from a file for use in a message: in quotes, cut short.
+std::string inQuotes(std::string_view text);
+
+}  // namespace espalier::scenes

@@ -1,8 +1,5 @@
 #include "render/finished_picture.h"
 
-#include <tbb/blocked_range2d.h>
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -13,6 +10,7 @@
 #include "render/ray_scene.h"
 #include "render/tone.h"
 #include "sim/error.h"
+#include "sim/parallel.h"
 
 namespace espalier::render {
 namespace {
@@ -33,10 +31,11 @@ struct SamplePoint {
   glm::vec2 pixel, sun;  // 0..1
 };
 
-/// A round's samples: a turned grid, moved on between rounds so that all rounds together have every row and column
-/// once. The same for every pixel: penumbras come out as even steps rather than as grain.
+/// A round's samples: a turned grid, moved on between rounds so that all rounds together have every row and
+/// column once. The same for every pixel: penumbras come out as even steps rather than as grain.
 std::array<SamplePoint, kRays> samplePoints(std::uint32_t round) {
-  constexpr std::array<glm::vec2, kRays> kGrid{glm::vec2(0.04f, 0.29f), {0.54f, 0.04f}, {0.29f, 0.79f}, {0.79f, 0.54f}};
+  constexpr std::array<glm::vec2, kRays> kGrid{
+      glm::vec2(0.04f, 0.29f), {0.54f, 0.04f}, {0.29f, 0.79f}, {0.79f, 0.54f}};
   const auto moved = static_cast<float>(round) / 12.0f;
   std::array<SamplePoint, kRays> result;
   for (std::size_t i = 0; i < kRays; ++i) {
@@ -247,11 +246,15 @@ Image finishedPicture(const FinishedScene& scene, const Camera& camera, int widt
   }
   const Painter painter(scene, camera, width, height);
   Image image(width, height, 3);
-  tbb::parallel_for(tbb::blocked_range2d<int>(0, height, kTile, 0, width, kTile), [&](const auto& tile) {
-    for (int y = tile.rows().begin(); y < tile.rows().end(); ++y) {
-      for (int x = tile.cols().begin(); x < tile.cols().end(); ++x) {
-        const Colour light = painter.pixel(x, y);
-        std::copy_n(&light.r, 3, image.at(x, y));
+  const int columns = (width + kTile - 1) / kTile, rows = (height + kTile - 1) / kTile;
+  sim::parallelFor(static_cast<std::size_t>(columns * rows), 4, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t tile = begin; tile < end; ++tile) {
+      const int x0 = static_cast<int>(tile) % columns * kTile, y0 = static_cast<int>(tile) / columns * kTile;
+      for (int y = y0; y < std::min(y0 + kTile, height); ++y) {
+        for (int x = x0; x < std::min(x0 + kTile, width); ++x) {
+          const Colour light = painter.pixel(x, y);
+          std::copy_n(&light.r, 3, image.at(x, y));
+        }
       }
     }
   });

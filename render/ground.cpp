@@ -10,7 +10,7 @@ namespace {
 
 using sim::Vec3;
 
-constexpr double kGoodPart = 0.3;     // of the scene's plan
+constexpr double kGoodPart = 0.3;   // of the scene's plan
 constexpr double kThinSlab = 0.05;  // of the plan's diagonal
 
 struct Level {
@@ -43,7 +43,8 @@ Ground groundOf(const std::vector<const sim::Mesh*>& meshes, double voxel_m) {
     }
   }
   if (!(low.y <= high.y)) return {};
-  // The top of a thin slab rather than its underside, but never a plane that would drown what stands on a plinth.
+  // The top of a thin slab rather than its underside, but never a plane that would drown what stands on a
+  // plinth.
   const double width = high.x - low.x, depth = high.z - low.z;
   const double highest = low.y + kThinSlab * std::sqrt(width * width + depth * depth);
   const Level* floor = nullptr;

@@ -84,7 +84,8 @@ Look bladeLook(const ModelMesh& mesh, const SurfaceHit& hit) {
 Vec3f bulgedNormal(const ModelMesh& mesh, const SurfaceHit& hit) {
   const auto& t = mesh.triangles[hit.triangle];
   const Vec3f normal = mesh.normals[t[0]];
-  const Vec3f a = mesh.positions_m[t[1]] - mesh.positions_m[t[0]], b = mesh.positions_m[t[2]] - mesh.positions_m[t[0]];
+  const Vec3f a = mesh.positions_m[t[1]] - mesh.positions_m[t[0]],
+              b = mesh.positions_m[t[2]] - mesh.positions_m[t[0]];
   const glm::vec2 ua = mesh.uvs[t[1]] - mesh.uvs[t[0]], ub = mesh.uvs[t[2]] - mesh.uvs[t[0]];
   const Vec3f across = a * ub.y - b * ua.y, along = b * ua.x - a * ub.x;  // the ways in which u and v grow
   const float determinant = ua.x * ub.y - ub.x * ua.y;

@@ -15,8 +15,8 @@ using sim::NodeId;
 using sim::Vec3;
 
 constexpr double kTurnPerStation = 0.5;  // radians; finer than the eye sees on stems a voxel thick
-constexpr int kMostStations = 6;          // in a segment
-constexpr double kRootDepth = 1.0;        // voxel widths that a seed's stem reaches back into the ground
+constexpr int kMostStations = 6;         // in a segment
+constexpr double kRootDepth = 1.0;       // voxel widths that a seed's stem reaches back into the ground
 constexpr int kStalkSides = 3;
 
 template <class T>
@@ -92,8 +92,8 @@ int sidesFor(double radius_vx, const PipeModel& pipe) {
   return std::clamp(static_cast<int>(std::lround(4.4 + 0.6 * thick)), 5, 10);
 }
 
-void appendStalk(ModelMesh& mesh, const sim::PlacedElement& element, Vec3 stem_vx, Vec3 base_vx, double radius_vx,
-                 const sim::Frame& frame, float youth, std::uint32_t piece) {
+void appendStalk(ModelMesh& mesh, const sim::PlacedElement& element, Vec3 stem_vx, Vec3 base_vx,
+                 double radius_vx, const sim::Frame& frame, float youth, std::uint32_t piece) {
   const double radius_m = radius_vx * frame.voxel_m;
   const std::array<TubeStation, 2> line{
       TubeStation{sim::worldFromVoxel(frame, stem_vx), radius_m, element.exposure, youth},

@@ -9,11 +9,11 @@ namespace espalier::render {
 /// A clear morning: the sun's and the sky's light on a surface that faces them, and the sky as it is seen.
 struct Daylight {
   sim::Vec3f to_sun{0.0f, 1.0f, 0.0f};            ///< unit
-  sim::Colour sun{1.55f, 1.30f, 0.98f};           ///< light on a surface square to the sun
-  sim::Colour zenith_light{0.40f, 0.50f, 0.68f};  ///< light of the whole sky on a surface that looks up
-  sim::Colour side_light{0.46f, 0.49f, 0.52f};    ///< the same for one that looks to the side
-  sim::Colour horizon{0.70f, 0.73f, 0.73f};       ///< seen; also the haze's colour
-  sim::Colour zenith{0.24f, 0.37f, 0.56f};        ///< seen
+  sim::Colour sun{1.68f, 1.40f, 1.04f};           ///< light on a surface square to the sun
+  sim::Colour zenith_light{0.34f, 0.41f, 0.52f};  ///< light of the whole sky on a surface that looks up
+  sim::Colour side_light{0.37f, 0.39f, 0.41f};    ///< the same for one that looks to the side
+  sim::Colour horizon{0.86f, 0.82f, 0.74f};       ///< seen; also the haze's colour
+  sim::Colour zenith{0.13f, 0.29f, 0.56f};        ///< seen
 };
 
 /// The sky behind everything, in a unit direction; below the horizon there is haze.

@@ -1,9 +1,5 @@
 #include "render/finished_picture.h"
 
-#include <Random123/philox.h>
-#include <tbb/blocked_range2d.h>
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -14,6 +10,7 @@
 #include "render/ray_scene.h"
 #include "render/tone.h"
 #include "sim/error.h"
+#include "sim/parallel.h"
 
 namespace espalier::render {
 namespace {
@@ -27,23 +24,23 @@ constexpr float kSunRadius =
     0.011f;  // of the disc, radians: a little wider than the real one, for softer edges
 constexpr float kSmoothEnough =
     0.045f;  // spread of display values within a pixel that needs no further samples
-constexpr float kRough = 0.20f;
+constexpr float kRough = 0.25f;
 constexpr double kHazeReach = 9.0;  // haze and floor, in diagonals of the world
 
-struct Jitter {
+struct SamplePoint {
   glm::vec2 pixel, sun;  // 0..1
 };
 
-/// Sample i of a round falls into quarter i of the pixel; everything is keyed by pixel and round.
-std::array<Jitter, kRays> jitters(std::uint32_t x, std::uint32_t y, std::uint32_t round) {
-  const auto fraction = [](std::uint32_t bits) { return static_cast<float>(bits & 0xffffu) * 0x1p-16f; };
-  r123::Philox4x32 philox;
-  const auto a = philox({{x, y, round, 0}}, {{0x9a3e, 0}}), b = philox({{x, y, round, 1}}, {{0x9a3e, 0}});
-  std::array<Jitter, kRays> result;
-  for (std::uint32_t i = 0; i < kRays; ++i) {
-    const glm::vec2 quarter(static_cast<float>(i & 1u), static_cast<float>(i >> 1));
-    result[i].pixel = 0.5f * (quarter + glm::vec2(fraction(a[i]), fraction(a[i] >> 16)));
-    result[i].sun = 0.5f * (quarter + glm::vec2(fraction(b[i]), fraction(b[i] >> 16)));
+/// A round's samples: a turned grid, moved on between rounds so that all rounds together have every row and
+/// column once. The same for every pixel: penumbras come out as even steps rather than as grain.
+std::array<SamplePoint, kRays> samplePoints(std::uint32_t round) {
+  constexpr std::array<glm::vec2, kRays> kGrid{
+      glm::vec2(0.04f, 0.29f), {0.54f, 0.04f}, {0.29f, 0.79f}, {0.79f, 0.54f}};
+  const auto moved = static_cast<float>(round) / 12.0f;
+  std::array<SamplePoint, kRays> result;
+  for (std::size_t i = 0; i < kRays; ++i) {
+    result[i].pixel = glm::fract(kGrid[i] + glm::vec2(moved, 2.0f * moved));
+    result[i].sun = glm::fract(kGrid[kRays - 1 - i] + glm::vec2(2.0f * moved, moved));
   }
   return result;
 }
@@ -131,12 +128,13 @@ Fragment Painter::fragmentAt(const SurfaceHit& hit, Vec3f direction) const {
   }
   const ModelMesh& mesh = *surface.model;
   const auto& t = mesh.triangles[hit.triangle];
-  const Vec3f smooth =
-      mesh.normals[t[0]] * (1.0f - hit.u - hit.v) + mesh.normals[t[1]] * hit.u + mesh.normals[t[2]] * hit.v;
+  f.blade = surface.kind == SurfaceKind::blade;
+  const Vec3f smooth = f.blade ? bulgedNormal(mesh, hit)
+                               : mesh.normals[t[0]] * (1.0f - hit.u - hit.v) + mesh.normals[t[1]] * hit.u +
+                                     mesh.normals[t[2]] * hit.v;
   if (glm::dot(smooth, smooth) > 1e-6f) {
     f.normal = glm::normalize(glm::dot(smooth, f.flat) < 0.0f ? -smooth : smooth);
   }
-  f.blade = surface.kind == SurfaceKind::blade;
   f.look = f.blade ? bladeLook(mesh, hit) : barkLook(noise_, mesh, hit, f.p_m);
   return f;
 }
@@ -167,7 +165,7 @@ Colour Painter::lit(const Fragment& f, Vec3f direction, float sun_seen) const {
     const float lobe = std::max(0.0f, glm::dot(f.normal, half));
     const float l2 = lobe * lobe, l4 = l2 * l2, l8 = l4 * l4, l32 = l8 * l8 * l8 * l8;
     const float grazing = 1.0f - std::max(0.0f, -glm::dot(direction, f.normal));
-    const float fresnel = 0.03f + 0.25f * grazing * grazing * grazing * grazing;
+    const float fresnel = 0.02f + 0.20f * grazing * grazing * grazing * grazing;
     const float mirrored_up = std::max(0.0f, glm::reflect(direction, f.normal).y);
     result += f.look.gloss * (fresnel * open * mirrored_up * light_.zenith_light +
                               (facing > 0.0f ? sun_seen * 0.12f * l32 : 0.0f) * light_.sun);
@@ -185,11 +183,11 @@ Colour Painter::hazed(Colour light, const Fragment& f, Vec3f direction) const {
 }
 
 Painter::Round Painter::round(int x, int y, std::uint32_t number) const {
-  const auto jitter = jitters(static_cast<std::uint32_t>(x), static_cast<std::uint32_t>(y), number);
+  const auto points = samplePoints(number);
   std::array<Vec3f, kRays> directions;
   for (std::size_t i = 0; i < kRays; ++i) {
-    directions[i] = Vec3f(camera_.direction((x + static_cast<double>(jitter[i].pixel.x)) / width_,
-                                            (y + static_cast<double>(jitter[i].pixel.y)) / height_));
+    directions[i] = Vec3f(camera_.direction((x + static_cast<double>(points[i].pixel.x)) / width_,
+                                            (y + static_cast<double>(points[i].pixel.y)) / height_));
   }
   const auto hits = rays_.firstHits(Vec3f(camera_.eye_m()), directions);
   std::array<std::optional<Fragment>, kRays> fragments;
@@ -207,7 +205,7 @@ Painter::Round Painter::round(int x, int y, std::uint32_t number) const {
     shadows.wanted[i] =
         light_.to_sun.y > 0.0f && (f.blade || (side > 0.0f && glm::dot(f.normal, light_.to_sun) > 0.0f));
     shadows.origins_m[i] = f.p_m + (side > 0.0f ? 0.04f : -0.04f) * voxel_m_ * f.flat;
-    shadows.directions[i] = sunPoint(jitter[i].sun);
+    shadows.directions[i] = sunPoint(points[i].sun);
   }
   const auto sunlit = rays_.clear(shadows);
   Round result;
@@ -248,11 +246,15 @@ Image finishedPicture(const FinishedScene& scene, const Camera& camera, int widt
   }
   const Painter painter(scene, camera, width, height);
   Image image(width, height, 3);
-  tbb::parallel_for(tbb::blocked_range2d<int>(0, height, kTile, 0, width, kTile), [&](const auto& tile) {
-    for (int y = tile.rows().begin(); y < tile.rows().end(); ++y) {
-      for (int x = tile.cols().begin(); x < tile.cols().end(); ++x) {
-        const Colour light = painter.pixel(x, y);
-        std::copy_n(&light.r, 3, image.at(x, y));
+  const int columns = (width + kTile - 1) / kTile, rows = (height + kTile - 1) / kTile;
+  sim::parallelFor(static_cast<std::size_t>(columns * rows), 4, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t tile = begin; tile < end; ++tile) {
+      const int x0 = static_cast<int>(tile) % columns * kTile, y0 = static_cast<int>(tile) / columns * kTile;
+      for (int y = y0; y < std::min(y0 + kTile, height); ++y) {
+        for (int x = x0; x < std::min(x0 + kTile, width); ++x) {
+          const Colour light = painter.pixel(x, y);
+          std::copy_n(&light.r, 3, image.at(x, y));
+        }
       }
     }
   });

@@ -1,5 +1,6 @@
 #include "render/ground.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <map>
@@ -9,12 +10,12 @@ namespace {
 
 using sim::Vec3;
 
-constexpr double kGoodPart = 0.3;     // of the scene's plan
-constexpr double kLowPart = 1.0 / 3;  // of the scene's height
+constexpr double kGoodPart = 0.3;   // of the scene's plan
+constexpr double kThinSlab = 0.05;  // of the plan's diagonal
 
 struct Level {
   double area = 0.0;
-  double area_height = 0.0;
+  double lowest = std::numeric_limits<double>::infinity();
   Vec3 area_colour{0.0};
 };
 
@@ -37,21 +38,20 @@ Ground groundOf(const std::vector<const sim::Mesh*>& meshes, double voxel_m) {
       const double height = (a.y + b.y + c.y) / 3.0;
       Level& level = levels[static_cast<std::int64_t>(std::floor(height / voxel_m))];
       level.area += area;
-      level.area_height += area * height;
+      level.lowest = std::min(level.lowest, height);
       level.area_colour += area * Vec3(mesh->materials[mesh->material[t]].colour);
     }
   }
   if (!(low.y <= high.y)) return {};
-  // A slab has two equally wide levels: the upper one is its floor.
-  const Level* widest = nullptr;
+  // The top of a thin slab rather than its underside, but never a plane that would drown what stands on a
+  // plinth.
+  const double width = high.x - low.x, depth = high.z - low.z;
+  const double highest = low.y + kThinSlab * std::sqrt(width * width + depth * depth);
+  const Level* floor = nullptr;
   for (const auto& [bin, level] : levels) {
-    if (level.area_height / level.area > low.y + kLowPart * (high.y - low.y)) break;
-    if (!widest || level.area > 0.95 * widest->area) widest = &level;
+    if (level.area >= kGoodPart * width * depth && level.lowest <= highest) floor = &level;
   }
-  const double plan = (high.x - low.x) * (high.z - low.z);
-  if (widest && widest->area >= kGoodPart * plan) {
-    return {widest->area_height / widest->area, sim::Colour(widest->area_colour / widest->area)};
-  }
+  if (floor) return {floor->lowest, sim::Colour(floor->area_colour / floor->area)};
   return {low.y, sim::Colour(0.30f, 0.29f, 0.27f)};
 }
 

@@ -66,7 +66,7 @@ Look barkLook(const Noise& noise, const ModelMesh& mesh, const SurfaceHit& hit, 
 Look bladeLook(const ModelMesh& mesh, const SurfaceHit& hit) {
   const auto& t = mesh.triangles[hit.triangle];
   const auto bits = r123::Philox4x32()({{mesh.pieces[t[0]], 0, 0, 0}}, {{kBladeKey, 0}});
-  const float value = 0.78f + 0.44f * unit(bits[0]);
+  const float value = 0.70f + 0.50f * unit(bits[0]);
   const float hue = 2.0f * unit(bits[1]) - 1.0f;  // towards yellow .. towards blue
   const float youth = mesh.youths[t[0]], light = mesh.exposures[t[0]];
   Colour albedo = mesh.base_colour * value;
@@ -77,8 +77,23 @@ Look bladeLook(const ModelMesh& mesh, const SurfaceHit& hit) {
   const glm::vec2 uv = onTriangle(mesh.uvs, t, hit);
   const float rib = std::clamp(1.0f - std::abs(uv.x - 0.5f) / 0.05f, 0.0f, 1.0f);
   albedo = glm::mix(albedo, albedo * 1.7f + 0.02f, 0.6f * rib * (1.0f - 0.6f * uv.y));
-  const Colour through = albedo * Colour(1.25f, 1.15f, 0.35f);
+  const Colour through = albedo * Colour(1.45f, 1.30f, 0.30f);
   return {glm::clamp(albedo, 0.0f, 1.0f), glm::clamp(through, 0.0f, 1.0f), 1.0f};
+}
+
+Vec3f bulgedNormal(const ModelMesh& mesh, const SurfaceHit& hit) {
+  const auto& t = mesh.triangles[hit.triangle];
+  const Vec3f normal = mesh.normals[t[0]];
+  const Vec3f a = mesh.positions_m[t[1]] - mesh.positions_m[t[0]],
+              b = mesh.positions_m[t[2]] - mesh.positions_m[t[0]];
+  const glm::vec2 ua = mesh.uvs[t[1]] - mesh.uvs[t[0]], ub = mesh.uvs[t[2]] - mesh.uvs[t[0]];
+  const Vec3f across = a * ub.y - b * ua.y, along = b * ua.x - a * ub.x;  // the ways in which u and v grow
+  const float determinant = ua.x * ub.y - ub.x * ua.y;
+  const float wide = glm::length(across), tall = glm::length(along);
+  if (determinant == 0.0f || wide == 0.0f || tall == 0.0f) return normal;
+  const float sign = determinant > 0.0f ? 1.0f : -1.0f;
+  const glm::vec2 uv = onTriangle(mesh.uvs, t, hit);
+  return normal + sign * (0.9f * (uv.x - 0.5f) / wide * across + 0.6f * (uv.y - 0.45f) / tall * along);
 }
 
 }  // namespace espalier::render

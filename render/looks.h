@@ -30,5 +30,8 @@ Look stoneLook(const Noise& noise, sim::Colour base, sim::Vec3f p_m);
 Look barkLook(const Noise& noise, const ModelMesh& mesh, const SurfaceHit& hit, sim::Vec3f p_m);
 /// Leaves: each its own shade; young ones lighter, those that grew in the light yellower; a pale midrib.
 Look bladeLook(const ModelMesh& mesh, const SurfaceHit& hit);
+/// A blade's normal as if its flat polygons were gently domed across and drooping at the tip. Not of unit
+/// length.
+sim::Vec3f bulgedNormal(const ModelMesh& mesh, const SurfaceHit& hit);
 
 }  // namespace espalier::render

@@ -1,6 +1,7 @@
 #include "render/plant_model.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "render/leaves.h"
@@ -13,9 +14,9 @@ namespace {
 using sim::NodeId;
 using sim::Vec3;
 
-constexpr double kTurnPerStation = 0.42;  // radians; finer than the eye sees on stems a voxel thick
-constexpr int kMostStations = 6;          // in a segment
-constexpr double kRootDepth = 1.0;        // voxel widths that a seed's stem reaches back into the ground
+constexpr double kTurnPerStation = 0.5;  // radians; finer than the eye sees on stems a voxel thick
+constexpr int kMostStations = 6;         // in a segment
+constexpr double kRootDepth = 1.0;       // voxel widths that a seed's stem reaches back into the ground
 constexpr int kStalkSides = 3;
 
 template <class T>
@@ -91,15 +92,12 @@ int sidesFor(double radius_vx, const PipeModel& pipe) {
   return std::clamp(static_cast<int>(std::lround(4.4 + 0.6 * thick)), 5, 10);
 }
 
-/// A stalk in a gentle bow: it leaves the stem along the leaf's growth and comes into the blade from behind.
 void appendStalk(ModelMesh& mesh, const sim::PlacedElement& element, Vec3 stem_vx, Vec3 base_vx,
                  double radius_vx, const sim::Frame& frame, float youth, std::uint32_t piece) {
-  const double length = glm::distance(stem_vx, base_vx);
-  const Vec3 middle = 0.5 * (stem_vx + base_vx) - 0.12 * length * element.z;
-  std::vector<TubeStation> line;
-  for (const Vec3 p : {stem_vx, middle, base_vx}) {
-    line.push_back({sim::worldFromVoxel(frame, p), radius_vx * frame.voxel_m, element.exposure, youth});
-  }
+  const double radius_m = radius_vx * frame.voxel_m;
+  const std::array<TubeStation, 2> line{
+      TubeStation{sim::worldFromVoxel(frame, stem_vx), radius_m, element.exposure, youth},
+      TubeStation{sim::worldFromVoxel(frame, base_vx), radius_m, element.exposure, youth}};
   appendTube(mesh, line, kStalkSides, piece);
 }
 
@@ -141,7 +139,7 @@ PlantModel modelPlant(const sim::Plant& plant, const sim::Frame& frame, const Mo
     const Vec3 stem =
         on_plant ? curves.onStem(plant.skeleton, element.node, element.position_vx) : element.position_vx;
     const double stem_radius = on_plant ? static_cast<double>(at(radii, element.node)) : 0.0;
-    const double stalk_radius = 0.4 * static_cast<double>(options.pipe.tip_radius_vx);
+    const double stalk_radius = 0.55 * static_cast<double>(options.pipe.tip_radius_vx);
     if (glm::distance(stem, base) > stem_radius + stalk_radius) {
       appendStalk(mesh, element, stem, base, stalk_radius, frame, young, piece);
     }

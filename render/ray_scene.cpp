@@ -12,7 +12,7 @@ namespace espalier::render {
 struct RayScene::Device {
   // Built by one thread: then the tree, and with it the winner among surfaces in one place, is always the
   // same.
-  RTCDevice device = rtcNewDevice("threads=1,user_threads=1");
+  RTCDevice device = rtcNewDevice("threads=1,isa=sse4.2");
   RTCScene scene = device ? rtcNewScene(device) : nullptr;
 
   Device() {

@@ -1,6 +1,9 @@
 #include "render/contact_sheet.h"
 
+#include <tbb/parallel_for.h>
+
 #include <cmath>
+#include <vector>
 
 #include "render/drawing.h"
 #include "sim/error.h"
@@ -41,11 +44,14 @@ Image contactSheet(std::span<const Captioned> pictures, const SheetLook& look) {
     drawText(sheet, {static_cast<float>(gutter), static_cast<float>(gutter) + 1.2f * text}, look.title,
              {1.35f * text, kTitle, Align::left, Font::bold});
   }
+  std::vector<Image> reduced(pictures.size());
+  tbb::parallel_for(std::size_t{0}, pictures.size(),
+                    [&](std::size_t i) { reduced[i] = resized(*pictures[i].picture, width, height); });
   for (int i = 0; i < count; ++i) {
     const Captioned& p = pictures[static_cast<std::size_t>(i)];
     const int x = gutter + (i % columns) * (width + gutter);
     const int y = head + gutter + (i / columns) * (height + caption + gutter / 2);
-    paste(sheet, resized(*p.picture, width, height), x, y);
+    paste(sheet, reduced[static_cast<std::size_t>(i)], x, y);
     glm::vec2 pen(static_cast<float>(x), static_cast<float>(y + height) + 1.4f * text);
     if (!p.letter.empty()) {
       drawText(sheet, pen, p.letter, {text, kLetter, Align::left, Font::bold});

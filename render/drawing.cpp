@@ -23,6 +23,18 @@ const char* fontName(Font font) {
 /// Letters are set this many times larger and then reduced: free of the font's hinting, with even spacing.
 constexpr int kTextScale = 4;
 
+/// note: OpenImageIO 2.4 decodes UTF-8 wrongly (a degree sign comes out as "0"), so what is not ASCII is
+/// drawn as a question mark, one a character.
+std::string drawable(const std::string& text) {
+  std::string out;
+  for (const char c : text) {
+    const unsigned char byte = static_cast<unsigned char>(c);
+    if (byte >= 0x80 && byte < 0xc0) continue;  // the rest of a character begun before
+    out += byte >= 0x80 ? '?' : byte < 0x20 ? ' ' : c;
+  }
+  return out;
+}
+
 OIIO::ROI textBounds(const std::string& text, float size_px, Font font) {
   const OIIO::ROI bounds =
       algo::text_size(text, static_cast<int>(std::lround(size_px * kTextScale)), fontName(font));
@@ -69,12 +81,14 @@ OIIO::ImageBuf wrapped(Image& image) {
 }  // namespace
 
 float textWidth(const std::string& text, float size_px, Font font) {
-  return text.empty() ? 0.0f : static_cast<float>(textBounds(text, size_px, font).width()) / kTextScale;
+  const std::string shown = drawable(text);
+  return shown.empty() ? 0.0f : static_cast<float>(textBounds(shown, size_px, font).width()) / kTextScale;
 }
 
 void drawText(Image& image, glm::vec2 at, const std::string& text, const TextStyle& style) {
-  if (text.empty()) return;
-  const OIIO::ROI bounds = textBounds(text, style.size_px, style.font);
+  const std::string shown = drawable(text);
+  if (shown.empty()) return;
+  const OIIO::ROI bounds = textBounds(shown, style.size_px, style.font);
   const float width = static_cast<float>(bounds.width()) / kTextScale;
   const float shift = style.align == Align::left ? 0.0f : style.align == Align::centre ? 0.5f : 1.0f;
 
@@ -91,7 +105,7 @@ void drawText(Image& image, glm::vec2 at, const std::string& text, const TextSty
       OIIO::ImageSpec((x1 - x0) * kTextScale, (y1 - y0) * kTextScale, 1, OIIO::TypeDesc::FLOAT));
   algo::zero(mask);
   const float white = 1.0f;
-  if (!algo::render_text(mask, left - bounds.xbegin - x0 * kTextScale, base - y0 * kTextScale, text,
+  if (!algo::render_text(mask, left - bounds.xbegin - x0 * kTextScale, base - y0 * kTextScale, shown,
                          static_cast<int>(std::lround(style.size_px * kTextScale)), fontName(style.font),
                          OIIO::cspan<float>(white), algo::TextAlignX::Left, algo::TextAlignY::Baseline, 0, {},
                          1))
@@ -147,7 +161,8 @@ Image resized(const Image& image, int width_px, int height_px) {
   Image copy = image;
   Image small(width_px, height_px, image.channels);
   OIIO::ImageBuf target = wrapped(small);
-  if (!algo::resize(target, wrapped(copy), "lanczos3"))
+  // note: lanczos3 takes six times as long here and rings at the sky's edges.
+  if (!algo::resize(target, wrapped(copy), "triangle", 0.0f, {}, 1))
     throw sim::InputError(fmt::format("cannot resize a picture: {}", target.geterror()));
   return small;
 }

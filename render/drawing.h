@@ -26,7 +26,8 @@ struct TextStyle {
   Font font = Font::regular;
 };
 
-/// Throws InputError where the font (DejaVu Sans) is not installed.
+/// Texts are in ASCII; any other character is drawn as a question mark. Throws InputError where the font
+/// (DejaVu Sans) is not installed.
 float textWidth(const std::string& text, float size_px, Font font = Font::regular);
 /// `at` is on the base line: the left end, the middle or the right end of the text by its alignment.
 void drawText(Image& image, glm::vec2 at, const std::string& text, const TextStyle& style);

@@ -56,7 +56,9 @@ std::string encodePng(const Image& display, const Metadata& metadata) {
   OIIO::ImageSpec spec(display.width, display.height, display.channels, OIIO::TypeDesc::UINT8);
   spec.attribute("oiio:ColorSpace", "sRGB");
   spec.attribute("oiio:UnassociatedAlpha", 1);
-  spec.attribute("png:compressionLevel", 3);
+  // Measured on pictures of 1280 x 960: half the time of the defaults for files a tenth larger.
+  spec.attribute("png:compressionLevel", 4);
+  spec.attribute("png:filter", 0x10);  // each byte less its left neighbour
   return encode("png", spec, display, metadata);
 }
 
@@ -69,7 +71,7 @@ std::string encodeExr(const Image& measured, const std::vector<std::string>& cha
   }
   OIIO::ImageSpec spec(measured.width, measured.height, measured.channels, OIIO::TypeDesc::FLOAT);
   spec.channelnames = channel_names;
-  spec.attribute("compression", "zips");
+  spec.attribute("compression", "zip");
   // Left alone, the writer stamps the time of day.
   spec.attribute("DateTime", "1970:01:01 00:00:00");
   return encode("exr", spec, measured, metadata);

@@ -54,15 +54,13 @@ glm::vec2 drawPlate(Image& image, const Layout& is, glm::vec2 content, const std
 void drawLegend(Image& image, const BarLegend& legend, const ColourMap& colours) {
   const Layout is(image);
   const float head = std::max(textWidth(legend.title, is.text, Font::bold), textWidth(legend.note, is.note));
-  // The outer numbers stand under the bar's ends, half beside it.
-  const float overhang = 0.5f * textWidth("0.00", is.note);
-  const float bar_width = std::round(std::max(head, 15.0f * is.text) - 2 * overhang);
+  const float bar_width = std::round(std::max(head, 15.0f * is.text));
   const float bar_height = std::round(0.85f * is.text);
   const float tick = 0.3f * is.text;
-  const glm::vec2 content(bar_width + 2 * overhang, bar_height + tick + 1.35f * is.note);
+  const glm::vec2 content(bar_width, bar_height + tick + 1.35f * is.note);
   const glm::vec2 corner = drawPlate(image, is, content, legend.title, legend.note);
 
-  const glm::vec2 low = glm::round(glm::vec2(corner.x + overhang, corner.y));
+  const glm::vec2 low = glm::round(corner);
   fillBox(image, low - 1.0f, low + glm::vec2(bar_width, bar_height) + 1.0f, {kStrong.colour, 0.55f});
   for (float x = 0.0f; x < bar_width; x += 1.0f) {
     const sim::Colour colour = srgbFromLinear(colours((x + 0.5f) / bar_width));

@@ -155,7 +155,7 @@ Colour skyColour(sim::Vec3 direction) {
   const Colour ground(0.66f, 0.70f, 0.70f), horizon(0.84f, 0.89f, 0.92f), zenith(0.20f, 0.40f, 0.72f);
   const float height = static_cast<float>(std::clamp(direction.y, -1.0, 1.0));
   // Pale at the horizon, as haze makes it, and towards a quiet ground far below it.
-  return height >= 0.0f ? glm::mix(horizon, zenith, powf(height, 0.45f))
+  return height >= 0.0f ? glm::mix(horizon, zenith, powf(height, 0.55f))
                         : glm::mix(horizon, ground, powf(-height, 0.8f));
 }
 

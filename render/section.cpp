@@ -15,6 +15,8 @@ namespace {
 
 constexpr sim::Colour kPaper(0.985f, 0.98f, 0.97f);
 constexpr sim::Colour kNearest(0.19f, 0.45f, 0.47f), kFarthest(0.83f, 0.91f, 0.87f);
+/// Of occupied voxels, so that they stand out from the tints whatever their colour.
+constexpr float kDarken = 0.35f;
 constexpr Ink kGrid{sim::Colour(0.1f, 0.12f, 0.14f), 0.16f};
 
 sim::Colour layerTint(int layer, int layers) {
@@ -42,7 +44,7 @@ Image drawSection(const std::function<Cut(glm::ivec2)>& cut, const SectionLook& 
       const Cut here = cut({i, j});
       if (!here.occupied && (here.layer < 1 || here.layer > look.layers)) continue;
       const sim::Colour colour =
-          here.occupied ? srgbFromLinear(0.6f * here.colour) : layerTint(here.layer, look.layers);
+          here.occupied ? srgbFromLinear(kDarken * here.colour) : layerTint(here.layer, look.layers);
       fillBox(image, corner(i, j + 1), corner(i + 1, j), {colour, 1.0f});
     }
   }

@@ -120,7 +120,7 @@ TEST(Tone, SrgbRoundTripsAndTheCurveRisesFromBlackToWhite) {
   EXPECT_FLOAT_EQ(curve(curve.white / curve.exposure), 1.0f);
   float last = -1.0f;
   for (int i = 0; i <= 64; ++i) {
-    const float now = curve(static_cast<float>(i) / 32.0f);
+    const float now = curve(curve.white / curve.exposure * static_cast<float>(i) / 64.0f);
     EXPECT_GT(now, last);
     last = now;
   }

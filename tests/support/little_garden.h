@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "render/camera.h"
 #include "sim/bits.h"
 #include "sim/field.h"
 #include "sim/frame.h"
@@ -62,6 +63,8 @@ class LittleGarden {
     }
     return directions;
   }
+
+  static render::Camera camera() { return {{1.9, 1.7, 4.0}, {0.0, 0.75, 0.0}, 36}; }
 
   /// An arc from left to right, leaning towards the viewer.
   static std::vector<sim::Vec3> sunArc(int count = 48) {

@@ -1,4 +1,3 @@
-#include "sim/parallel.h"
 #include "sim/build_world.h"
 
 #include <gtest/gtest.h>
@@ -7,6 +6,7 @@
 #include <set>
 
 #include "sim/error.h"
+#include "sim/parallel.h"
 #include "sim/tiling.h"
 #include "tests/support/meshes.h"
 #include "tests/support/worlds.h"

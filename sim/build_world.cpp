@@ -37,6 +37,23 @@ void requireSound(const Mesh& mesh) {
   }
 }
 
+std::vector<Vec3> verticesIn(const Frame& frame, const Mesh& mesh) {
+  constexpr double kFarthest = 1e12;  // beyond it a double no longer tells fractions of a voxel apart
+  std::vector<Vec3> vertices_vx;
+  vertices_vx.reserve(mesh.vertices_m.size());
+  for (const Vec3& p : mesh.vertices_m) {
+    const Vec3 q = voxelFromWorld(frame, p);
+    if (!(std::max({std::abs(q.x), std::abs(q.y), std::abs(q.z)}) < kFarthest)) {
+      throw InputError(
+          fmt::format("mesh '{}': a vertex lies more than {:g} voxels from the world; expected larger "
+                      "voxels or another unit of length",
+                      mesh.name, kFarthest));
+    }
+    vertices_vx.push_back(q);
+  }
+  return vertices_vx;
+}
+
 std::vector<std::array<Vec3, 3>> trianglesOf(const Mesh& mesh, const std::vector<Vec3>& vertices_vx) {
   constexpr double kFarthest = 16000;
   std::vector<std::array<Vec3, 3>> triangles;
@@ -133,9 +150,7 @@ World buildWorld(const Frame& frame, const std::vector<TiledMesh>& meshes, int l
   for (const auto& [mesh, solid] : meshes) {
     const auto first_part = static_cast<PartId>(world.parts().size() + 1);
     for (const std::string& region : mesh.regions) world.addPart({.object = mesh.name, .region = region});
-    std::vector<Vec3> vertices_vx(mesh.vertices_m.size());
-    std::transform(mesh.vertices_m.begin(), mesh.vertices_m.end(), vertices_vx.begin(),
-                   [&](Vec3 p) { return voxelFromWorld(frame, p); });
+    const std::vector<Vec3> vertices_vx = verticesIn(frame, mesh);
     const std::vector<TiledVoxel> surface = tileMesh(mesh, vertices_vx, frame.size, first_part);
     world.occupy(surface);
     if (!solid || mesh.triangles.empty()) continue;

@@ -18,16 +18,17 @@ struct TiledMesh {
 struct FillReport {
   std::string object;
   std::size_t filled = 0;    ///< voxels inside
-  std::size_t doubtful = 0;  ///< voxels where the votes of the lines disagreed
+  std::size_t doubtful = 0;  ///< voxels where the lines along the axes disagreed: there the mesh leaks
 };
 
 /// Tiles meshes into a new world, in parallel; the result does not depend on the thread count.
-/// A voxel that several triangles cross takes the part that covers most of it, the mean colour by area, and
-/// the area-weighted normal; meshes that come first keep their voxels. Triangles outside the frame are
-/// clipped away. Filling is robust: lines through each free voxel along several directions vote on inside or
-/// outside by parity of their crossings; a line that crosses the mesh an odd number of times in all has
-/// leaked and has no vote. Throws InputError if the world is too large for memory, naming the voxel size that
-/// would fit.
+/// A voxel that several triangles cross takes the part that covers most of it, the mean colour by area, and the
+/// area-weighted normal; meshes that come first keep their voxels. Triangles outside the frame are clipped away.
+/// Filling is robust: lines through each free voxel judge it from both of their ends by the winding number of their
+/// crossings, so overlapping solids stay full, meshes may be inside out, and where a line leaks its ends contradict
+/// each other and the majority of thirteen directions decides (sim/fill.cpp).
+/// Throws InputError if the world is too large for memory, naming the voxel size that would fit, and for a mesh that
+/// is not sound (indices, numbers) or too large to fill.
 World buildWorld(const Frame& frame, const std::vector<TiledMesh>& meshes, int layers,
                  std::vector<FillReport>* fills = nullptr);
 

@@ -14,6 +14,8 @@
 namespace espalier::sim {
 namespace {
 
+using namespace std::string_literals;
+
 double totalCoverage(const World& world) {
   double sum = 0.0;
   for (const TiledVoxel& t : world.surfaces()) sum += t.surface.coverage;
@@ -215,6 +217,9 @@ TEST(BuildWorld, RefusesMeshesThatAreNotSound) {
   Mesh mesh = test::boxMesh(Vec3(0.0), Vec3(1.0));
   mesh.vertices_m[3].y = std::numeric_limits<double>::quiet_NaN();
   EXPECT_EQ(build(mesh), "mesh 'box': a vertex is not finite");
+  mesh.vertices_m[3].y = 1e300;
+  EXPECT_EQ(build(mesh).substr(0, 72),
+            "mesh 'box': a vertex lies more than 1e+12 voxels from the world; expected"s);
   mesh = test::boxMesh(Vec3(0.0), Vec3(1.0));
   mesh.triangles[0][1] = 8;
   EXPECT_EQ(build(mesh), "mesh 'box': a triangle's vertex does not exist");

@@ -256,7 +256,8 @@ std::string explained(const std::string& message) {
        "column"},
       {"illegal block entry",
        "a '-' where no entry of a list can stand; expected spaces, not tabs, and entries in the same column"},
-      {"illegal flow end", "a closing bracket that was never opened; expected it to be removed"},
+      {"illegal flow end",
+       "a closing bracket that does not fit what is open here; expected the other kind, or none"},
       {"illegal EOF in scalar", "a quote that is never closed; expected it closed on the same line"},
       {"unknown token", "a character that cannot begin a value; expected quotes around it"},
   }};

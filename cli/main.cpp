@@ -1,1 +1,38 @@
-int main() { return 0; }
+#include <fmt/format.h>
+
+#include <CLI/App.hpp>
+#include <CLI/Config.hpp>
+#include <CLI/Formatter.hpp>
+#include <cstdio>
+#include <exception>
+#include <new>
+
+#include "cli/commands.h"
+#include "sim/error.h"
+
+int main(int argc, char** argv) {
+  using namespace espalier;
+  int exit_status = 0;
+  try {
+    CLI::App app("Espalier grows plants that feel their way through a world of voxels.", "espalier");
+    app.require_subcommand(1);
+    app.set_version_flag("--version", "espalier " ESPALIER_VERSION);
+    cli::addGrow(app, exit_status);
+    cli::addCheck(app, exit_status);
+    cli::addSchema(app, exit_status);
+    CLI11_PARSE(app, argc, argv);
+  } catch (const sim::Stopped&) {
+    fmt::print(stderr, "espalier: stopped\n");
+    return cli::kStopped;
+  } catch (const sim::InputError& error) {
+    fmt::print(stderr, "{}\n", error.what());
+    return cli::kInputError;
+  } catch (const std::bad_alloc&) {
+    fmt::print(stderr, "espalier: out of memory; use larger voxels or smaller images\n");
+    return 1;
+  } catch (const std::exception& error) {
+    fmt::print(stderr, "espalier: {}\n", error.what());
+    return 1;
+  }
+  return exit_status;
+}

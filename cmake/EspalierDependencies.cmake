@@ -1,8 +1,4 @@
 # Every library we stand on, by its Debian 12 package. The order matters in two places.
-if(NOT CMAKE_BUILD_TYPE)
-  set(CMAKE_BUILD_TYPE Release CACHE STRING "" FORCE)
-endif()
-
 find_package(Threads REQUIRED)
 find_package(TBB REQUIRED CONFIG) # before OpenVDB, whose own FindTBB would define half of TBB's export set
 list(APPEND CMAKE_MODULE_PATH "/usr/lib/${CMAKE_LIBRARY_ARCHITECTURE}/cmake/OpenVDB") # Debian ships no OpenVDBConfig
@@ -25,7 +21,6 @@ find_package(TinyGLTF REQUIRED CONFIG)
 find_package(yaml-cpp REQUIRED CONFIG)
 find_package(CLI11 REQUIRED CONFIG)
 find_package(fmt REQUIRED CONFIG)
-find_package(spdlog REQUIRED CONFIG)
 find_package(nlohmann_json REQUIRED CONFIG)
 find_path(RANDOM123_INCLUDE_DIR Random123/philox.h REQUIRED)
 find_path(XXHASH_INCLUDE_DIR xxhash.h REQUIRED)

@@ -1,1 +1,16 @@
-# Installing comes with the first test of it.
+# `find_package(espalier)` from a tree outside this one: espalier::sim, ::rules, ::render, ::scenes.
+include(GNUInstallDirs)
+include(CMakePackageConfigHelpers)
+
+set(package_folder ${CMAKE_INSTALL_LIBDIR}/cmake/espalier)
+install(TARGETS espalier_flags espalier_sim espalier_rules espalier_render espalier_scenes espalier EXPORT espalier)
+foreach(room sim rules render scenes)
+  install(DIRECTORY ${room} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/espalier FILES_MATCHING PATTERN "*.h")
+endforeach()
+install(DIRECTORY rules/library DESTINATION ${CMAKE_INSTALL_DATADIR}/espalier/rules)
+install(DIRECTORY scenes/library scenes/meshes DESTINATION ${CMAKE_INSTALL_DATADIR}/espalier/scenes)
+install(EXPORT espalier NAMESPACE espalier:: DESTINATION ${package_folder} FILE espalierTargets.cmake)
+write_basic_package_version_file(${PROJECT_BINARY_DIR}/espalierConfigVersion.cmake COMPATIBILITY SameMinorVersion)
+install(FILES ${PROJECT_BINARY_DIR}/espalierConfigVersion.cmake cmake/espalierConfig.cmake
+              cmake/EspalierDependencies.cmake
+        DESTINATION ${package_folder})

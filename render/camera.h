@@ -10,8 +10,8 @@ struct Camera {
   double fov_deg = 40.0;  ///< vertical field of view; 0 < fov < 180
 };
 
-/// A camera made ready for an image of given shape: the unit direction through image point (x, y), both 0..1 from
-/// the upper left corner.
+/// A camera made ready for an image of given shape: the unit direction through image point (x, y), both 0..1
+/// from the upper left corner.
 class CameraRays {
  public:
   CameraRays(const Camera& camera, double aspect);

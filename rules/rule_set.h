@@ -8,8 +8,8 @@
 #include "rules/value.h"
 #include "sim/vec.h"
 
-/// Rule sets as plain values: what a rule file says. rules/registry.h describes every key (type, unit, default,
-/// range, meaning); the reader, the JSON Schema and the reference page are derived from it.
+/// Rule sets as plain values: what a rule file says. rules/registry.h describes every key (type, unit,
+/// default, range, meaning); the reader, the JSON Schema and the reference page are derived from it.
 namespace espalier::rules {
 
 inline constexpr double kNoLimit = std::numeric_limits<double>::infinity();
@@ -24,12 +24,12 @@ struct Length {
 /// Greene's random walk: each tip grows by its best trial, and nodes branch when they come of age.
 struct RandomTree {
   Length length{2.4};
-  int branch_age_min = 1;      ///< iterations before a node branches, drawn evenly from [min, max]
+  int branch_age_min = 1;  ///< iterations before a node branches, drawn evenly from [min, max]
   int branch_age_max = 3;
   Value branch_angle_deg = 60.0;
-  Value wander_deg = 35.0;     ///< a trial's direction lies within this angle of the way that the limb was going
-  int trials_min = 150;        ///< trials before the best one is taken
-  int trials_max = 300;        ///< trials before the tip gives up
+  Value wander_deg = 35.0;  ///< a trial's direction lies within this angle of the way that the limb was going
+  int trials_min = 150;     ///< trials before the best one is taken
+  int trials_max = 300;     ///< trials before the tip gives up
 };
 
 /// Each bends a trial's direction towards a vector by its weight: 0 not at all, 1 all the way.
@@ -59,7 +59,7 @@ struct Prefer {
 };
 
 struct Light {
-  double sun = 0.5;    ///< weights of the blend; they are normalized to a sum of 1
+  double sun = 0.5;  ///< weights of the blend; they are normalized to a sum of 1
   double sky = 0.5;
   double boost = 1.0;  ///< growth rate, leaf count and leaf size at full exposure over those at the minimum
 };
@@ -70,7 +70,7 @@ struct Element {
   Value per_segment = 1.0;  ///< expected number on a segment at the least exposure
   Value size = 1.0;         ///< scale of the polygons at the least exposure
   Value face = 0.7;         ///< how much the face turns from the stem's own way to the open and the sky, 0..1
-  sim::Colour colour{0.13f, 0.30f, 0.05f};  ///< linear RGB
+  sim::Colour colour{0.13f, 0.30f, 0.05f};       ///< linear RGB
   std::vector<std::vector<sim::Vec3>> polygons;  ///< corners, voxel widths (see sim::ElementShape)
 };
 
@@ -93,10 +93,10 @@ struct RuleSet {
   Prefer prefer;
   Light light;
   sim::Colour stem_colour{0.16f, 0.10f, 0.05f};  ///< linear RGB
-  double stem_radius_vx = 0.22;  ///< of a twig at its tip
+  double stem_radius_vx = 0.11;  ///< of a twig that does not fork
   std::vector<Element> elements;
-  std::map<std::string, RegionRule> regions;    ///< by region name
-  std::shared_ptr<const RuleSet> otherwise;     ///< tried where this one fails (Greene's secondary set)
+  std::map<std::string, RegionRule> regions;  ///< by region name
+  std::shared_ptr<const RuleSet> otherwise;   ///< tried where this one fails (Greene's secondary set)
 };
 
 }  // namespace espalier::rules

@@ -20,14 +20,20 @@ double along(const std::vector<Value::Point>& curve, double x) {
 
 double evaluate(const Value& value, const Circumstance& at, double draw) {
   switch (value.kind) {
-    case Value::Kind::constant: return value.low;
-    case Value::Kind::range: return value.low + (value.high - value.low) * draw;
-    case Value::Kind::curve: break;
+    case Value::Kind::constant:
+      return value.low;
+    case Value::Kind::range:
+      return value.low + (value.high - value.low) * draw;
+    case Value::Kind::curve:
+      break;
   }
   switch (value.over) {
-    case Over::exposure: return along(value.curve, at.exposure);
-    case Over::age: return along(value.curve, at.age);
-    case Over::height: return along(value.curve, at.height_m);
+    case Over::exposure:
+      return along(value.curve, at.exposure);
+    case Over::age:
+      return along(value.curve, at.age);
+    case Over::height:
+      return along(value.curve, at.height_m);
   }
   return value.low;
 }

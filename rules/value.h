@@ -6,8 +6,8 @@ namespace espalier::rules {
 /// What a curve's x axis stands for.
 enum class Over { exposure, age, height };
 
-/// A number of a rule: a constant, a range from which each use draws evenly, or a curve over a quantity of the
-/// node that uses it (piecewise linear, constant beyond its ends).
+/// A number of a rule: a constant, a range from which each use draws evenly, or a curve over a quantity of
+/// the node that uses it (piecewise linear, constant beyond its ends).
 struct Value {
   enum class Kind { constant, range, curve };
   struct Point {

@@ -4,16 +4,26 @@ namespace espalier::scenes {
 
 std::string_view nameOf(ImageKind kind) {
   switch (kind) {
-    case ImageKind::sun_exposure: return "sun_exposure";
-    case ImageKind::sky_exposure: return "sky_exposure";
-    case ImageKind::threshold: return "threshold";
-    case ImageKind::shadow_matte: return "shadow_matte";
-    case ImageKind::surface_colour: return "surface_colour";
-    case ImageKind::first_pass: return "first_pass";
-    case ImageKind::vines: return "vines";
-    case ImageKind::section: return "section";
-    case ImageKind::attempts: return "attempts";
-    case ImageKind::contact_sheet: return "contact_sheet";
+    case ImageKind::sun_exposure:
+      return "sun_exposure";
+    case ImageKind::sky_exposure:
+      return "sky_exposure";
+    case ImageKind::threshold:
+      return "threshold";
+    case ImageKind::shadow_matte:
+      return "shadow_matte";
+    case ImageKind::surface_colour:
+      return "surface_colour";
+    case ImageKind::first_pass:
+      return "first_pass";
+    case ImageKind::vines:
+      return "vines";
+    case ImageKind::section:
+      return "section";
+    case ImageKind::attempts:
+      return "attempts";
+    case ImageKind::contact_sheet:
+      return "contact_sheet";
   }
   return "";
 }

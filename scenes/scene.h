@@ -20,20 +20,20 @@ enum class RegionsFrom { group, material };
 
 /// A mesh, a polyline or points, to be tiled into the world.
 struct SceneMesh {
-  std::string name;                            ///< defaults to the file's stem
+  std::string name;  ///< defaults to the file's stem
   std::filesystem::path file;
   RegionsFrom regions_from = RegionsFrom::group;  ///< which names of the file become regions
-  bool solid = false;                          ///< fill the inside
-  bool optional = false;                       ///< a missing file skips the scene instead of being an error
+  bool solid = false;                             ///< fill the inside
+  bool optional = false;  ///< a missing file skips the scene instead of being an error
   double scale = 1.0;
-  sim::Vec3 rotate_deg{0.0};                   ///< about x, then y, then z
+  sim::Vec3 rotate_deg{0.0};  ///< about x, then y, then z
   sim::Vec3 translate_m{0.0};
-  std::optional<sim::Colour> colour;           ///< instead of the file's materials; linear RGB
+  std::optional<sim::Colour> colour;  ///< instead of the file's materials; linear RGB
 };
 
 struct WorldSpec {
-  std::optional<double> voxel_m;               ///< either this
-  std::optional<int> resolution;               ///< or the number of voxels along the longest side
+  std::optional<double> voxel_m;  ///< either this
+  std::optional<int> resolution;  ///< or the number of voxels along the longest side
   double margin_m = 0.0;
   std::optional<std::array<sim::Vec3, 2>> bounds_m;  ///< instead of the meshes' bounds plus margin
   int layers = 4;
@@ -48,10 +48,11 @@ struct SkySpec {
 
 /// Greene's sun: a half circle from horizon to horizon through a point `tilt` from the zenith.
 struct SunSpec {
-  double tilt_deg = 20.0;       ///< the arc's inclination from the vertical
-  double toward_deg = 180.0;    ///< the compass way to which it leans: 0 = -z (north), 90 = +x (east), 180 = +z
+  double tilt_deg = 20.0;     ///< the arc's inclination from the vertical
+  double toward_deg = 180.0;  ///< the compass way to which it leans: 0 = -z (north), 90 = +x (east), 180 = +z
   int samples = 48;
-  double shadow_hour = 15.0;    ///< time of day of the shadow matte: 6 sunrise .. 12 top of the arc .. 18 sunset
+  double shadow_hour =
+      15.0;  ///< time of day of the shadow matte: 6 sunrise .. 12 top of the arc .. 18 sunset
 };
 
 struct Scatter {
@@ -73,10 +74,15 @@ struct NamedCamera {
 };
 
 enum class ImageKind {
-  sun_exposure, sky_exposure, threshold, shadow_matte, surface_colour, first_pass,  // Greene's figure 6
-  vines,         // the plant itself, leaves and stems
-  section,       // a cut through the world with its boundary layers
-  attempts,      // every trial of a flat walk and the voxels taken, beside the skeleton
+  sun_exposure,
+  sky_exposure,
+  threshold,
+  shadow_matte,
+  surface_colour,
+  first_pass,  // Greene's figure 6
+  vines,       // the plant itself, leaves and stems
+  section,     // a cut through the world with its boundary layers
+  attempts,    // every trial of a flat walk and the voxels taken, beside the skeleton
   contact_sheet
 };
 
@@ -84,18 +90,18 @@ enum class ImageKind {
 std::string_view nameOf(ImageKind kind);
 
 struct ImageSpec {
-  std::string name;     ///< file name without an ending
+  std::string name;  ///< file name without an ending
   ImageKind kind = ImageKind::vines;
-  std::string camera;   ///< empty: the first one
+  std::string camera;  ///< empty: the first one
   std::string caption;
-  char axis = 'y';                ///< section: which way the cut looks
-  double at_m = 0.0;              ///< section: where the cut lies on that axis
-  std::vector<std::string> of;    ///< contact_sheet: names of the images on it, in order
+  char axis = 'y';              ///< section: which way the cut looks
+  double at_m = 0.0;            ///< section: where the cut lies on that axis
+  std::vector<std::string> of;  ///< contact_sheet: names of the images on it, in order
 };
 
 struct Scene {
   std::string name = "unnamed";
-  std::filesystem::path file;   ///< where it was read from
+  std::filesystem::path file;  ///< where it was read from
   std::vector<SceneMesh> meshes;
   WorldSpec world;
   SkySpec sky;

@@ -10,7 +10,8 @@ namespace espalier::sim {
 
 /// One bit a voxel: the packed occupancy that rays and sweeps read.
 /// Rows run along x, slices are xz-planes and y is slowest: a sky sweep goes down the slices one by one.
-/// Each row ends in a whole word of zeros, so that a read shifted by up to 63 voxels needs no bounds check.
+/// A whole word of zeros lies before and behind each row (and one more behind the last), so that a read
+/// shifted by up to 63 voxels either way needs no bounds check.
 class BitVolume {
  public:
   static constexpr int kWordBits = 64;
@@ -19,10 +20,11 @@ class BitVolume {
   explicit BitVolume(Voxel size)
       : size_(size),
         row_words_((size.x + kWordBits - 1) / kWordBits + 1),
-        words_(static_cast<std::size_t>(row_words_) * static_cast<std::size_t>(size.y) *
-               static_cast<std::size_t>(size.z)) {}
+        words_(2 + static_cast<std::size_t>(row_words_) * static_cast<std::size_t>(size.y) *
+                       static_cast<std::size_t>(size.z)) {}
 
   Voxel size() const { return size_; }
+  /// Words from one row to the next; the last of them is the zero word behind the row.
   int rowWords() const { return row_words_; }
 
   /// False outside the volume.
@@ -39,8 +41,9 @@ class BitVolume {
 
  private:
   std::size_t rowOffset(int y, int z) const {
-    return (static_cast<std::size_t>(y) * static_cast<std::size_t>(size_.z) + static_cast<std::size_t>(z)) *
-           static_cast<std::size_t>(row_words_);
+    return 1 +
+           (static_cast<std::size_t>(y) * static_cast<std::size_t>(size_.z) + static_cast<std::size_t>(z)) *
+               static_cast<std::size_t>(row_words_);
   }
 
   Voxel size_{0};

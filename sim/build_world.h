@@ -22,11 +22,12 @@ struct FillReport {
 };
 
 /// Tiles meshes into a new world, in parallel; the result does not depend on the thread count.
-/// A voxel that several triangles cross takes the part that covers most of it, the mean colour by area, and the
-/// area-weighted normal; meshes that come first keep their voxels. Triangles outside the frame are clipped away.
-/// Filling is robust: lines through each free voxel along several directions vote on inside or outside by parity
-/// of their crossings; a line that crosses the mesh an odd number of times in all has leaked and has no vote.
-/// Throws InputError if the world is too large for memory, naming the voxel size that would fit.
+/// A voxel that several triangles cross takes the part that covers most of it, the mean colour by area, and
+/// the area-weighted normal; meshes that come first keep their voxels. Triangles outside the frame are
+/// clipped away. Filling is robust: lines through each free voxel along several directions vote on inside or
+/// outside by parity of their crossings; a line that crosses the mesh an odd number of times in all has
+/// leaked and has no vote. Throws InputError if the world is too large for memory, naming the voxel size that
+/// would fit.
 World buildWorld(const Frame& frame, const std::vector<TiledMesh>& meshes, int layers,
                  std::vector<FillReport>* fills = nullptr);
 

@@ -4,7 +4,8 @@
 
 namespace espalier::sim {
 
-/// Something that the caller gave is wrong; the message says what, what was expected, and where if there is a place.
+/// Something that the caller gave is wrong; the message says what, what was expected, and where if there is a
+/// place.
 class InputError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;

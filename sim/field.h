@@ -16,7 +16,8 @@ struct ExposureField {
   std::vector<std::uint16_t> sums;  ///< x fastest, then z, then y
 
   std::size_t index(Voxel v) const {
-    return (static_cast<std::size_t>(v.y) * static_cast<std::size_t>(size.z) + static_cast<std::size_t>(v.z)) *
+    return (static_cast<std::size_t>(v.y) * static_cast<std::size_t>(size.z) +
+            static_cast<std::size_t>(v.z)) *
                static_cast<std::size_t>(size.x) +
            static_cast<std::size_t>(v.x);
   }

@@ -7,9 +7,9 @@
 namespace espalier::sim {
 
 struct RayHit {
-  Voxel voxel{0};     ///< the first occupied voxel
-  Voxel face{0};      ///< outward normal of the cube's face that was hit; zero if the ray began inside the voxel
-  double t = 0.0;     ///< distance along the unit direction, voxel widths
+  Voxel voxel{0};  ///< the first occupied voxel
+  Voxel face{0};   ///< outward normal of the cube's face that was hit; zero if the ray began inside the voxel
+  double t = 0.0;  ///< distance along the unit direction, voxel widths
 };
 
 /// Bricks of 8x8x8 voxels that hold anything at all: lets a ray cross empty space in large steps.
@@ -22,9 +22,10 @@ class Bricks {
   BitVolume bits_;
 };
 
-/// The first occupied voxel that a ray meets (Amanatides and Woo 1987, over bricks and then voxels). The origin may
-/// lie outside the world. `direction` must be of unit length. Where the ray passes exactly through an edge or a
-/// corner, x is crossed before y and y before z.
-std::optional<RayHit> firstHit(const BitVolume& occupied, const Bricks& bricks, Vec3 origin_vx, Vec3 direction);
+/// The first occupied voxel that a ray meets (Amanatides and Woo 1987, over bricks and then voxels). The
+/// origin may lie outside the world. `direction` must be of unit length. Where the ray passes exactly through
+/// an edge or a corner, x is crossed before y and y before z.
+std::optional<RayHit> firstHit(const BitVolume& occupied, const Bricks& bricks, Vec3 origin_vx,
+                               Vec3 direction);
 
 }  // namespace espalier::sim

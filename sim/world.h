@@ -29,15 +29,17 @@ struct Part {
 /// What an occupied voxel knows.
 struct Surface {
   PartId part = kFree;
-  Colour colour{0.0f};   ///< linear RGB
-  float coverage = 0.0f; ///< occupied fraction: area inside the voxel over a face's area, at most 1; 1 inside a solid
-  Vec3f normal{0.0f};    ///< unit, area-weighted, as the triangles are wound; zero where there is none (lines, solids)
+  Colour colour{0.0f};  ///< linear RGB
+  float coverage =
+      0.0f;  ///< occupied fraction: area inside the voxel over a face's area, at most 1; 1 inside a solid
+  Vec3f normal{
+      0.0f};  ///< unit, area-weighted, as the triangles are wound; zero where there is none (lines, solids)
 };
 
 /// What a free or occupied voxel within the boundary layers knows of the nearest scene object.
 struct Nearness {
-  int layer = 0;             ///< 0 on the object itself, k in boundary layer k (26-adjacency, so Chebyshev distance)
-  PartId part = kFree;       ///< the part of the nearest occupied voxel; among equally near ones the lowest number
+  int layer = 0;  ///< 0 on the object itself, k in boundary layer k (26-adjacency, so Chebyshev distance)
+  PartId part = kFree;  ///< the part of the nearest occupied voxel; among equally near ones the lowest number
   float distance_vx = 0.0f;  ///< between voxel centres, Euclidean
 };
 
@@ -57,7 +59,12 @@ class World {
   ~World();
 
   const Frame& frame() const { return frame_; }
+  /// What obstructs.
   const BitVolume& occupied() const { return occupied_; }
+  /// What takes light: all of the scene, and of the plants' voxels a share as large as their coverage. A leaf takes
+  /// up a whole voxel but shades a part of it; so of ten voxels that leaves cover by a third, three stop light.
+  /// Which ones follows from their place alone.
+  const BitVolume& opaque() const { return opaque_; }
   const std::vector<Part>& parts() const { return parts_; }
   const Part& part(PartId id) const { return parts_[static_cast<std::size_t>(id - 1)]; }
   int layers() const { return layers_; }
@@ -65,8 +72,8 @@ class World {
   std::uint64_t version() const { return version_; }
 
   PartId addPart(Part part);
-  /// Occupies voxels. One that is occupied already keeps what it has. Voxels outside the world are an error of
-  /// the caller (assert).
+  /// Occupies voxels. One that is occupied already keeps what it has. Voxels outside the world are an error
+  /// of the caller (assert).
   void occupy(std::span<const TiledVoxel> voxels);
   /// Finds for every voxel within `layers` of an occupied voxel its Nearness; replaces what was known before.
   void setLayers(int layers);
@@ -83,7 +90,7 @@ class World {
 
  private:
   Frame frame_;
-  BitVolume occupied_;
+  BitVolume occupied_, opaque_;
   std::vector<Part> parts_;
   int layers_ = 0;
   std::uint64_t version_ = 0;

@@ -1,0 +1,14 @@
+#pragma once
+#include <CLI/App.hpp>
+
+namespace espalier::cli {
+
+inline constexpr int kInputError = 2;  ///< exit status: something is wrong with what was given
+inline constexpr int kStopped = 130;   ///< exit status: Ctrl-C
+
+/// Each adds its subcommand; the status that its callback leaves in `exit_status` is the program's.
+void addGrow(CLI::App& app, int& exit_status);
+void addCheck(CLI::App& app, int& exit_status);
+void addSchema(CLI::App& app, int& exit_status);
+
+}  // namespace espalier::cli

@@ -1,0 +1,32 @@
+#pragma once
+#include <chrono>
+#include <string>
+
+#include "sim/grow.h"
+
+namespace espalier::cli {
+
+/// Says on standard error how far the work has come: a bar with the time left on a terminal, plain lines
+/// elsewhere, nothing when quiet.
+class Progress {
+ public:
+  explicit Progress(bool quiet);
+  ~Progress();
+  Progress(const Progress&) = delete;
+  Progress& operator=(const Progress&) = delete;
+
+  void stage(const std::string& name);
+  void growth(const sim::GrowthProgress& growth);
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  void line(const std::string& text);
+
+  bool quiet_;
+  bool terminal_;
+  bool open_line_ = false;
+  Clock::time_point stage_began_;
+  Clock::time_point last_line_;
+};
+
+}  // namespace espalier::cli

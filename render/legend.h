@@ -1,0 +1,31 @@
+#pragma once
+#include <string>
+#include <vector>
+
+#include "render/colour_map.h"
+#include "render/image.h"
+
+/// Legends drawn into the lower left corner of pictures of display values, on a translucent plate. Their size
+/// follows the picture's.
+namespace espalier::render {
+
+/// A bar of colours with ticks at 0, 0.25, 0.5, 0.75 and 1.
+struct BarLegend {
+  std::string title;  ///< what is shown: "sky exposure"
+  std::string note;   ///< how it was weighed: "fraction of the sky seen, solid-angle weighted"
+};
+void drawLegend(Image& image, const BarLegend& legend, const ColourMap& colours);
+
+struct Swatch {
+  sim::Colour colour;  ///< display values
+  std::string label;
+};
+/// Patches of colour with a label each.
+struct SwatchLegend {
+  std::string title;
+  std::string note;
+  std::vector<Swatch> swatches;
+};
+void drawLegend(Image& image, const SwatchLegend& legend);
+
+}  // namespace espalier::render

@@ -1,0 +1,29 @@
+#pragma once
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include <glm/vec2.hpp>
+
+#include "sim/vec.h"
+
+namespace espalier::render {
+
+/// A surface ready to be drawn or written out, in world metres. All per-vertex arrays have one length.
+/// Triangles are counter-clockwise seen from the side to which the normals point.
+struct ModelMesh {
+  std::string name;
+  sim::Colour base_colour{0.5f};  ///< linear RGB
+  std::vector<sim::Vec3f> positions_m;
+  std::vector<sim::Vec3f> normals;  ///< unit
+  std::vector<glm::vec2> uvs;
+  std::vector<float> exposures;       ///< 0..1, as the plant sensed it where it grew
+  std::vector<float> youths;          ///< 0 for what the first iteration placed .. 1 for the last
+  std::vector<std::uint32_t> pieces;  ///< number of the stem axis or of the placed element
+  std::vector<std::array<std::uint32_t, 3>> triangles;
+
+  bool empty() const { return triangles.empty(); }
+};
+
+}  // namespace espalier::render

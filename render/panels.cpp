@@ -1,0 +1,264 @@
+#include "render/panels.h"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "render/shadow.h"
+
+namespace espalier::render {
+namespace {
+
+using sim::Colour;
+using sim::Voxel;
+
+/// How bright faces of the six directions are drawn, so that a cube reads as a cube under any data.
+constexpr std::array<float, kSky> kFaceRelief = {0.74f, 0.74f, 0.58f, 1.0f, 0.86f, 0.86f};
+/// How much of that is left deep in a corner between cubes.
+constexpr float kCreaseRelief = 0.62f;
+
+template <typename Task>
+void forEachFragment(const Visibility& seen, Task task) {
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, seen.fragments.size(), 4096), [&](const auto& range) {
+    for (std::size_t i = range.begin(); i < range.end(); ++i)
+      if (seen.fragments[i].face != kSky) task(i, seen.fragments[i]);
+  });
+}
+
+/// The two directions within a face's plane, in the order of Fragment::at.
+std::array<Voxel, 2> inPlane(std::uint8_t face) {
+  std::array<Voxel, 2> axes{Voxel(0), Voxel(0)};
+  axes[0][(faceAxis(face) + 1) % 3] = 1;
+  axes[1][(faceAxis(face) + 2) % 3] = 1;
+  return axes;
+}
+
+/// The four voxels before a face that a point on it lies between, the one before the face itself first, with
+/// their bilinear shares.
+struct Around {
+  std::array<Voxel, 4> voxels;
+  std::array<float, 4> shares;
+};
+Around aroundPoint(const Fragment& f) {
+  const auto [u, v] = inPlane(f.face);
+  const Voxel front = f.voxel + kFaceNormals[f.face];
+  const Voxel du = f.at.x < 0 ? -u : u, dv = f.at.y < 0 ? -v : v;
+  const float a = std::min(std::abs(f.at.x), 0.5f), b = std::min(std::abs(f.at.y), 0.5f);
+  return {{front, front + du, front + dv, front + du + dv},
+          {(1 - a) * (1 - b), a * (1 - b), (1 - a) * b, a * b}};
+}
+
+float smoothed(const sim::ExposureField& field, const sim::BitVolume& occupied, const Fragment& f) {
+  const Around around = aroundPoint(f);
+  const bool u_free = !occupied.at(around.voxels[1]), v_free = !occupied.at(around.voxels[2]);
+  // Across a corner only where light can pass beside it.
+  const std::array<bool, 4> counts = {true, u_free, v_free,
+                                      (u_free || v_free) && !occupied.at(around.voxels[3])};
+  float sum = 0.0f, share = 0.0f;
+  for (std::size_t i = 0; i < 4; ++i) {
+    if (!counts[i]) continue;
+    sum += around.shares[i] * field.at(around.voxels[i]);
+    share += around.shares[i];
+  }
+  return sum / share;
+}
+
+/// The face's own brightness, darker towards cubes that stand before it.
+float relief(const sim::BitVolume& occupied, const Fragment& f) {
+  const auto [u, v] = inPlane(f.face);
+  const Voxel front = f.voxel + kFaceNormals[f.face];
+  const auto open = [&](int su, int sv) {
+    const bool side_u = occupied.at(front + su * u), side_v = occupied.at(front + sv * v);
+    const bool corner = occupied.at(front + su * u + sv * v);
+    return side_u && side_v ? 0.0f : 1.0f - static_cast<float>(side_u + side_v + corner) / 3.0f;
+  };
+  const float a = std::clamp(f.at.x + 0.5f, 0.0f, 1.0f), b = std::clamp(f.at.y + 0.5f, 0.0f, 1.0f);
+  const float near = (1 - a) * open(-1, -1) + a * open(1, -1), far = (1 - a) * open(-1, 1) + a * open(1, 1);
+  const float openness = (1 - b) * near + b * far;
+  return kFaceRelief[f.face] * (kCreaseRelief + (1 - kCreaseRelief) * openness);
+}
+
+float smoothStep(float low, float high, float value) {
+  const float t = std::clamp((value - low) / (high - low), 0.0f, 1.0f);
+  return t * t * (3 - 2 * t);
+}
+
+/// Of the threshold panel, linear.
+const Colour kAbove(0.98f, 0.66f, 0.24f), kBelow(0.055f, 0.075f, 0.12f);
+
+/// Neutral and calm, so that colours that mean something stand out.
+Colour neutralBackdrop(float down) {
+  return glm::mix(Colour(0.50f, 0.53f, 0.57f), Colour(0.72f, 0.72f, 0.71f), down);
+}
+
+/// Averages what the pixels see: `shade` gives linear colours by fragment, `backdrop` by direction and
+/// height.
+template <typename Shade, typename Backdrop>
+Image compose(const Visibility& seen, Shade shade, Backdrop backdrop) {
+  Image image(seen.width, seen.height, 3);
+  tbb::parallel_for(0, seen.height, [&](int y) {
+    for (int x = 0; x < seen.width; ++x) {
+      const std::size_t pixel =
+          static_cast<std::size_t>(y) * static_cast<std::size_t>(seen.width) + static_cast<std::size_t>(x);
+      Colour sum(0.0f);
+      float samples = 0.0f;
+      for (std::size_t i = seen.starts[pixel]; i < seen.starts[pixel + 1]; ++i) {
+        const Fragment& f = seen.fragments[i];
+        const float weight = static_cast<float>(f.samples);
+        sum += weight * (f.face == kSky ? backdrop(x, y) : shade(i));
+        samples += weight;
+      }
+      const Colour display = srgbFromLinear(sum / samples);
+      std::copy_n(&display.r, 3, image.at(x, y));
+    }
+  });
+  return image;
+}
+
+/// Averages values without any shading. Fields are divided by the pixel's share of the world, colours are
+/// not.
+template <int kValues, typename Values>
+Image measure(const Visibility& seen, bool divide, Values values) {
+  Image image(seen.width, seen.height, kValues + 1);
+  tbb::parallel_for(0, seen.height, [&](int y) {
+    for (int x = 0; x < seen.width; ++x) {
+      const std::size_t pixel =
+          static_cast<std::size_t>(y) * static_cast<std::size_t>(seen.width) + static_cast<std::size_t>(x);
+      std::array<float, kValues> sums{};
+      float samples = 0.0f, world = 0.0f;
+      for (std::size_t i = seen.starts[pixel]; i < seen.starts[pixel + 1]; ++i) {
+        const Fragment& f = seen.fragments[i];
+        const float weight = static_cast<float>(f.samples);
+        samples += weight;
+        if (f.face == kSky) continue;
+        world += weight;
+        const std::array<float, kValues> here = values(i);
+        for (std::size_t c = 0; c < kValues; ++c) sums[c] += weight * here[c];
+      }
+      float* out = image.at(x, y);
+      const float whole = divide ? std::max(world, 1.0f) : samples;
+      for (std::size_t c = 0; c < kValues; ++c) out[c] = sums[c] / whole;
+      out[kValues] = world / samples;
+    }
+  });
+  return image;
+}
+
+}  // namespace
+
+ThresholdColours thresholdColours() {
+  return {srgbFromLinear(kAbove), srgbFromLinear(kBelow)};
+}
+
+Colour skyColour(sim::Vec3 direction) {
+  const Colour ground(0.66f, 0.70f, 0.70f), horizon(0.84f, 0.89f, 0.92f), zenith(0.20f, 0.40f, 0.72f);
+  const float height = static_cast<float>(std::clamp(direction.y, -1.0, 1.0));
+  // Pale at the horizon, as haze makes it, and towards a quiet ground far below it.
+  return height >= 0.0f ? glm::mix(horizon, zenith, powf(height, 0.55f))
+                        : glm::mix(horizon, ground, powf(-height, 0.8f));
+}
+
+PanelPainter::PanelPainter(const Visibility& seen, const PanelWorld& world, PanelLook look,
+                           std::span<const Panel> panels)
+    : seen_(seen), look_(std::move(look)) {
+  const auto wanted = [&](std::initializer_list<Panel> any) {
+    return std::find_first_of(panels.begin(), panels.end(), any.begin(), any.end()) != panels.end();
+  };
+  const std::size_t count = seen.fragments.size();
+  const auto prepare = [&](auto& values, auto value) {
+    values.resize(count);
+    forEachFragment(seen, [&](std::size_t i, const Fragment& f) { values[i] = value(f); });
+  };
+  const auto prepareField = [&](const sim::ExposureField& field, std::vector<float>& pure,
+                                std::vector<float>& smooth) {
+    prepare(pure, [&](const Fragment& f) { return field.at(f.voxel + kFaceNormals[f.face]); });
+    prepare(smooth, [&](const Fragment& f) { return smoothed(field, world.occupied, f); });
+  };
+  prepare(relief_, [&](const Fragment& f) { return relief(world.occupied, f); });
+  if (wanted({Panel::sun_exposure, Panel::threshold})) prepareField(world.sun, pure_sun_, sun_);
+  if (wanted({Panel::sky_exposure, Panel::threshold, Panel::first_pass}))
+    prepareField(world.sky, pure_sky_, sky_);
+  if (wanted({Panel::shadow_matte, Panel::first_pass}))
+    lit_ = castShadows(seen, world.occupied, world.bricks, look_.to_sun);
+  if (wanted({Panel::surface_colour, Panel::first_pass}))
+    prepare(colour_, [&](const Fragment& f) { return world.colour(f.voxel); });
+}
+
+PanelPicture PanelPainter::paint(Panel panel) const {
+  const auto neutral = [&](int, int y) {
+    return neutralBackdrop(static_cast<float>(y) / static_cast<float>(seen_.height));
+  };
+  const auto sky = [&](int x, int y) {
+    return skyColour(seen_.rays.direction((x + 0.5) / seen_.width, (y + 0.5) / seen_.height));
+  };
+  const auto field = [&](const std::vector<float>& pure, const std::vector<float>& smooth,
+                         const std::string& map, const char* name) {
+    const ColourMap colours(map);
+    return PanelPicture{compose(
+                            seen_, [&](std::size_t i) { return relief_[i] * colours(smooth[i]); }, neutral),
+                        measure<1>(seen_, true, [&](std::size_t i) { return std::array{pure[i]}; }),
+                        {name, "coverage"}};
+  };
+  const auto exposure = [&](const std::vector<float>& sun, const std::vector<float>& skies, std::size_t i) {
+    return look_.blend_sun * sun[i] + look_.blend_sky * skies[i];
+  };
+  switch (panel) {
+    case Panel::sun_exposure:
+      return field(pure_sun_, sun_, look_.sun_map, "sun_exposure");
+    case Panel::sky_exposure:
+      return field(pure_sky_, sky_, look_.sky_map, "sky_exposure");
+    case Panel::threshold: {
+      const auto shade = [&](std::size_t i) {
+        const float above =
+            smoothStep(look_.threshold - 0.006f, look_.threshold + 0.006f, exposure(sun_, sky_, i));
+        return relief_[i] * (0.45f + 0.55f * sky_[i]) * glm::mix(kBelow, kAbove, above);
+      };
+      return {compose(seen_, shade, neutral),
+              measure<2>(seen_, true,
+                         [&](std::size_t i) {
+                           const float e = exposure(pure_sun_, pure_sky_, i);
+                           return std::array{e >= look_.threshold ? 1.0f : 0.0f, e};
+                         }),
+              {"above_threshold", "exposure", "coverage"}};
+    }
+    case Panel::shadow_matte: {
+      const auto shade = [&](std::size_t i) { return Colour(relief_[i] * glm::mix(0.035f, 0.88f, lit_[i])); };
+      return {compose(seen_, shade, neutral),
+              measure<1>(seen_, true, [&](std::size_t i) { return std::array{lit_[i]}; }),
+              {"shadow_matte", "coverage"}};
+    }
+    case Panel::surface_colour:
+      return {compose(
+                  seen_, [&](std::size_t i) { return relief_[i] * colour_[i]; }, sky),
+              measure<3>(seen_, false,
+                         [&](std::size_t i) {
+                           return std::array{colour_[i].r, colour_[i].g, colour_[i].b};
+                         }),
+              {"R", "G", "B", "A"}};
+    case Panel::first_pass:
+      break;
+  }
+  // Greene blends the shadow matte with sky_exposure to approximate the light and mats the surface's colour
+  // through it; the slant of a face towards the sun is added, without which lit faces of a cube all look
+  // alike.
+  const auto light = [&](std::size_t i) {
+    const float slant = static_cast<float>(
+        std::max(0.0, glm::dot(sim::Vec3(kFaceNormals[seen_.fragments[i].face]), look_.to_sun)));
+    return colour_[i] *
+           (sky_[i] * Colour(0.28f, 0.32f, 0.38f) + lit_[i] * slant * Colour(1.15f, 1.0f, 0.78f));
+  };
+  const auto shade = [&](std::size_t i) {
+    const Colour c = light(i);
+    return Colour(look_.tone(c.r), look_.tone(c.g), look_.tone(c.b));
+  };
+  return {compose(seen_, shade, sky),
+          measure<3>(seen_, false,
+                     [&](std::size_t i) {
+                       const Colour c = light(i);
+                       return std::array{c.r, c.g, c.b};
+                     }),
+          {"R", "G", "B", "A"}};
+}
+
+}  // namespace espalier::render

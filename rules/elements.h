@@ -1,0 +1,22 @@
+#pragma once
+#include <vector>
+
+#include "rules/rule_set.h"
+#include "rules/trial.h"
+#include "sim/rule.h"
+
+namespace espalier::rules {
+
+/// Tries to place elements on a new segment: the expected number grows with the light, as their size does
+/// (Greene's boost), and each is tried up to Element::trials times in random places and attitudes until one
+/// intersects nothing but its own segment. `first_shape` is the plant's number of the rule set's first
+/// element.
+std::vector<sim::ProposedElement> proposeElements(const sim::GrowthView& view, const RuleSet& rules,
+                                                  const Senses& senses, sim::Vec3 to_vx,
+                                                  const std::vector<sim::Voxel>& segment,
+                                                  std::int32_t first_shape, const sim::RandomKey& key);
+
+/// The shapes that a rule set's elements place, in their order.
+std::vector<sim::ElementShape> shapesOf(const RuleSet& rules);
+
+}  // namespace espalier::rules

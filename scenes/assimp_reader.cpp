@@ -1,0 +1,152 @@
+#include "scenes/assimp_reader.h"
+
+#include <assimp/BaseImporter.h>
+#include <assimp/postprocess.h>
+#include <assimp/scene.h>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <assimp/Importer.hpp>
+#include <cctype>
+#include <cmath>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "scenes/assimp_scene.h"
+#include "scenes/mesh_checks.h"
+#include "scenes/mesh_folder_io.h"
+#include "sim/error.h"
+
+namespace espalier::scenes {
+namespace {
+
+constexpr unsigned kMostCorners = 4096;  // triangulation takes time by the square
+
+enum class Format { obj, gltf, ply, stl };
+
+Format formatOf(const std::filesystem::path& file) {
+  std::string ending = file.extension().string();
+  std::transform(ending.begin(), ending.end(), ending.begin(),
+                 [](unsigned char c) { return std::tolower(c); });
+  if (ending == ".obj") return Format::obj;
+  if (ending == ".gltf" || ending == ".glb") return Format::gltf;
+  if (ending == ".ply") return Format::ply;
+  if (ending == ".stl") return Format::stl;
+  throw sim::InputError(
+      fmt::format("'{}' is not a mesh format that can be read: use .obj, .gltf, .glb, .ply or .stl", ending));
+}
+
+/// Leaves one reader: hostile text must not be tried as any of the fifty other formats that Assimp knows.
+void keepOnlyReaderOf(Assimp::Importer& importer, Format format) {
+  static constexpr std::array<std::string_view, 4> kNames{"Wavefront Object Importer", "glTF2 Importer",
+                                                          "Stanford Polygon Library (PLY) Importer",
+                                                          "Stereolithography (STL) Importer"};
+  for (std::size_t i = importer.GetImporterCount(); i-- > 0;) {
+    if (kNames[static_cast<std::size_t>(format)] == importer.GetImporterInfo(i)->mName) continue;
+    Assimp::BaseImporter* const other = importer.GetImporter(i);
+    importer.UnregisterLoader(other);
+    delete other;  // unregistering hands it over
+  }
+  if (importer.GetImporterCount() != 1)
+    throw sim::InputError("this build of Assimp has no reader for this format");
+}
+
+struct FaceCounts {
+  std::uint64_t vertices = 0;
+  std::uint64_t faces = 0;
+  std::uint64_t triangles = 0;  ///< that the faces give
+};
+
+FaceCounts countFaces(const std::vector<MeshInstance>& instances) {
+  FaceCounts counts;
+  for (const auto& instance : instances) {
+    counts.vertices += instance.mesh->mNumVertices;
+    for (unsigned f = 0; f < instance.mesh->mNumFaces; ++f) {
+      const unsigned corners = instance.mesh->mFaces[f].mNumIndices;
+      ++counts.faces;
+      counts.triangles += corners < 3 ? 0 : corners - 2;
+    }
+  }
+  return counts;
+}
+
+/// What triangulation must be able to rely on: it reads a polygon's vertices without a look at their indices.
+void requireSound(const aiMesh& mesh) {
+  for (unsigned v = 0; v < mesh.mNumVertices; ++v) {
+    const auto& p = mesh.mVertices[v];
+    if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z)) {
+      throw sim::InputError(fmt::format("vertex {} of '{}' is not a finite number ({}, {}, {})", v,
+                                        mesh.mName.C_Str(), p.x, p.y, p.z));
+    }
+  }
+  for (unsigned f = 0; f < mesh.mNumFaces; ++f) {
+    const aiFace& face = mesh.mFaces[f];
+    if (face.mNumIndices > kMostCorners) {
+      throw sim::InputError(fmt::format("a polygon has {} corners, more than {}; split it into triangles",
+                                        face.mNumIndices, kMostCorners));
+    }
+    for (unsigned c = 0; c < face.mNumIndices; ++c) {
+      if (face.mIndices[c] >= mesh.mNumVertices) {
+        throw sim::InputError(fmt::format("face {} asks for vertex {} (counted from 0), but there are {}", f,
+                                          face.mIndices[c], mesh.mNumVertices));
+      }
+    }
+  }
+}
+
+void requireDeclared(const DeclaredCounts& declared, const FaceCounts& read, Format format) {
+  const auto faces = format == Format::gltf ? read.triangles : read.faces;
+  if (declared.vertices.value_or(read.vertices) != read.vertices || declared.faces.value_or(faces) != faces) {
+    throw sim::InputError(fmt::format(
+        "the file promises {} vertices and {} faces, but {} and {} could be read: it is cut, or faces "
+        "ask for vertices that are not there",
+        declared.vertices.value_or(read.vertices), declared.faces.value_or(faces), read.vertices, faces));
+  }
+}
+
+[[noreturn]] void failWith(const char* assimps_words) {
+  const std::string_view words(assimps_words);
+  if (words.find("alloc") != std::string_view::npos) throw std::bad_alloc();
+  throw sim::InputError(fmt::format("cannot be read: {}", words.empty() ? "Assimp gives no reason" : words));
+}
+
+}  // namespace
+
+void requireMeshFormat(const std::filesystem::path& file) {
+  formatOf(file);
+}
+
+sim::Mesh readWithAssimp(const std::filesystem::path& file, RegionsFrom regions_from) {
+  const Format format = formatOf(file);
+  DeclaredCounts declared;
+  if (format == Format::ply) declared = checkPly(file);
+  if (format == Format::gltf) declared = checkGltf(file);
+
+  Assimp::Importer importer;
+  keepOnlyReaderOf(importer, format);
+  const auto real = std::filesystem::canonical(file);
+  auto* io = new MeshFolderIo(real.parent_path());  // the importer owns it
+  importer.SetIOHandler(io);
+  // By its name alone, so that everything that the file asks for comes to the handler as a name in its
+  // folder.
+  const aiScene* scene = importer.ReadFile(real.filename().string(), 0);
+  if (!io->refused().empty()) {
+    throw sim::InputError(fmt::format("it asks for the file '{}', which is not a regular file in its folder",
+                                      io->refused().front()));
+  }
+  if (scene == nullptr || scene->mRootNode == nullptr) failWith(importer.GetErrorString());
+  for (unsigned m = 0; m < scene->mNumMeshes; ++m) requireSound(*scene->mMeshes[m]);
+  const FaceCounts counts = countFaces(instancesOf(*scene));
+  requireDeclared(declared, counts, format);
+
+  scene = importer.ApplyPostProcessing(aiProcess_Triangulate);
+  if (scene == nullptr) failWith(importer.GetErrorString());
+  sim::Mesh mesh =
+      meshOf(*scene, instancesOf(*scene), regions_from, file.stem().string(), format == Format::gltf);
+  mesh.degenerate_dropped = counts.triangles - mesh.triangles.size();
+  return mesh;
+}
+
+}  // namespace espalier::scenes

@@ -1,0 +1,175 @@
+#include "scenes/assimp_scene.h"
+
+#include <assimp/scene.h>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <string_view>
+
+#include "sim/error.h"
+
+namespace espalier::scenes {
+namespace {
+
+/// The names that Assimp makes up where a file gives none.
+bool isMadeUp(std::string_view name) {
+  const auto numbered = [&](std::string_view stem) {
+    return name.starts_with(stem) &&
+           name.find_first_not_of("0123456789", stem.size()) == std::string_view::npos;
+  };
+  return name.empty() || name == "defaultobject" || name == AI_DEFAULT_MATERIAL_NAME ||
+         (name.front() == '<' && name.back() == '>') || numbered("nodes_") || numbered("meshes_");
+}
+
+/// The name as valid UTF-8 without control characters, or nothing where Assimp made it up.
+std::string nameIn(const aiString& raw) {
+  const std::string_view text(raw.data, std::min<std::size_t>(raw.length, MAXLEN - 1));
+  const auto quoted = nlohmann::json(text).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+  auto name = nlohmann::json::parse(quoted).get<std::string>();
+  std::replace_if(
+      name.begin(), name.end(), [](unsigned char c) { return c < ' ' || c == 0x7f; }, ' ');
+  const auto first = name.find_first_not_of(' ');
+  if (first == std::string::npos) return {};
+  name = name.substr(first, name.find_last_not_of(' ') + 1 - first);
+  return isMadeUp(name) ? std::string() : name;
+}
+
+/// A display value as linear light (IEC 61966-2-1).
+float linearFromSrgb(float v) {
+  return v <= 0.04045f ? v / 12.92f : std::pow((v + 0.055f) / 1.055f, 2.4f);
+}
+
+sim::Material materialOf(const aiMaterial& from, const std::string& stem, bool is_gltf) {
+  sim::Material material;
+  material.name = stem;
+  aiString name;
+  if (from.Get(AI_MATKEY_NAME, name) == AI_SUCCESS) {
+    if (name == aiString(AI_DEFAULT_MATERIAL_NAME)) return material;  // Assimp's own, where the file has none
+    const std::string given = nameIn(name);
+    if (!given.empty()) material.name = given;
+  }
+  aiColor4D found;
+  const bool has_colour = (is_gltf ? from.Get(AI_MATKEY_BASE_COLOR, found)
+                                   : from.Get(AI_MATKEY_COLOR_DIFFUSE, found)) == AI_SUCCESS;
+  if (!has_colour) return material;
+  for (int c = 0; c < 3; ++c) {
+    const float value = found[static_cast<unsigned>(c)];
+    if (!std::isfinite(value)) {
+      throw sim::InputError(fmt::format("the colour of material '{}' is not a finite number", material.name));
+    }
+    const float clamped = std::clamp(value, 0.0f, 1.0f);
+    material.colour[c] = is_gltf ? clamped : linearFromSrgb(clamped);
+  }
+  return material;
+}
+
+glm::dmat4 matrixOf(const aiMatrix4x4& m) {
+  return {
+      {m.a1, m.b1, m.c1, m.d1}, {m.a2, m.b2, m.c2, m.d2}, {m.a3, m.b3, m.c3, m.d3}, {m.a4, m.b4, m.c4, m.d4}};
+}
+
+std::string groupOf(const aiNode& node, const aiMesh& mesh) {
+  std::string name = nameIn(node.mName);
+  if (!name.empty()) return name;
+  name = nameIn(mesh.mName);
+  // Assimp splits a glTF mesh by its primitives and numbers them: wall-0, wall-1.
+  if (node.mNumMeshes > 1) name.resize(std::min(name.size(), name.find_last_of('-')));
+  return name;
+}
+
+class MeshBuilder {
+ public:
+  explicit MeshBuilder(const std::string& stem) { mesh_.name = stem; }
+
+  void add(const MeshInstance& instance, const std::string& region_name, const sim::Material& material) {
+    const auto& from = *instance.mesh;
+    const auto base = static_cast<std::uint32_t>(mesh_.vertices_m.size());
+    for (unsigned v = 0; v < from.mNumVertices; ++v) {
+      const auto& p = from.mVertices[v];
+      mesh_.vertices_m.emplace_back(instance.world_from_mesh * glm::dvec4(p.x, p.y, p.z, 1.0));
+    }
+    for (unsigned f = 0; f < from.mNumFaces; ++f) {
+      const aiFace& face = from.mFaces[f];
+      if (face.mNumIndices != 3) continue;  // points and lines
+      mesh_.triangles.push_back({base + face.mIndices[0], base + face.mIndices[1], base + face.mIndices[2]});
+      mesh_.region.push_back(regionIndex(region_name));
+      mesh_.material.push_back(materialIndex(from.mMaterialIndex, material));
+    }
+  }
+
+  sim::Mesh take() { return std::move(mesh_); }
+
+ private:
+  std::uint32_t regionIndex(const std::string& name) {
+    const auto [at, is_new] =
+        region_index_.try_emplace(name, static_cast<std::uint32_t>(mesh_.regions.size()));
+    if (is_new) mesh_.regions.push_back(name);
+    return at->second;
+  }
+  std::uint32_t materialIndex(unsigned index_in_file, const sim::Material& material) {
+    const auto [at, is_new] =
+        material_index_.try_emplace(index_in_file, static_cast<std::uint32_t>(mesh_.materials.size()));
+    if (is_new) mesh_.materials.push_back(material);
+    return at->second;
+  }
+
+  std::map<std::string, std::uint32_t> region_index_;
+  std::map<unsigned, std::uint32_t> material_index_;
+  sim::Mesh mesh_;
+};
+
+}  // namespace
+
+std::vector<MeshInstance> instancesOf(const aiScene& scene) {
+  struct Open {
+    const aiNode* node;
+    glm::dmat4 world_from_parent;
+  };
+  std::vector<MeshInstance> instances;
+  std::vector<Open> open{{scene.mRootNode, glm::dmat4(1.0)}};
+  std::size_t triangles = 0;
+  while (!open.empty()) {
+    const Open next = open.back();
+    open.pop_back();
+    const glm::dmat4 world_from_mesh = next.world_from_parent * matrixOf(next.node->mTransformation);
+    for (unsigned i = 0; i < next.node->mNumMeshes; ++i) {
+      const aiMesh* mesh = scene.mMeshes[next.node->mMeshes[i]];
+      triangles += mesh->mNumFaces;
+      if (triangles > kMostTriangles) {
+        throw sim::InputError(
+            fmt::format("more than {} triangles; make the mesh simpler first", kMostTriangles));
+      }
+      instances.push_back({world_from_mesh, mesh, groupOf(*next.node, *mesh)});
+    }
+    for (unsigned i = next.node->mNumChildren; i-- > 0;)
+      open.push_back({next.node->mChildren[i], world_from_mesh});
+  }
+  return instances;
+}
+
+sim::Mesh meshOf(const aiScene& scene, const std::vector<MeshInstance>& instances, RegionsFrom regions_from,
+                 const std::string& stem, bool is_gltf) {
+  std::vector<sim::Material> materials;
+  for (unsigned i = 0; i < scene.mNumMaterials; ++i) {
+    // Behind a glTF file's own materials Assimp puts one more for primitives that have none.
+    const bool is_default = is_gltf && i + 1 == scene.mNumMaterials;
+    materials.push_back(is_default ? sim::Material{.name = stem}
+                                   : materialOf(*scene.mMaterials[i], stem, is_gltf));
+  }
+  const bool has_groups =
+      std::any_of(instances.begin(), instances.end(), [](const MeshInstance& i) { return !i.group.empty(); });
+  const bool by_group = regions_from == RegionsFrom::group && has_groups;
+  MeshBuilder builder(stem);
+  for (const auto& instance : instances) {
+    const auto& material = materials.at(instance.mesh->mMaterialIndex);
+    const std::string& region = by_group ? instance.group : material.name;
+    builder.add(instance, region.empty() ? stem : region, material);
+  }
+  return builder.take();
+}
+
+}  // namespace espalier::scenes

@@ -1,0 +1,41 @@
+#pragma once
+#include <memory>
+#include <stdexcept>
+#include <vector>
+
+#include "scenes/scene.h"
+#include "sim/build_world.h"
+#include "sim/directions.h"
+#include "sim/grow.h"
+#include "sim/rule.h"
+#include "sim/world.h"
+
+namespace espalier::scenes {
+
+/// A mesh that the scene calls optional is not there.
+class MeshMissing : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+/// A scene made ready to grow: its meshes read and tiled, its plants' rules and seeds in voxel space.
+struct Job {
+  Scene scene;
+  std::vector<sim::TiledMesh> meshes;
+  std::vector<sim::FillReport> fills;
+  sim::World world;
+  std::vector<std::unique_ptr<const sim::Rule>> rules;
+  std::vector<sim::Planting> plantings;
+  sim::DirectionSet sky, sun;
+};
+
+/// Throws sim::InputError, naming the scene's file where the fault is the scene's; MeshMissing.
+Job prepareJob(Scene scene);
+
+/// Settings that the scene gives; the caller adds progress and stop.
+sim::GrowthSettings growthSettings(const Job& job);
+
+/// Greene's sun of a scene.
+sim::SunArc sunArc(const SunSpec& spec);
+
+}  // namespace espalier::scenes

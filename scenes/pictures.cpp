@@ -1,0 +1,277 @@
+#include "scenes/pictures.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+#include <memory>
+#include <optional>
+
+#include "render/attempts.h"
+#include "render/contact_sheet.h"
+#include "render/finished_picture.h"
+#include "render/image_io.h"
+#include "render/legend.h"
+#include "render/panels.h"
+#include "render/section.h"
+#include "render/visibility.h"
+#include "sim/error.h"
+#include "sim/ray.h"
+
+namespace espalier::scenes {
+namespace {
+
+using render::Image;
+using render::Panel;
+
+std::optional<Panel> panelOf(ImageKind kind) {
+  switch (kind) {
+    case ImageKind::sun_exposure:
+      return Panel::sun_exposure;
+    case ImageKind::sky_exposure:
+      return Panel::sky_exposure;
+    case ImageKind::threshold:
+      return Panel::threshold;
+    case ImageKind::shadow_matte:
+      return Panel::shadow_matte;
+    case ImageKind::surface_colour:
+      return Panel::surface_colour;
+    case ImageKind::first_pass:
+      return Panel::first_pass;
+    default:
+      return std::nullopt;
+  }
+}
+
+std::string weightingOf(const Scene& scene) {
+  return scene.sky.weighting == SkyWeighting::cosine ? "cosine-weighted" : "solid-angle weighted";
+}
+
+const render::Camera& cameraOf(const Scene& scene, const ImageSpec& image) {
+  for (const NamedCamera& camera : scene.cameras) {
+    if (image.camera.empty() || camera.name == image.camera) return camera.camera;
+  }
+  throw sim::InputError(fmt::format("{}: image '{}' needs a camera", scene.file.string(), image.name));
+}
+
+/// The cameras' views and the painters of their panels, each made once.
+class Studio {
+ public:
+  explicit Studio(const Finished& finished);
+  render::PanelPicture paint(const ImageSpec& image, Panel panel);
+  void label(Image& picture, Panel panel) const;
+  Image vines(const ImageSpec& image) const;
+
+ private:
+  struct View {
+    View(render::Visibility visible, const render::PanelWorld& world, const render::PanelLook& look,
+         const std::vector<Panel>& panels)
+        : seen(std::move(visible)), painter(seen, world, look, panels) {}
+    render::Visibility seen;
+    render::PanelPainter painter;
+  };
+
+  const Finished& finished_;
+  const Scene& scene_;
+  sim::Bricks bricks_;
+  render::PanelWorld world_;
+  render::PanelLook look_;
+  std::map<std::string, std::unique_ptr<View>> views_;  // by camera
+};
+
+Studio::Studio(const Finished& finished)
+    : finished_(finished),
+      scene_(finished.job.scene),
+      bricks_(finished.job.world.occupied()),
+      world_{finished.job.world.occupied(), bricks_, finished.sun, finished.sky,
+             [&world = finished.job.world](sim::Voxel v) {
+               const auto surface = world.surfaceAt(v);
+               return surface ? surface->colour : sim::Colour(0.0f);
+             }} {
+  if (!scene_.plants.empty()) {
+    const rules::RuleSet& rules = *scene_.plants.front().rules;
+    const double sum = rules.light.sun + rules.light.sky;
+    look_.blend_sun = static_cast<float>(rules.light.sun / sum);
+    look_.blend_sky = static_cast<float>(rules.light.sky / sum);
+    look_.threshold = static_cast<float>(rules.require.exposure_min);
+  }
+  look_.to_sun = sim::sunDirection(sunArc(scene_.sun), scene_.sun.shadow_hour);
+}
+
+render::PanelPicture Studio::paint(const ImageSpec& image, Panel panel) {
+  auto& view = views_[image.camera];
+  if (!view) {
+    std::vector<Panel> panels;
+    for (const ImageSpec& other : scene_.images) {
+      const auto wanted = panelOf(other.kind);
+      if (wanted && other.camera == image.camera) panels.push_back(*wanted);
+    }
+    view = std::make_unique<View>(
+        render::see(finished_.job.world.frame(), finished_.job.world.occupied(), bricks_, cameraOf(scene_, image),
+                    scene_.image_width, scene_.image_height),
+        world_, look_, panels);
+  }
+  return view->painter.paint(panel);
+}
+
+void Studio::label(Image& picture, Panel panel) const {
+  switch (panel) {
+    case Panel::sun_exposure:
+      render::drawLegend(picture, render::BarLegend{"sun exposure", "fraction of the sun's arc in sight"},
+                         render::ColourMap(look_.sun_map));
+      break;
+    case Panel::sky_exposure:
+      render::drawLegend(
+          picture, render::BarLegend{"sky exposure", "fraction of the sky in sight, " + weightingOf(scene_)},
+          render::ColourMap(look_.sky_map));
+      break;
+    default:
+      break;
+  }
+}
+
+Image Studio::vines(const ImageSpec& image) const {
+  render::FinishedScene scene;
+  for (const auto& tiled : finished_.job.meshes) scene.model.meshes.push_back(&tiled.mesh);
+  for (const auto& model : finished_.models) scene.model.plants.push_back(&model);
+  scene.frame = finished_.job.world.frame();
+  scene.occupied = &finished_.job.world.occupied();
+  scene.sky = &finished_.sky;
+  scene.to_sun = look_.to_sun;
+  Image picture =
+      render::finishedPicture(scene, cameraOf(scene_, image), scene_.image_width, scene_.image_height);
+  for (std::size_t i = 0; i + 2 < picture.pixels.size(); i += 3) {
+    const sim::Colour display =
+        look_.tone(sim::Colour(picture.pixels[i], picture.pixels[i + 1], picture.pixels[i + 2]));
+    for (std::size_t c = 0; c < 3; ++c) picture.pixels[i + c] = display[static_cast<int>(c)];
+  }
+  return picture;
+}
+
+/// A cut's picture axes in the world: along which the picture runs across and up.
+std::pair<int, int> picturePlane(int axis) {
+  switch (axis) {
+    case 0:
+      return {2, 1};
+    case 1:
+      return {0, 2};
+    default:
+      return {0, 1};
+  }
+}
+
+Image section(const sim::World& world, const ImageSpec& image) {
+  const int axis = image.axis - 'x';
+  const auto [across, up] = picturePlane(axis);
+  const sim::Frame& frame = world.frame();
+  sim::Vec3 point_m = frame.origin_m;
+  point_m[axis] = image.at_m;
+  const int at = sim::voxelAt(sim::voxelFromWorld(frame, point_m))[axis];
+  if (at < 0 || at >= frame.size[axis]) {
+    throw sim::InputError(
+        fmt::format("image '{}': a cut at {} = {} m misses the world", image.name, image.axis, image.at_m));
+  }
+  render::SectionLook look;
+  look.size = {frame.size[across], frame.size[up]};
+  look.layers = world.layers();
+  if (!image.caption.empty()) look.title = image.caption;
+  return render::drawSection(
+      [&, across = across, up = up](glm::ivec2 p) {
+        sim::Voxel v(0);
+        v[axis] = at;
+        v[across] = p.x;
+        v[up] = p.y;
+        render::Cut cut;
+        if (const auto surface = world.surfaceAt(v)) {
+          cut.occupied = true;
+          cut.colour = surface->colour;
+        } else if (const auto nearness = world.nearnessAt(v)) {
+          cut.layer = nearness->layer;
+        }
+        return cut;
+      },
+      look);
+}
+
+/// Greene's figure 2 looks along the axis on which the world is flat; a world that is not flat is seen along
+/// z.
+Image attempts(const Finished& finished) {
+  const sim::Voxel size = finished.job.world.frame().size;
+  const int axis = size.x == 1 ? 0 : size.y == 1 ? 1 : 2;
+  const auto [across, up] = picturePlane(axis);
+  std::vector<render::Attempt> drawn;
+  for (const sim::Attempt& a : finished.growth.attempts) {
+    drawn.push_back({{a.from_vx[across], a.from_vx[up]}, {a.to_vx[across], a.to_vx[up]}, a.taken});
+  }
+  std::vector<glm::ivec2> occupied;
+  for (const sim::TiledVoxel& tiled : finished.job.world.surfaces()) {
+    occupied.emplace_back(tiled.voxel[across], tiled.voxel[up]);
+  }
+  render::AttemptsLook look;
+  look.size = {size[across], size[up]};
+  return render::drawAttempts(drawn, occupied, look);
+}
+
+OutputFile png(const std::string& name, std::shared_ptr<const Image> picture, render::Metadata metadata) {
+  return {name + ".png", [picture, metadata] { return render::encodePng(*picture, metadata); }};
+}
+
+Image contactSheet(const Scene& scene, const ImageSpec& sheet,
+                   const std::map<std::string, std::shared_ptr<const Image>>& pictures) {
+  std::vector<render::Captioned> captioned;
+  for (const std::string& name : sheet.of) {
+    const auto spec = std::find_if(scene.images.begin(), scene.images.end(),
+                                   [&](const ImageSpec& image) { return image.name == name; });
+    captioned.push_back({pictures.at(name).get(), std::string(1, static_cast<char>('A' + captioned.size())),
+                         spec->caption.empty() ? name : spec->caption});
+  }
+  render::SheetLook look;
+  look.columns = captioned.size() <= 4 ? static_cast<int>(captioned.size()) : 3;
+  look.title = sheet.caption.empty() ? scene.name : sheet.caption;
+  return render::contactSheet(captioned, look);
+}
+
+}  // namespace
+
+std::vector<OutputFile> drawPictures(const Finished& finished) {
+  const Scene& scene = finished.job.scene;
+  Studio studio(finished);
+  std::vector<OutputFile> files;
+  std::map<std::string, std::shared_ptr<const Image>> pictures;  // without legends, for the contact sheets
+  const auto keep = [&](const ImageSpec& image, Image picture) {
+    const auto kept = std::make_shared<const Image>(std::move(picture));
+    pictures[image.name] = kept;
+    return kept;
+  };
+  const auto metadata = [&](const ImageSpec& image) {
+    return render::Metadata{{"Title", scene.name + ": " + image.name}, {"espalier:sky", weightingOf(scene)}};
+  };
+  for (const ImageSpec& image : scene.images) {
+    if (const auto panel = panelOf(image.kind)) {
+      render::PanelPicture painted = studio.paint(image, *panel);
+      auto display = std::make_shared<Image>(painted.display);
+      studio.label(*display, *panel);
+      keep(image, std::move(painted.display));
+      files.push_back(png(image.name, display, metadata(image)));
+      const auto measured = std::make_shared<const Image>(std::move(painted.measured));
+      files.push_back(
+          {image.name + ".exr", [measured, channels = painted.channel_names, about = metadata(image)] {
+             return render::encodeExr(*measured, channels, about);
+           }});
+    } else if (image.kind == ImageKind::vines) {
+      files.push_back(png(image.name, keep(image, studio.vines(image)), metadata(image)));
+    } else if (image.kind == ImageKind::section) {
+      files.push_back(png(image.name, keep(image, section(finished.job.world, image)), metadata(image)));
+    } else if (image.kind == ImageKind::attempts) {
+      files.push_back(png(image.name, keep(image, attempts(finished)), metadata(image)));
+    }
+  }
+  for (const ImageSpec& image : scene.images) {
+    if (image.kind != ImageKind::contact_sheet) continue;
+    const auto sheet = std::make_shared<const Image>(contactSheet(scene, image, pictures));
+    files.push_back(png(image.name, sheet, metadata(image)));
+  }
+  return files;
+}
+
+}  // namespace espalier::scenes

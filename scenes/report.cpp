@@ -1,0 +1,64 @@
+#include "scenes/report.h"
+
+#include <fmt/format.h>
+#include <sys/resource.h>
+
+#include <nlohmann/json.hpp>
+
+namespace espalier::scenes {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json outcomes(const sim::OutcomeCounts& counts) {
+  Json json = Json::object();
+  for (std::size_t i = 0; i < counts.size(); ++i) {
+    json[std::string(sim::nameOf(static_cast<sim::Outcome>(i)))] = counts[i];
+  }
+  return json;
+}
+
+}  // namespace
+
+std::uint64_t peakMemoryBytes() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  return static_cast<std::uint64_t>(usage.ru_maxrss) * 1024u;
+}
+
+std::string toJson(const Report& report) {
+  Json json;
+  json["scene"] = report.scene;
+  const sim::Frame& frame = report.frame;
+  json["world"] = {{"size", {frame.size.x, frame.size.y, frame.size.z}},
+                   {"voxel_m", frame.voxel_m},
+                   {"origin_m", {frame.origin_m.x, frame.origin_m.y, frame.origin_m.z}},
+                   {"scene_voxels", report.scene_voxels},
+                   {"occupied_voxels", report.occupied_voxels},
+                   {"degenerate_triangles_dropped", report.degenerate_triangles}};
+  Json fills = Json::array();
+  for (const auto& fill : report.fills) {
+    fills.push_back(
+        {{"object", fill.object}, {"filled_voxels", fill.filled}, {"doubtful_voxels", fill.doubtful}});
+  }
+  json["world"]["fills"] = fills;
+  Json plants = Json::array();
+  for (const auto& [name, counts] : report.plants) {
+    plants.push_back({{"name", name}, {"segments", counts[0]}, {"elements", counts[1]}});
+  }
+  json["growth"] = {{"iterations", report.iterations},
+                    {"state_hash", fmt::format("{:016x}", report.state_hash)},
+                    {"buds", outcomes(report.buds)},
+                    {"trials", outcomes(report.trials)},
+                    {"plants", plants}};
+  json["files"] = report.files;
+  Json stages = Json::object();
+  for (const auto& [stage, seconds] : report.run.stages_s) stages[stage] = seconds;
+  json["run"] = {{"stages_s", stages},
+                 {"total_s", report.run.total_s},
+                 {"peak_memory_bytes", report.run.peak_memory_bytes},
+                 {"threads", report.run.threads}};
+  return json.dump(2) + "\n";
+}
+
+}  // namespace espalier::scenes

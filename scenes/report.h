@@ -1,0 +1,40 @@
+#pragma once
+#include <cstdint>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "scenes/job.h"
+#include "sim/grow.h"
+
+namespace espalier::scenes {
+
+/// What a run says of itself: report.json. All but `run` is the same for the same scene, rules and seed.
+struct Report {
+  std::string scene;
+  sim::Frame frame;
+  std::size_t occupied_voxels = 0;  ///< with the plants
+  std::size_t scene_voxels = 0;     ///< before they grew
+  std::size_t degenerate_triangles = 0;
+  std::vector<sim::FillReport> fills;
+  int iterations = 0;
+  std::vector<std::pair<std::string, std::array<std::size_t, 2>>> plants;  ///< name, segments and elements
+  sim::OutcomeCounts buds{}, trials{};
+  std::uint64_t state_hash = 0;
+  std::vector<std::string> files;  ///< that were written, in the output folder
+
+  struct Run {
+    std::vector<std::pair<std::string, double>> stages_s;
+    double total_s = 0.0;
+    std::uint64_t peak_memory_bytes = 0;
+    int threads = 1;
+  } run;
+};
+
+/// JSON, two spaces deep, keys in the order above.
+std::string toJson(const Report& report);
+
+/// The most memory that this process has held so far.
+std::uint64_t peakMemoryBytes();
+
+}  // namespace espalier::scenes

@@ -1,0 +1,30 @@
+#pragma once
+#include <cstdint>
+
+#include "sim/bits.h"
+#include "sim/directions.h"
+#include "sim/field.h"
+
+namespace espalier::sim {
+
+/// True if a ray from the centre of voxel p along the direction reaches the world's edge; p itself does not
+/// block. The voxels are those of Amanatides and Woo's traversal (1987), with ties as in sim/tiling.h.
+bool reachesEdge(const BitVolume& occupied, Voxel p, const LatticeDirection& direction);
+
+/// What can be seen of the sky (or the sun's arc) from a voxel.
+struct Outlook {
+  std::uint16_t sum = 0;  ///< weights of the directions that reach the edge, as in ExposureField
+  Vec3 toward{0.0};  ///< weighted sum of those directions: its way is the brightest (first moment of the sky)
+
+  double fraction() const { return static_cast<double>(sum) / ExposureField::kWhole; }
+};
+
+/// Casts every ray of the set: the same sum as sweepExposure gives, for a few places.
+Outlook lookOut(const BitVolume& occupied, Voxel p, const DirectionSet& directions);
+
+/// The exposure of a surface: what the free space in front of it sees, not the inside of the surface. The
+/// mean of the field over the free voxels among the 26 around `surface`, weighted by how squarely they lie in
+/// front of it, cos^2 of the angle to `normal`. Falls back to the voxel's own value where none is free.
+float surfaceExposure(const BitVolume& occupied, const ExposureField& field, Voxel surface, Vec3f normal);
+
+}  // namespace espalier::sim

@@ -1,0 +1,129 @@
+#include "sim/world.h"
+
+#include <cassert>
+#include <limits>
+
+#include "sim/random.h"
+#include "sim/world_grids.h"
+
+namespace espalier::sim {
+namespace {
+
+template <typename Grid>
+typename Grid::Ptr makeGrid(const char* name, const typename Grid::ValueType& background,
+                            const openvdb::math::Transform::Ptr& transform) {
+  auto grid = Grid::create(background);
+  grid->setName(name);
+  grid->setTransform(transform);
+  return grid;
+}
+
+std::unique_ptr<World::Grids> makeGrids(const Frame& frame) {
+  const auto transform = openvdb::math::Transform::createLinearTransform(frame.voxel_m);
+  transform->postTranslate({frame.origin_m.x, frame.origin_m.y, frame.origin_m.z});
+  constexpr float kFar = std::numeric_limits<float>::infinity();
+  const openvdb::Vec3f none(0.0f);
+  return std::make_unique<World::Grids>(World::Grids{
+      .part = makeGrid<openvdb::Int32Grid>("part", kFree, transform),
+      .colour = makeGrid<openvdb::Vec3SGrid>("colour", none, transform),
+      .coverage = makeGrid<openvdb::FloatGrid>("coverage", 0.0f, transform),
+      .normal = makeGrid<openvdb::Vec3SGrid>("normal", none, transform),
+      .layer = makeGrid<openvdb::Int32Grid>("layer", -1, transform),
+      .nearest = makeGrid<openvdb::Int32Grid>("nearest", kFree, transform),
+      .distance_vx = makeGrid<openvdb::FloatGrid>("distance_vx", kFar, transform),
+      .surface = BlockMap<World::Grids::SurfaceLeaves>(frame.size),
+      .near = BlockMap<World::Grids::NearLeaves>(frame.size),
+  });
+}
+
+openvdb::Index offsetInLeaf(Voxel v) {
+  return openvdb::Int32Tree::LeafNodeType::coordToOffset(coordOf(v));
+}
+
+bool stopsLight(Voxel v, float coverage, PartKind kind) {
+  if (kind == PartKind::scene) return true;  // a wall has no holes where a triangle only clips a voxel's corner
+  const RandomKey key{0, static_cast<std::uint32_t>(v.x), static_cast<std::uint32_t>(v.y),
+                      static_cast<std::uint32_t>(v.z)};
+  return Draws(key, Purpose::opacity).uniform() < static_cast<double>(coverage);
+}
+
+openvdb::Vec3f toVdb(glm::vec3 v) {
+  return {v.x, v.y, v.z};
+}
+glm::vec3 fromVdb(const openvdb::Vec3f& v) {
+  return {v.x(), v.y(), v.z()};
+}
+
+}  // namespace
+
+World::World(const Frame& frame) : frame_(frame), occupied_(frame.size), opaque_(frame.size), grids_(makeGrids(frame)) {}
+World::World(World&&) noexcept = default;
+World& World::operator=(World&&) noexcept = default;
+World::~World() = default;
+
+PartId World::addPart(Part part) {
+  parts_.push_back(std::move(part));
+  return static_cast<PartId>(parts_.size());
+}
+
+void World::occupy(std::span<const TiledVoxel> voxels) {
+  for (const auto& [voxel, surface] : voxels) {
+    assert(contains(frame_.size, voxel));
+    assert(surface.part > kFree && static_cast<std::size_t>(surface.part) <= parts_.size());
+    if (occupied_.at(voxel)) continue;
+    occupied_.set(voxel);
+    if (stopsLight(voxel, surface.coverage, part(surface.part).kind)) opaque_.set(voxel);
+    Grids::SurfaceLeaves& leaves = grids_->surface.make(voxel);
+    if (leaves.part == nullptr) {
+      const openvdb::Coord at = coordOf(voxel);
+      leaves = {grids_->part->tree().touchLeaf(at), grids_->colour->tree().touchLeaf(at),
+                grids_->coverage->tree().touchLeaf(at), grids_->normal->tree().touchLeaf(at)};
+    }
+    const openvdb::Index n = offsetInLeaf(voxel);
+    leaves.part->setValueOn(n, surface.part);
+    leaves.colour->setValueOn(n, toVdb(surface.colour));
+    leaves.coverage->setValueOn(n, surface.coverage);
+    leaves.normal->setValueOn(n, toVdb(surface.normal));
+  }
+  ++version_;
+}
+
+PartId World::partAt(Voxel v) const {
+  return occupied_.at(v) ? grids_->surface.of(v).part->getValue(offsetInLeaf(v)) : kFree;
+}
+
+std::optional<Surface> World::surfaceAt(Voxel v) const {
+  if (!occupied_.at(v)) return std::nullopt;
+  const Grids::SurfaceLeaves& leaves = grids_->surface.of(v);
+  const openvdb::Index n = offsetInLeaf(v);
+  return Surface{leaves.part->getValue(n), fromVdb(leaves.colour->getValue(n)), leaves.coverage->getValue(n),
+                 fromVdb(leaves.normal->getValue(n))};
+}
+
+std::optional<Nearness> World::nearnessAt(Voxel v) const {
+  if (!contains(frame_.size, v)) return std::nullopt;
+  const Grids::NearLeaves& leaves = grids_->near.of(v);
+  if (leaves.layer == nullptr) return std::nullopt;
+  const openvdb::Index n = offsetInLeaf(v);
+  if (leaves.layer[n] < 0) return std::nullopt;
+  return Nearness{leaves.layer[n], leaves.nearest[n], leaves.distance_vx[n]};
+}
+
+std::vector<TiledVoxel> World::surfaces() const {
+  std::vector<TiledVoxel> all;
+  all.reserve(occupied_.count());
+  for (int y = 0; y < frame_.size.y; ++y) {
+    for (int z = 0; z < frame_.size.z; ++z) {
+      const std::uint64_t* row = occupied_.row(y, z);
+      for (int w = 0; w < occupied_.rowWords(); ++w) {
+        for (std::uint64_t word = row[w]; word != 0; word &= word - 1) {
+          const Voxel v(w * BitVolume::kWordBits + std::countr_zero(word), y, z);
+          all.push_back({v, *surfaceAt(v)});
+        }
+      }
+    }
+  }
+  return all;
+}
+
+}  // namespace espalier::sim

@@ -1,0 +1,9 @@
+#include <sim/directions.h>
+#include <sim/sweep.h>
+
+int main() {
+  espalier::sim::BitVolume occupied({32, 32, 32});
+  for (int y = 0; y < 32; ++y) occupied.set({16, y, 16});
+  const auto field = espalier::sim::sweepExposure(occupied, espalier::sim::skyDirections(64));
+  return field.at({15, 1, 16}) > 0.5f && field.at({15, 1, 16}) < 1.0f ? 0 : 1;
+}

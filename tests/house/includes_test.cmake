@@ -1,0 +1,33 @@
+cmake_minimum_required(VERSION 3.25)
+# The house's one direction: cli -> scenes -> {rules, render} -> sim. A room may include only what it may see, and the
+# heavy headers stay out of the public ones.
+# cmake -DSOURCE=<project folder> -P includes_test.cmake
+set(sees_sim sim)
+set(sees_rules rules sim)
+set(sees_render render sim)
+set(sees_scenes scenes rules render sim)
+set(sees_cli cli scenes rules render sim)
+set(announced sim/world_grids.h scenes/mesh_folder_io.h) # they say themselves that they are heavy
+set(faults "")
+foreach(room sim rules render scenes cli)
+  file(GLOB_RECURSE files RELATIVE ${SOURCE} ${SOURCE}/${room}/*.h ${SOURCE}/${room}/*.cpp)
+  if(NOT files)
+    list(APPEND faults "${room} holds no sources")
+  endif()
+  foreach(file ${files})
+    file(STRINGS ${SOURCE}/${file} includes REGEX "^#include")
+    foreach(line ${includes})
+      if(line MATCHES "\"(sim|rules|render|scenes|cli|tests)/" AND NOT CMAKE_MATCH_1 IN_LIST sees_${room})
+        list(APPEND faults "${file}: ${line}")
+      endif()
+      if(file MATCHES "\\.h$" AND NOT file IN_LIST announced
+         AND line MATCHES "<(openvdb|nanovdb|OpenImageIO|yaml-cpp|assimp|embree3|tiny_gltf|tbb)")
+        list(APPEND faults "${file}: heavy header ${line}")
+      endif()
+    endforeach()
+  endforeach()
+endforeach()
+if(faults)
+  list(JOIN faults "\n" text)
+  message(FATAL_ERROR "includes that run up the house:\n${text}")
+endif()

@@ -1,0 +1,98 @@
+#include "sim/sense/exposure.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "sim/sweep.h"
+#include "tests/support/bit_worlds.h"
+
+// Closed forms of how much sky is seen (radiation heat transfer). Voxel error comes on top and shrinks with
+// the voxel.
+namespace espalier {
+namespace {
+
+using sim::Vec3;
+using sim::Voxel;
+
+constexpr int kDirections = 1000;  // so that what is left is the voxels' error
+
+TEST(SkyExposure, OpenGroundSeesAll) {
+  sim::BitVolume ground({31, 12, 29});
+  test::addBox(ground, {0, 0, 0}, {30, 0, 28});
+  const auto field = sim::sweepExposure(ground, sim::skyDirections(128));
+  for (int x = 0; x < 31; ++x) EXPECT_EQ(field.at({x, 1, 14}), 1.0f);
+}
+
+TEST(SkyExposure, TheFootOfAnEndlessWallSeesHalf) {
+  sim::BitVolume wall({60, 400, 401});
+  test::addBox(wall, {0, 0, 0}, {0, 399, 400});
+  for (const auto weighting : {sim::Weighting::uniform, sim::Weighting::cosine}) {
+    const auto outlook = sim::lookOut(wall, {1, 1, 200}, sim::skyDirections(kDirections, weighting));
+    EXPECT_NEAR(outlook.fraction(), 0.5, 0.02);
+  }
+}
+
+/// What the middle of the floor sees in a street of `width` voxels with walls of height h * width, long
+/// enough to count as endless. The sensor stands in the lowest free voxel, whose centre is half a voxel above
+/// the floor.
+double canyon(int width, double h, sim::Weighting weighting) {
+  const int height = static_cast<int>(std::lround(h * width));
+  const int length = 60 * std::max(width, height) + 1;
+  sim::BitVolume street({width + 2, height + 1, length});
+  test::addBox(street, {0, 0, 0}, {width + 1, 0, length - 1});
+  test::addBox(street, {0, 1, 0}, {0, height, length - 1});
+  test::addBox(street, {width + 1, 1, 0}, {width + 1, height, length - 1});
+  return sim::lookOut(street, {(width + 1) / 2, 1, length / 2}, sim::skyDirections(kDirections, weighting))
+      .fraction();
+}
+
+TEST(SkyExposure, TheFloorOfAStreetCanyonSeesTheClosedForm) {
+  for (const double h : {0.25, 1.0, 2.0}) {
+    const double cosine = std::cos(std::atan(2.0 * h));
+    const double uniform = 1.0 - 2.0 * std::atan(2.0 * h) / std::numbers::pi;
+    // The sensor's own height shortens the walls by half a voxel.
+    EXPECT_NEAR(canyon(41, h, sim::Weighting::cosine), cosine, 0.02) << h;
+    EXPECT_NEAR(canyon(41, h, sim::Weighting::uniform), uniform, 0.02) << h;
+  }
+}
+
+TEST(SkyExposure, ErrorShrinksWithTheVoxel) {
+  const double truth = std::cos(std::atan(2.0));
+  const double coarse = std::abs(canyon(5, 1.0, sim::Weighting::cosine) - truth);
+  const double fine = std::abs(canyon(61, 1.0, sim::Weighting::cosine) - truth);
+  EXPECT_LT(fine, 0.4 * coarse);
+  EXPECT_LT(fine, 0.012);
+}
+
+TEST(SunExposure, ASunThatLeansAwayIsHiddenByTheWall) {
+  sim::BitVolume wall({81, 60, 41});
+  test::addBox(wall, {0, 0, 20}, {80, 59, 20});
+  const auto leaning_south = sim::sunDirections({20.0, 180.0, 48});
+  EXPECT_EQ(sim::lookOut(wall, {40, 1, 21}, leaning_south).fraction(), 1.0);   // the bright side
+  EXPECT_LT(sim::lookOut(wall, {40, 1, 19}, leaning_south).fraction(), 0.35);  // behind it
+}
+
+TEST(Outlook, TheBrightestWayLeadsOutOfACornerUpwards) {
+  sim::BitVolume corner({40, 40, 40});
+  test::addBox(corner, {0, 0, 0}, {0, 39, 39});
+  test::addBox(corner, {0, 0, 0}, {39, 39, 0});
+  const Vec3 toward = glm::normalize(sim::lookOut(corner, {1, 1, 1}, sim::skyDirections(200)).toward);
+  EXPECT_GT(toward.x, 0.3);
+  EXPECT_GT(toward.y, 0.3);
+  EXPECT_NEAR(toward.x, toward.z, 0.05);
+}
+
+TEST(SurfaceExposure, IsThatOfTheFreeSpaceInFront) {
+  sim::BitVolume wall({21, 20, 21});
+  test::addBox(wall, {0, 0, 10}, {20, 19, 10});
+  const auto field = sim::sweepExposure(wall, sim::skyDirections(128));
+  const float front = sim::surfaceExposure(wall, field, {10, 10, 10}, {0, 0, 1});
+  EXPECT_NEAR(front, field.at({10, 10, 11}), 0.05f);
+  EXPECT_GT(front, 0.4f);
+  EXPECT_LT(field.at({10, 10, 10}), 0.4f);  // inside the wall one sees only along it
+}
+
+}  // namespace
+}  // namespace espalier

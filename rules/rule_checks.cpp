@@ -25,10 +25,12 @@ Check ordered(const std::string& low_path, const std::string& high_path,
                [=](const RuleSet& rules, const Check::Given& given, const Check::Complain& complain) {
                  const double a = low(rules), b = high(rules);
                  if (a < b || (may_be_equal && a == b)) return;
+                 const auto said = [&](const std::string& path, double number) {
+                   return fmt::format("{} is {}{}", path, number, given(path) ? "" : " (by default)");
+                 };
                  complain(given(low_path) ? low_path : high_path,
-                          fmt::format("{} is {} and {} is {}; expected {}", low_path, a, high_path, b,
-                                      may_be_equal ? "the first to be at most the second"
-                                                   : "the first to be less than the second"));
+                          fmt::format("{} and {}; expected the first to be {} the second", said(low_path, a),
+                                      said(high_path, b), may_be_equal ? "at most" : "less than"));
                });
 }
 

@@ -6,6 +6,7 @@
 #include <charconv>
 
 #include "rules/registry.h"
+#include "scenes/yaml_hints.h"
 #include "scenes/yaml_value.h"
 
 namespace espalier::scenes {
@@ -34,6 +35,7 @@ std::string whereItBelongs(const std::string& word, const Table& table, const Re
     if (std::find(reading.others.begin(), reading.others.end(), path) == reading.others.end()) continue;
     return fmt::format("; did you mean '{}' (Greene's {})?", path, name);
   }
+  if (auto spaced = spacedColon(word, namesOf(table)); !spaced.empty()) return spaced;
   const auto near = didYouMean(word, namesOf(table));
   if (!near.empty()) return near;
   for (const auto& path : reading.others) {
@@ -92,11 +94,9 @@ class TableReader {
 
   void fail(const YamlNode& node, const Key& key, const std::string& path) {
     if (!node.refused) {
-      reading_.problems.add(
-          node.place,
-          fmt::format("{} {}; expected {}", path,
-                      node.kind == YamlNode::Kind::null ? "has no value" : "is " + described(node),
-                      rules::expectation(key)));
+      const auto is = node.kind == YamlNode::Kind::null ? "has no value" : "is " + described(node);
+      reading_.problems.add(node.place, fmt::format("{} {}; expected {}{}", path, is, rules::expectation(key),
+                                                    spacedColon(node.text, namesOf(*key.child))));
     }
     reading_.failed.insert(path);
   }
@@ -111,12 +111,19 @@ class TableReader {
     fail(node, key, path);
   }
 
+  /// One of several mappings of `key`.
+  void readItem(const YamlNode& node, const Key& key, void* target, const std::string& path) {
+    auto item = key;
+    item.kind = Kind::section;
+    readMapping(node, item, target, path);
+  }
+
   void readEntries(const YamlNode& node, const Key& key, void* target, const std::string& path) {
     if (node.kind != YamlNode::Kind::list) return fail(node, key, path);
     if (!roomFor(node, node.items.size(), key, path)) return;
     key.clear(target);
     for (std::size_t i = 0; i < node.items.size(); ++i) {
-      readMapping(node.items[i], key, key.append(target, ""), fmt::format("{}[{}]", path, i));
+      readItem(node.items[i], key, key.append(target, ""), fmt::format("{}[{}]", path, i));
     }
   }
 
@@ -125,7 +132,7 @@ class TableReader {
     if (!roomFor(node, node.entries.size(), key, path)) return;
     key.clear(target);
     for (const auto& entry : node.entries) {
-      readMapping(entry.value, key, key.append(target, entry.key), path + "." + entry.key);
+      readItem(entry.value, key, key.append(target, entry.key), path + "." + entry.key);
     }
   }
 

@@ -132,6 +132,15 @@ void RuleLoader::addRegions(const Layers& layers, RuleSet& rules) {
 rules::RegionRule RuleLoader::region(const YamlNode& node, const std::string& path,
                                      const RuleSet& enclosing) {
   if (node.kind == YamlNode::Kind::scalar && node.text == "forbid") return {true, nullptr};
+  const bool is_word =
+      node.kind == YamlNode::Kind::scalar && node.text.find_first_of("./") == std::string::npos;
+  if (is_word && !node.refused) {
+    problems_.add(
+        node.place,
+        fmt::format("{} is {}; expected 'forbid', the path of a rule file, or a mapping of rule keys{}", path,
+                    described(node), didYouMean(node.text, {"forbid"})));
+    return {};
+  }
   const auto* whole = node.entry("rules");
   if (!whole) return {false, reference(node, path, enclosing)};
   for (const auto& entry : node.entries) {

@@ -140,12 +140,12 @@ void checkImages(const Scene& scene, const Given& given, const Complain& complai
     const auto path = fmt::format("images[{}]", i);
     for (const std::string key : {"axis", "at"}) {
       if (image.kind == ImageKind::section || !given(path + "." + key)) continue;
-      complain(path + "." + key, fmt::format("{} says nothing of a {}; expected it with kind: section", key,
-                                             nameOf(image.kind)));
+      complain(path + "." + key, fmt::format("{} means nothing to kind: {}; expected it with kind: section",
+                                             key, nameOf(image.kind)));
     }
     const bool is_sheet = image.kind == ImageKind::contact_sheet;
     if (!is_sheet && given(path + ".of"))
-      complain(path + ".of", fmt::format("of says nothing of a {}; expected it with kind: contact_sheet",
+      complain(path + ".of", fmt::format("of means nothing to kind: {}; expected it with kind: contact_sheet",
                                          nameOf(image.kind)));
     if (is_sheet && image.of.empty())
       complain(path, "a contact_sheet of no images; expected of: [name, ...]");

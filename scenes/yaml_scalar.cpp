@@ -12,6 +12,8 @@ using rules::Kind;
 using Node = YamlNode;
 using Unit = WrittenLength::Unit;
 
+constexpr std::size_t kLongestText = 1000;
+
 std::nullopt_t ScalarReader::say(const Node& node, std::string text) const {
   if (!node.refused) problems.add(node.place, std::move(text));
   return std::nullopt;
@@ -91,6 +93,8 @@ std::optional<std::string> ScalarReader::text(const Node& node) const {
   if (node.kind != Node::Kind::scalar) return mismatch(node);
   if (node.refused) return std::nullopt;
   if (node.text.empty()) return fail(node, "is empty");
+  if (node.text.size() > kLongestText)
+    return fail(node, fmt::format("is a text of {} bytes, more than {}", node.text.size(), kLongestText));
   if (node.text.find('\n') != node.text.npos) return wrongScalar(node, "has more than one line");
   return node.text;
 }

@@ -5,6 +5,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
 
@@ -50,6 +51,27 @@ std::size_t characterBytes(std::string_view rest, std::uint32_t& code) {
 
 bool isControl(std::uint32_t code) {
   return (code < 0x20 && code != '\t' && code != '\n') || (code >= 0x7f && code < 0xa0);
+}
+
+/// YAML indents by spaces only; yaml-cpp's word for a tab there is "illegal map value".
+bool checkIndents(const std::string& text, const std::shared_ptr<const std::string>& path,
+                  Problems& problems) {
+  bool good = true;
+  int line = 1;
+  for (std::size_t start = 0; start < text.size(); ++line) {
+    const auto tab = std::min(text.find_first_not_of(' ', start), text.size());
+    const auto word = std::min(text.find_first_not_of(" \t", tab), text.size());
+    const bool says_something =
+        word < text.size() && text[word] != '#' && text[word] != '\n' && text[word] != '\r';
+    if (tab < word && says_something) {
+      problems.add({path, line, static_cast<int>(tab - start) + 1},
+                   "a tab before the first word; expected spaces");
+      good = false;
+    }
+    const auto end = text.find('\n', word);
+    start = end == text.npos ? text.size() : end + 1;
+  }
+  return good;
 }
 
 }  // namespace
@@ -108,7 +130,7 @@ bool checkText(const std::string& text, const std::shared_ptr<const std::string>
     }
     i += bytes == 0 ? 1 : bytes;
   }
-  return good;
+  return checkIndents(text, path, problems) && good;
 }
 
 }  // namespace espalier::scenes

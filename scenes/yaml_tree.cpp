@@ -7,11 +7,11 @@
 #include <yaml-cpp/parser.h>
 
 #include <algorithm>
-#include <array>
 #include <sstream>
 #include <unordered_map>
 #include <utility>
 
+#include "scenes/yaml_hints.h"
 #include "scenes/yaml_text.h"
 
 namespace espalier::scenes {
@@ -241,31 +241,6 @@ class TreeBuilder : public YAML::EventHandler {
   int documents_ = 0;
 };
 
-/// yaml-cpp's own words mean little to somebody who has lost a bracket.
-std::string explained(const std::string& message) {
-  constexpr std::array<std::pair<std::string_view, std::string_view>, 9> kWords{{
-      {"end of map not found",
-       "this does not fit here; expected 'key: value' in the same column as the keys above, or an end of "
-       "line"},
-      {"end of sequence not found",
-       "this does not fit here; expected '- entry' in the same column as the entries above"},
-      {"end of sequence flow not found", "a list in brackets that does not end; expected ',' or ']'"},
-      {"end of map flow not found", "a mapping in braces that does not end; expected ',' or '}'"},
-      {"illegal map value",
-       "a ':' where no key can stand; expected one 'key: value' a line, keys of one mapping in the same "
-       "column"},
-      {"illegal block entry",
-       "a '-' where no entry of a list can stand; expected spaces, not tabs, and entries in the same column"},
-      {"illegal flow end", "a closing bracket that was never opened; expected it to be removed"},
-      {"illegal EOF in scalar", "a quote that is never closed; expected it closed on the same line"},
-      {"unknown token", "a character that cannot begin a value; expected quotes around it"},
-  }};
-  for (const auto& [theirs, ours] : kWords) {
-    if (message == theirs) return std::string(ours);
-  }
-  return fmt::format("this is no YAML ({}); expected 'key: value' lines", message);
-}
-
 }  // namespace
 
 const YamlEntry* YamlNode::entry(std::string_view key) const {
@@ -302,7 +277,7 @@ std::shared_ptr<const YamlNode> parseYaml(const std::string& text, const std::st
   } catch (const Enough&) {
     return nullptr;
   } catch (const YAML::Exception& e) {
-    problems.add(places.at(e.mark), explained(e.msg));
+    problems.add(places.at(e.mark), explained(e.msg, text, e.mark.line));
     return nullptr;
   }
   auto root = std::make_shared<YamlNode>(builder.takeRoot());

@@ -2,6 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <type_traits>
+
 #include "rules/colour.h"
 #include "scenes/yaml_scalar.h"
 
@@ -156,7 +159,15 @@ auto listOf(const ScalarReader& read, const Node& node, std::size_t most, One on
   if (node.kind != Node::Kind::list) return read.mismatch(node);
   if (node.items.size() > most)
     return read.fail(node, fmt::format("has a list of {}, more than {}", node.items.size(), most));
-  std::vector<typename decltype(one(node))::value_type> all;
+  using Entry = typename decltype(one(node))::value_type;
+  const auto isScalar = [](const Node& item) { return item.kind == Node::Kind::scalar; };
+  if constexpr (!std::is_same_v<Entry, std::string>) {
+    // A level of brackets was forgotten: said once, not for every number.
+    if (!node.items.empty() && std::all_of(node.items.begin(), node.items.end(), isScalar)) {
+      return read.fail(node, "has a list of single values where a list of points should stand");
+    }
+  }
+  std::vector<Entry> all;
   for (const auto& item : node.items) {
     if (auto entry = one(item)) all.push_back(std::move(*entry));
   }

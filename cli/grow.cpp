@@ -21,14 +21,12 @@ struct GrowArguments {
   std::string scene;
   std::string folder;
   std::optional<std::uint64_t> seed;
-  int threads = 0;
+  int threads = sim::threadCount();
   bool quiet = false, json = false, no_pictures = false;
 };
 
 int grow(const GrowArguments& arguments) {
   const Interrupt interrupt;
-  std::optional<sim::ThreadLimit> limit;
-  if (arguments.threads > 0) limit.emplace(arguments.threads);
   auto scene = scenes::readScene(arguments.scene);
   if (!scene) {
     fmt::print(stderr, "{}", scenes::format(scene.problems()));
@@ -46,7 +44,7 @@ int grow(const GrowArguments& arguments) {
     options.on_stage = [&](const std::string& stage) { progress.stage(stage); };
     options.on_growth = [&](const sim::GrowthProgress& growth) { progress.growth(growth); };
     try {
-      report = scenes::runScene(std::move(*scene), options);
+      sim::onThreads(arguments.threads, [&] { report = scenes::runScene(std::move(*scene), options); });
     } catch (const scenes::MeshMissing& missing) {
       fmt::print(stderr, "{}; skipped, as the scene calls it optional\n", missing.what());
       return 0;

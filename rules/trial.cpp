@@ -39,8 +39,8 @@ Senses sense(const sim::GrowthView& view, const sim::Bud& bud, const RuleSet& ru
     senses.heading = unitOrZero(senses.at_vx - from);
     sim::tileSegment(from, senses.at_vx, senses.parent_voxels);
   }
-  const sim::Outlook sky = sim::lookOut(view.world.occupied(), senses.voxel, view.sky);
-  const sim::Outlook sun = sim::lookOut(view.world.occupied(), senses.voxel, view.sun);
+  const sim::Outlook sky = sim::lookOut(view.world.opaque(), senses.voxel, view.sky);
+  const sim::Outlook sun = sim::lookOut(view.world.opaque(), senses.voxel, view.sun);
   senses.light = unitOrZero(sky.toward);
   senses.sky_exposure = sky.fraction();
   senses.sun_exposure = sun.fraction();

@@ -64,8 +64,11 @@ class Studio {
 
  private:
   struct View {
+    View(render::Visibility visible, const render::PanelWorld& world, const render::PanelLook& look,
+         const std::vector<Panel>& panels)
+        : seen(std::move(visible)), painter(seen, world, look, panels) {}
     render::Visibility seen;
-    std::optional<render::PanelPainter> painter;
+    render::PanelPainter painter;
   };
 
   const Finished& finished_;
@@ -98,17 +101,17 @@ Studio::Studio(const Finished& finished)
 render::PanelPicture Studio::paint(const ImageSpec& image, Panel panel) {
   auto& view = views_[image.camera];
   if (!view) {
-    view = std::make_unique<View>();
-    view->seen = render::see(finished_.job.world.frame(), finished_.job.world.occupied(), bricks_,
-                             cameraOf(scene_, image), scene_.image_width, scene_.image_height);
     std::vector<Panel> panels;
     for (const ImageSpec& other : scene_.images) {
       const auto wanted = panelOf(other.kind);
       if (wanted && other.camera == image.camera) panels.push_back(*wanted);
     }
-    view->painter.emplace(view->seen, world_, look_, panels);
+    view = std::make_unique<View>(
+        render::see(finished_.job.world.frame(), finished_.job.world.occupied(), bricks_, cameraOf(scene_, image),
+                    scene_.image_width, scene_.image_height),
+        world_, look_, panels);
   }
-  return view->painter->paint(panel);
+  return view->painter.paint(panel);
 }
 
 void Studio::label(Image& picture, Panel panel) const {

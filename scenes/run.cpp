@@ -104,15 +104,21 @@ Report runScene(Scene scene, const RunOptions& options) {
   settings.stop = options.stop;
   settings.progress = options.on_growth;
   const sim::Growth growth =
-      stages.run("growing", [&] { return sim::grow(job.world, job.plantings, settings); });
+      stages.run("growing", [&] {
+    try {
+      return sim::grow(job.world, job.plantings, settings);
+    } catch (const sim::InputError& error) {
+      throw sim::InputError(fmt::format("{}: {}", job.scene.file.string(), error.what()));
+    }
+  });
   countPlants(report, growth);
   report.occupied_voxels = job.world.occupied().count();
   report.state_hash = sim::stateHash(job.world, growth.plants);
 
   sim::ExposureField sun, sky;
   stages.run("lighting", [&] {
-    sun = sim::sweepExposure(job.world.occupied(), job.sun);
-    sky = sim::sweepExposure(job.world.occupied(), job.sky);
+    sun = sim::sweepExposure(job.world.opaque(), job.sun);
+    sky = sim::sweepExposure(job.world.opaque(), job.sky);
   });
   const auto models = stages.run("modelling", [&] { return modelPlants(job, growth.plants); });
   std::vector<OutputFile> files;

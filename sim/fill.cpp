@@ -1,17 +1,17 @@
-// Inside or outside by vote. Lines of voxel centres run through the mesh; what a line says of the free voxels
-// on it follows from its crossings with the triangles, found exactly in whole numbers. A crossing exactly
-// through an edge or a corner is settled by moving the line by (e, e^2), so that triangles which share an
-// edge are crossed once together.
+// Inside or outside by vote. Lines of voxel centres run through the mesh; what is inside follows from their
+// crossings with the triangles, found exactly in whole numbers. A crossing exactly through an edge or a
+// corner is settled by moving the line by (e, e^2), so that triangles which share an edge are crossed once
+// together.
 //
-// A line goes by the turns of its crossings: where as many triangles face it as turn away, a voxel is inside
-// when more of one kind than of the other lie before it (the winding number along the line: overlapping
-// solids stay full, and meshes that are inside out do no harm). Where the turns do not add up but the number
-// of crossings is even, it goes by parity (some triangles are wound the wrong way). Otherwise it has leaked
-// through a hole and has no vote.
+// A voxel is judged from both ends of each line: looking to one end, it is inside when the triangles that
+// face it and those that turn away do not cancel (the winding number along the line). Solids that overlap
+// thus stay full, and meshes that are inside out do no harm. Where the mesh is closed both ends agree; where
+// a line leaks through a hole they contradict each other, and the share of ends that say inside, over many
+// directions, approaches the generalized winding number (Jacobson, Kavan and Sorkine-Hornung 2013), which is
+// above one half where more is walled than open.
 //
-// Lines along the three axes settle a voxel when all three say inside, or when none does and two at least
-// have a vote. The others are doubtful: the majority of thirteen directions, diagonals included, decides on
-// them, ties for outside.
+// Lines along the three axes settle a voxel when all six ends say inside, or one at most does. The others are
+// doubtful: the majority of thirteen directions, diagonals included, decides on them, ties for outside.
 //
 // Voxels lie on one line of each direction, so lines run in parallel and only count into voxels of their own.
 #include "sim/fill.h"
@@ -78,10 +78,8 @@ struct Box {
   }
 };
 
-struct Votes {
-  std::vector<std::uint8_t> inside;
-  std::vector<std::uint8_t> leaked;
-};
+/// For each voxel of the box, how many ends of lines call it inside.
+using Votes = std::vector<std::uint8_t>;
 
 struct Crossing {
   std::uint32_t line;
@@ -138,17 +136,22 @@ class Lines {
     }
   }
 
-  /// Counts what one line with its crossings says, in any order of equal ones.
+  /// Counts what both ends of a line say of its voxels.
   void vote(std::uint32_t line, std::span<Crossing> crossings, Votes& votes) const {
     std::sort(crossings.begin(), crossings.end(),
               [](const Crossing& a, const Crossing& b) { return a.before < b.before; });
-    int turns = 0;
-    for (const Crossing& c : crossings) turns += c.turn;
-    if (turns != 0 && crossings.size() % 2 != 0) return mark(line, first_.x, last_.x + 1, votes.leaked);
-    int winding = 0;
-    for (std::size_t i = 0; i + 1 < crossings.size(); ++i) {
-      winding += turns == 0 ? crossings[i].turn : i % 2 == 0 ? 1 : -1;
-      if (winding != 0) mark(line, crossings[i].before, crossings[i + 1].before, votes.inside);
+    int turns_after = 0;
+    for (const Crossing& c : crossings) turns_after += c.turn;
+    int turns_before = 0;
+    int from = first_.x;
+    for (std::size_t i = 0; i <= crossings.size(); ++i) {
+      const int to = i < crossings.size() ? crossings[i].before : last_.x + 1;
+      const int inside = (turns_before != 0 ? 1 : 0) + (turns_after != 0 ? 1 : 0);
+      if (inside != 0) mark(line, from, to, static_cast<std::uint8_t>(inside), votes);
+      if (i == crossings.size()) break;
+      turns_before += crossings[i].turn;
+      turns_after -= crossings[i].turn;
+      from = to;
     }
   }
 
@@ -170,13 +173,15 @@ class Lines {
            static_cast<std::uint32_t>(w - first_.z);
   }
 
-  void mark(std::uint32_t line, int from, int to, std::vector<std::uint8_t>& counts) const {
+  void mark(std::uint32_t line, int from, int to, std::uint8_t ends, Votes& votes) const {
     const auto width = static_cast<std::uint32_t>(last_.z - first_.z + 1);
     const int v = static_cast<int>(line / width) + first_.y;
     const int w = static_cast<int>(line % width) + first_.z;
     for (int u = from; u < to; ++u) {
-      const Voxel p = direction_.voxel(u, v, w) - box_.first;
-      if (contains(box_.size(), p)) ++counts[box_.index(p + box_.first)];
+      const Voxel p = direction_.voxel(u, v, w);
+      if (!contains(box_.size(), p - box_.first)) continue;
+      std::uint8_t& count = votes[box_.index(p)];
+      count = static_cast<std::uint8_t>(count + ends);
     }
   }
 
@@ -227,33 +232,29 @@ Inside findInside(const std::vector<std::array<Vec3, 3>>& triangles_vx, const Bi
   Inside result{BitVolume(surface.size()), 0};
   const Box box = boxOf(triangles_vx, surface.size());
   if (glm::any(glm::lessThan(box.size(), Voxel(1)))) return result;
-  Votes votes{std::vector<std::uint8_t>(box.count()), std::vector<std::uint8_t>(box.count())};
+  Votes votes(box.count());
   for (const Direction& d : kAxes) countVotes(triangles_vx, Lines(d, box), votes);
 
   std::vector<Voxel> doubtful;
-  const auto forEachFree = [&](auto visit) {
-    for (int y = box.first.y; y <= box.last.y; ++y) {
-      for (int z = box.first.z; z <= box.last.z; ++z) {
-        for (int x = box.first.x; x <= box.last.x; ++x) {
-          const Voxel v(x, y, z);
-          if (!surface.at(v)) visit(v, box.index(v));
+  for (int y = box.first.y; y <= box.last.y; ++y) {
+    for (int z = box.first.z; z <= box.last.z; ++z) {
+      for (int x = box.first.x; x <= box.last.x; ++x) {
+        const Voxel v(x, y, z);
+        if (surface.at(v)) continue;
+        const int inside = votes[box.index(v)];
+        if (inside == 2 * static_cast<int>(kAxes.size())) {
+          result.voxels.set(v);
+        } else if (inside > 1) {
+          doubtful.push_back(v);
         }
       }
     }
-  };
-  forEachFree([&](Voxel v, std::size_t i) {
-    if (votes.inside[i] == 3) {
-      result.voxels.set(v);
-    } else if (votes.inside[i] > 0 || votes.leaked[i] > 1) {
-      doubtful.push_back(v);
-    }
-  });
+  }
   if (doubtful.empty()) return result;
   for (const Direction& d : kDiagonals) countVotes(triangles_vx, Lines(d, box), votes);
+  constexpr int kHalf = static_cast<int>(kAxes.size() + kDiagonals.size());
   for (const Voxel v : doubtful) {
-    const std::size_t i = box.index(v);
-    const int voters = static_cast<int>(kAxes.size() + kDiagonals.size()) - votes.leaked[i];
-    if (2 * votes.inside[i] > voters) result.voxels.set(v);
+    if (votes[box.index(v)] > kHalf) result.voxels.set(v);
   }
   result.doubtful = doubtful.size();
   return result;

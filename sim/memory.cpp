@@ -20,12 +20,12 @@ double budget() {
          static_cast<double>(::sysconf(_SC_PAGE_SIZE));
 }
 
-/// Two bit volumes, two exposure fields and two bytes of votes a voxel, and the grids of a surface as large
+/// Three bit volumes, two exposure fields and two bytes of votes a voxel, and the grids of a surface as large
 /// as the world's own sides, four layers deep.
 double worldBytes(Vec3 size) {
   const double voxels = size.x * size.y * size.z;
   const double sides = 2 * (size.x * size.y + size.y * size.z + size.z * size.x);
-  constexpr double kBytesPerVoxel = 2.0 / 8 + 2 * 2 + 2;
+  constexpr double kBytesPerVoxel = 3.0 / 8 + 2 * 2 + 2;
   constexpr double kBytesPerSide = 4 * 32;
   return kBytesPerVoxel * voxels + kBytesPerSide * sides;
 }
@@ -50,8 +50,8 @@ double fittingVoxel(Vec3 size, double voxel_m) {
 }
 
 std::string amount(double bytes) {
-  constexpr double kGiB = 1024.0 * 1024.0 * 1024.0;
-  return bytes < 100 * kGiB ? fmt::format("{:.1f} GB", bytes / kGiB) : fmt::format("{:.3g} GB", bytes / kGiB);
+  const double gib = bytes / (1024.0 * 1024.0 * 1024.0);
+  return gib < 1e6 ? fmt::format("{:.1f} GB", gib) : fmt::format("{:.3g} GB", gib);
 }
 
 }  // namespace
@@ -60,20 +60,23 @@ void requireFits(Vec3 size, double voxel_m) {
   if (!(voxel_m > 0) || !std::isfinite(voxel_m)) {
     throw InputError(fmt::format("voxel size {} m: expected a positive length", voxel_m));
   }
-  if (!(std::min({size.x, size.y, size.z}) >= 1) || !std::isfinite(size.x * size.y * size.z)) {
+  const double longest = std::max({size.x, size.y, size.z});
+  if (!std::isfinite(longest)) {
+    throw InputError(fmt::format("voxel size {} m: too small to count the voxels of this world", voxel_m));
+  }
+  if (!(std::min({size.x, size.y, size.z}) >= 1)) {
     throw InputError(
-        fmt::format("a world of {:.15g} x {:.15g} x {:.15g} voxels: expected at least one along each axis",
+        fmt::format("a world of {:.0f} x {:.0f} x {:.0f} voxels: expected at least one along each axis",
                     size.x, size.y, size.z));
   }
   if (fits(size)) return;
-  const auto longest = std::max({size.x, size.y, size.z});
   const std::string reason = longest > kLongestAxis
                                  ? fmt::format("has more than {} voxels along an axis", kLongestAxis)
                                  : fmt::format("needs {} of memory, and {} are free for it here",
                                                amount(worldBytes(size)), amount(budget()));
   throw InputError(fmt::format(
-      "a world of {:.0f} x {:.0f} x {:.0f} voxels of {:.6g} m {}; a voxel size of {:.6g} m would fit", size.x,
-      size.y, size.z, voxel_m, reason, fittingVoxel(size, voxel_m)));
+      "a world of {:.15g} x {:.15g} x {:.15g} voxels of {:.6g} m {}; a voxel size of {:.6g} m would fit",
+      size.x, size.y, size.z, voxel_m, reason, fittingVoxel(size, voxel_m)));
 }
 
 void requireFits(const Frame& frame) {

@@ -4,6 +4,7 @@
 #include <tbb/global_control.h>
 #include <tbb/parallel_for.h>
 #include <tbb/parallel_invoke.h>
+#include <tbb/task_arena.h>
 
 namespace espalier::sim {
 
@@ -24,16 +25,12 @@ void parallelInvoke(const std::function<void()>& a, const std::function<void()>&
   tbb::parallel_invoke(a, b);
 }
 
-int threadCount() {
-  return static_cast<int>(tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism));
-}
+int threadCount() { return tbb::this_task_arena::max_concurrency(); }
 
-ThreadLimit::ThreadLimit(int threads)
-    : control_(new tbb::global_control(tbb::global_control::max_allowed_parallelism,
-                                       static_cast<std::size_t>(threads))) {}
-
-ThreadLimit::~ThreadLimit() {
-  delete static_cast<tbb::global_control*>(control_);
+void onThreads(int threads, const std::function<void()>& work) {
+  const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(threads));
+  tbb::task_arena arena(threads);
+  arena.execute(work);
 }
 
 }  // namespace espalier::sim

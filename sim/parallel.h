@@ -19,16 +19,7 @@ void parallelInvoke(const std::function<void()>& a, const std::function<void()>&
 /// How many threads a loop may use here.
 int threadCount();
 
-/// Limits the threads of this process while it lives.
-class ThreadLimit {
- public:
-  explicit ThreadLimit(int threads);
-  ThreadLimit(const ThreadLimit&) = delete;
-  ThreadLimit& operator=(const ThreadLimit&) = delete;
-  ~ThreadLimit();
-
- private:
-  void* control_;
-};
+/// Runs work on so many threads, more than the machine has cores if asked.
+void onThreads(int threads, const std::function<void()>& work);
 
 }  // namespace espalier::sim

@@ -3,6 +3,7 @@
 #include <cassert>
 #include <limits>
 
+#include "sim/random.h"
 #include "sim/world_grids.h"
 
 namespace espalier::sim {
@@ -39,6 +40,13 @@ openvdb::Index offsetInLeaf(Voxel v) {
   return openvdb::Int32Tree::LeafNodeType::coordToOffset(coordOf(v));
 }
 
+bool stopsLight(Voxel v, float coverage, PartKind kind) {
+  if (kind == PartKind::scene) return true;  // a wall has no holes where a triangle only clips a voxel's corner
+  const RandomKey key{0, static_cast<std::uint32_t>(v.x), static_cast<std::uint32_t>(v.y),
+                      static_cast<std::uint32_t>(v.z)};
+  return Draws(key, Purpose::opacity).uniform() < static_cast<double>(coverage);
+}
+
 openvdb::Vec3f toVdb(glm::vec3 v) {
   return {v.x, v.y, v.z};
 }
@@ -48,7 +56,7 @@ glm::vec3 fromVdb(const openvdb::Vec3f& v) {
 
 }  // namespace
 
-World::World(const Frame& frame) : frame_(frame), occupied_(frame.size), grids_(makeGrids(frame)) {}
+World::World(const Frame& frame) : frame_(frame), occupied_(frame.size), opaque_(frame.size), grids_(makeGrids(frame)) {}
 World::World(World&&) noexcept = default;
 World& World::operator=(World&&) noexcept = default;
 World::~World() = default;
@@ -64,6 +72,7 @@ void World::occupy(std::span<const TiledVoxel> voxels) {
     assert(surface.part > kFree && static_cast<std::size_t>(surface.part) <= parts_.size());
     if (occupied_.at(voxel)) continue;
     occupied_.set(voxel);
+    if (stopsLight(voxel, surface.coverage, part(surface.part).kind)) opaque_.set(voxel);
     Grids::SurfaceLeaves& leaves = grids_->surface.make(voxel);
     if (leaves.part == nullptr) {
       const openvdb::Coord at = coordOf(voxel);

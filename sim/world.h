@@ -59,7 +59,12 @@ class World {
   ~World();
 
   const Frame& frame() const { return frame_; }
+  /// What obstructs.
   const BitVolume& occupied() const { return occupied_; }
+  /// What takes light: all of the scene, and of the plants' voxels a share as large as their coverage. A leaf takes
+  /// up a whole voxel but shades a part of it; so of ten voxels that leaves cover by a third, three stop light.
+  /// Which ones follows from their place alone.
+  const BitVolume& opaque() const { return opaque_; }
   const std::vector<Part>& parts() const { return parts_; }
   const Part& part(PartId id) const { return parts_[static_cast<std::size_t>(id - 1)]; }
   int layers() const { return layers_; }
@@ -85,7 +90,7 @@ class World {
 
  private:
   Frame frame_;
-  BitVolume occupied_;
+  BitVolume occupied_, opaque_;
   std::vector<Part> parts_;
   int layers_ = 0;
   std::uint64_t version_ = 0;

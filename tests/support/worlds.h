@@ -1,32 +1,52 @@
 #pragma once
-#include <random>
+// Small worlds, and what it means that two are the same.
+#include <gtest/gtest.h>
 
-#include "sim/bits.h"
+#include "sim/world.h"
 
-/// Small worlds with known answers.
-namespace espalier::tests {
+namespace espalier::test {
 
-/// Every voxel occupied with the same chance.
-inline sim::BitVolume randomBits(sim::Voxel size, double chance, unsigned seed) {
-  std::mt19937 random(seed);
-  sim::BitVolume bits(size);
+inline sim::Frame unitFrame(sim::Voxel size) {
+  return {.origin_m = sim::Vec3(0.0), .voxel_m = 1.0, .size = size};
+}
+
+inline sim::Part scenePart(std::string object) {
+  sim::Part part;
+  part.object = std::move(object);
+  return part;
+}
+
+inline sim::Part stemPart(std::string object) {
+  sim::Part part = scenePart(std::move(object));
+  part.kind = sim::PartKind::stem;
+  part.plant = 0;
+  return part;
+}
+
+inline void expectSameWorld(const sim::World& a, const sim::World& b) {
+  ASSERT_EQ(a.frame(), b.frame());
+  EXPECT_EQ(a.occupied().words(), b.occupied().words());
+  const auto surfaces_a = a.surfaces();
+  const auto surfaces_b = b.surfaces();
+  ASSERT_EQ(surfaces_a.size(), surfaces_b.size());
+  for (std::size_t i = 0; i < surfaces_a.size(); ++i) {
+    const auto& [voxel_a, s] = surfaces_a[i];
+    const auto& [voxel_b, t] = surfaces_b[i];
+    ASSERT_EQ(voxel_a, voxel_b);
+    ASSERT_TRUE(s.part == t.part && s.colour == t.colour && s.coverage == t.coverage && s.normal == t.normal);
+  }
+  const sim::Voxel size = a.frame().size;
   for (int y = 0; y < size.y; ++y) {
     for (int z = 0; z < size.z; ++z) {
       for (int x = 0; x < size.x; ++x) {
-        if (static_cast<double>(random()) < chance * 4294967296.0) bits.set({x, y, z});
+        const auto m = a.nearnessAt({x, y, z});
+        const auto n = b.nearnessAt({x, y, z});
+        ASSERT_EQ(m.has_value(), n.has_value());
+        if (!m) continue;
+        ASSERT_TRUE(m->layer == n->layer && m->part == n->part && m->distance_vx == n->distance_vx);
       }
     }
   }
-  return bits;
 }
 
-/// Occupies the box low..high, both included.
-inline void addBox(sim::BitVolume& bits, sim::Voxel low, sim::Voxel high) {
-  for (int y = low.y; y <= high.y; ++y) {
-    for (int z = low.z; z <= high.z; ++z) {
-      for (int x = low.x; x <= high.x; ++x) bits.set({x, y, z});
-    }
-  }
-}
-
-}  // namespace espalier::tests
+}  // namespace espalier::test

@@ -201,8 +201,10 @@ void GlbWriter::addPlant(const PlantModel& plant) {
 }
 
 std::string GlbWriter::bytes() {
-  if (model_.nodes.empty()) {  // glTF forbids empty buffers and empty lists of nodes
+  if (model_.nodes.empty()) {  // glTF forbids empty buffers and scenes of nothing
     model_.buffers.clear();
+    model_.scenes.clear();
+    model_.defaultScene = -1;
   }
   tinygltf::TinyGLTF writer;
   std::ostringstream out;

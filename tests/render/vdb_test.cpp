@@ -1,0 +1,146 @@
+#include "render/vdb.h"
+
+#include <gtest/gtest.h>
+#include <openvdb/io/Stream.h>
+#include <openvdb/openvdb.h>
+
+#include <map>
+#include <sstream>
+
+#include "sim/directions.h"
+#include "sim/error.h"
+#include "sim/parallel.h"
+#include "sim/sense/exposure.h"
+#include "sim/sweep.h"
+#include "tests/support/plots.h"
+
+namespace espalier {
+namespace {
+
+using sim::Voxel;
+
+struct ReadBack {
+  openvdb::MetaMap::Ptr about;
+  std::map<std::string, openvdb::GridBase::Ptr> grids;
+
+  template <class Grid>
+  typename Grid::Ptr grid(const std::string& name) const {
+    const auto found = grids.find(name);
+    return found == grids.end() ? nullptr : openvdb::gridPtrCast<Grid>(found->second);
+  }
+};
+
+ReadBack readBack(const std::string& bytes) {
+  openvdb::initialize();
+  std::istringstream in(bytes, std::ios::binary);
+  openvdb::io::Stream stream(in, false);
+  ReadBack result{stream.getMetadata(), {}};
+  for (const auto& grid : *stream.getGrids()) result.grids[grid->getName()] = grid;
+  return result;
+}
+
+class Vdb : public testing::Test {
+ protected:
+  sim::World world_ = tests::wallPlot({30, 24, 20}, 3);
+  sim::ExposureField sky_ = sim::sweepExposure(world_.occupied(), sim::skyDirections(32));
+  sim::ExposureField sun_ = sim::sweepExposure(world_.occupied(), sim::sunDirections({}));
+
+  template <class Check>
+  void forEachVoxel(Check check) const {
+    const Voxel size = world_.frame().size;
+    for (int y = 0; y < size.y; ++y) {
+      for (int z = 0; z < size.z; ++z) {
+        for (int x = 0; x < size.x; ++x) check(Voxel(x, y, z), openvdb::Coord(x, y, z));
+      }
+    }
+  }
+};
+
+TEST_F(Vdb, HoldsTheWorldVoxelForVoxel) {
+  const ReadBack file = readBack(render::vdbBytes(world_, {&sun_, &sky_}));
+  EXPECT_EQ(file.grids.size(), 10u);
+  const auto density = file.grid<openvdb::FloatGrid>("density"),
+             distance = file.grid<openvdb::FloatGrid>("distance"),
+             coverage = file.grid<openvdb::FloatGrid>("coverage"),
+             sun = file.grid<openvdb::FloatGrid>("sun_exposure"),
+             sky = file.grid<openvdb::FloatGrid>("sky_exposure");
+  const auto part = file.grid<openvdb::Int32Grid>("part"), layer = file.grid<openvdb::Int32Grid>("layer"),
+             nearest = file.grid<openvdb::Int32Grid>("nearest");
+  const auto colour = file.grid<openvdb::Vec3SGrid>("colour"),
+             normal = file.grid<openvdb::Vec3SGrid>("normal");
+  ASSERT_TRUE(density && distance && coverage && sun && sky && part && layer && nearest && colour && normal);
+  std::size_t band = 0;
+  forEachVoxel([&](Voxel v, openvdb::Coord at) {
+    const bool occupied = world_.occupied().at(v);
+    EXPECT_EQ(density->tree().getValue(at), occupied ? 1.0f : 0.0f);
+    EXPECT_EQ(density->tree().isValueOn(at), occupied);
+    EXPECT_EQ(part->tree().getValue(at), world_.partAt(v));
+    if (const auto surface = world_.surfaceAt(v)) {
+      EXPECT_EQ(coverage->tree().getValue(at), surface->coverage);
+      EXPECT_EQ(colour->tree().getValue(at).x(), surface->colour.r);
+      EXPECT_EQ(normal->tree().getValue(at).y(), surface->normal.y);
+      EXPECT_EQ(sky->tree().getValue(at), sim::surfaceExposure(world_.occupied(), sky_, v, surface->normal));
+    }
+    const auto near = world_.nearnessAt(v);
+    EXPECT_EQ(layer->tree().isValueOn(at), near.has_value());
+    EXPECT_EQ(sky->tree().isValueOn(at), near.has_value() || occupied);
+    if (near) {
+      EXPECT_EQ(layer->tree().getValue(at), near->layer);
+      EXPECT_EQ(nearest->tree().getValue(at), near->part);
+      EXPECT_EQ(distance->tree().getValue(at), near->distance_vx);
+      if (!occupied) {
+        EXPECT_EQ(sky->tree().getValue(at), sky_.at(v));
+        EXPECT_EQ(sun->tree().getValue(at), sun_.at(v));
+        ++band;
+      }
+    }
+  });
+  EXPECT_GT(band, 1000u);
+}
+
+TEST_F(Vdb, SaysWhatItHolds) {
+  const ReadBack file = readBack(render::vdbBytes(world_));
+  EXPECT_EQ(file.grids.size(), 8u);  // no exposure was given
+  EXPECT_EQ(file.about->metaValue<std::string>("parts"), "1\tplot\tsoil\n2\tplot\tbrick\n");
+  for (const auto& [name, grid] : file.grids) {
+    EXPECT_EQ(grid->getCreator(), "Espalier");
+    EXPECT_FALSE(grid->metaValue<std::string>("description").empty()) << name;
+    EXPECT_EQ(grid->metaValue<double>("voxel_m"), world_.frame().voxel_m);
+    const sim::Vec3 expected = sim::worldFromVoxel(world_.frame(), {3, 5, 7});
+    const openvdb::Vec3d found = grid->transform().indexToWorld(openvdb::Coord(3, 5, 7));
+    EXPECT_NEAR(glm::distance(expected, sim::Vec3(found.x(), found.y(), found.z())), 0.0, 1e-12) << name;
+  }
+  EXPECT_EQ(file.grids.at("density")->getGridClass(), openvdb::GRID_FOG_VOLUME);
+  EXPECT_EQ(file.grids.at("distance")->metaValue<std::string>("unit"), "voxel widths");
+}
+
+TEST_F(Vdb, TheSameBytesOnAnyNumberOfThreads) {
+  const auto write = [&](int threads) {
+    const sim::ThreadLimit limit(threads);
+    const sim::World world = tests::wallPlot({30, 24, 20}, 3);
+    return render::vdbBytes(world, {&sun_, &sky_});
+  };
+  const std::string one = write(1);
+  EXPECT_EQ(one, write(1));
+  EXPECT_EQ(one, write(5));
+}
+
+TEST_F(Vdb, TheFileIdIsAUuidAndFollowsFromTheContents) {
+  const std::string with = render::vdbBytes(world_, {&sun_, &sky_}), without = render::vdbBytes(world_);
+  const auto id = [](const std::string& bytes) { return bytes.substr(21, 36); };
+  for (const std::string& text : {id(with), id(without)}) {
+    for (std::size_t i = 0; i < text.size(); ++i) {
+      const bool dash = i == 8 || i == 13 || i == 18 || i == 23;
+      EXPECT_TRUE(dash ? text[i] == '-' : std::isxdigit(static_cast<unsigned char>(text[i])) != 0) << text;
+    }
+  }
+  EXPECT_NE(id(with), id(without));
+}
+
+TEST_F(Vdb, AFieldOfAnotherSizeIsRefused) {
+  const sim::ExposureField small{Voxel(2), std::vector<std::uint16_t>(8)};
+  EXPECT_THROW(render::vdbBytes(world_, {nullptr, &small}), sim::InputError);
+}
+
+}  // namespace
+}  // namespace espalier

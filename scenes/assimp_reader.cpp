@@ -115,9 +115,10 @@ void requireDeclared(const DeclaredCounts& declared, const FaceCounts& read, For
 /// Assimp 5.2.5 puts the faces of an object that is taken up again (`o a`, `o b`, `o a`) into the object
 /// before, and cuts an object's name at its first space. With groups it does neither.
 void objectsAsGroups(std::string& obj) {
-  for (std::size_t at = 0; at != std::string::npos; at = obj.find('\n', at)) {
-    if (at > 0) ++at;
-    if (obj.compare(at, 2, "o ") == 0) obj[at] = 'g';
+  bool line_begins = true;
+  for (std::size_t at = 0; at + 1 < obj.size(); ++at) {
+    if (line_begins && obj[at] == 'o' && (obj[at + 1] == ' ' || obj[at + 1] == '\t')) obj[at] = 'g';
+    line_begins = obj[at] == '\n' || obj[at] == '\r';
   }
 }
 

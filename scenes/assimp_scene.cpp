@@ -7,9 +7,9 @@
 #include <array>
 #include <cmath>
 #include <map>
-#include <nlohmann/json.hpp>
 #include <string_view>
 
+#include "scenes/clean_text.h"
 #include "scenes/triangulate.h"
 #include "sim/error.h"
 
@@ -22,17 +22,10 @@ bool isMadeUp(std::string_view name) {
          name.starts_with("meshes[") || (name.front() == '<' && name.back() == '>');
 }
 
-/// The name as valid UTF-8 without control characters, or nothing where Assimp made it up.
+/// The name, or nothing where Assimp made it up.
 std::string nameIn(const aiString& raw) {
-  const std::string_view text(raw.data, std::min<std::size_t>(raw.length, MAXLEN - 1));
-  const auto quoted = nlohmann::json(text).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
-  auto name = nlohmann::json::parse(quoted).get<std::string>();
-  std::replace_if(
-      name.begin(), name.end(), [](unsigned char c) { return c < ' ' || c == 0x7f; }, ' ');
-  const auto first = name.find_first_not_of(' ');
-  if (first == std::string::npos) return {};
-  name = name.substr(first, name.find_last_not_of(' ') + 1 - first);
-  return isMadeUp(name) ? std::string() : name;
+  const auto name = cleanText({raw.data, std::min<std::size_t>(raw.length, MAXLEN - 1)});
+  return name.empty() || isMadeUp(name) ? std::string() : name;
 }
 
 /// A display value as linear light (IEC 61966-2-1).

@@ -122,6 +122,8 @@ TEST_F(MeshErrors, DamagedPlyIsSaidByLine) {
   expectRefused(write("d.ply", replaced(kSquarePly, "vertex 4", "vertex four")), "line 4: 'four'");
   expectRefused(write("e.ply", replaced(kSquarePly, "format ascii 1.0\n", "")), "'format ascii 1.0'");
   expectRefused(write("f.ply", replaced(kSquarePly, "1 1 0", "1 l 0")), "line 13: 'l' is no number");
+  expectRefused(write("j.ply", replaced(kSquarePly, "float z", "fl\x1b\xfft z")),
+                "line 7: 'fl \xef\xbf\xbdt' is not");
   expectRefused(write("g.ply", replaced(kSquarePly, "1 1 0\n", "")), "promises 5 lines of data and 4 follow");
   expectRefused(write("h.ply", replaced(kSquarePly, "face 1", "face 1000000")), "the file is cut");
   const auto binary = binarySquarePly();

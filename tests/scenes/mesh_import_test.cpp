@@ -73,11 +73,10 @@ TEST_F(MeshImport, ObjRegionsFromMaterials) {
 }
 
 TEST_F(MeshImport, ObjObjectsAreGroupsAlsoWhenTakenUpAgain) {
-  const auto mesh = importMesh(
-      write(
-          "o.obj",
-          "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\no south wall\nf 1 2 3\no b\nf 1 2 3\no south wall\nf 1 2 3\n"),
-      RegionsFrom::group);
+  const auto mesh = importMesh(write("o.obj",
+                                     "\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\no south wall\nf 1 2 3\no b\nf 1 "
+                                     "2 3\no south wall\nf 1 2 3\n"),
+                               RegionsFrom::group);
   auto names = regionNames(mesh);
   EXPECT_EQ(names, (Names{"o", "south wall", "b", "south wall"}));  // the nameless one after the file
 }

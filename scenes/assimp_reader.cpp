@@ -1,7 +1,6 @@
 #include "scenes/assimp_reader.h"
 
 #include <assimp/BaseImporter.h>
-#include <assimp/postprocess.h>
 #include <assimp/scene.h>
 #include <fmt/format.h>
 
@@ -38,6 +37,11 @@ Format formatOf(const std::filesystem::path& file) {
       fmt::format("'{}' is not a mesh format that can be read: use .obj, .gltf, .glb, .ply or .stl", ending));
 }
 
+MeshColours coloursOf(Format format) {
+  if (format == Format::gltf) return MeshColours::linear;
+  return format == Format::obj ? MeshColours::display : MeshColours::none;
+}
+
 /// Leaves one reader: hostile text must not be tried as any of the fifty other formats that Assimp knows.
 void keepOnlyReaderOf(Assimp::Importer& importer, Format format) {
   static constexpr std::array<std::string_view, 4> kNames{"Wavefront Object Importer", "glTF2 Importer",
@@ -72,7 +76,7 @@ FaceCounts countFaces(const std::vector<MeshInstance>& instances) {
   return counts;
 }
 
-/// What triangulation must be able to rely on: it reads a polygon's vertices without a look at their indices.
+/// What building the mesh relies on.
 void requireSound(const aiMesh& mesh) {
   for (unsigned v = 0; v < mesh.mNumVertices; ++v) {
     const auto& p = mesh.mVertices[v];
@@ -97,12 +101,24 @@ void requireSound(const aiMesh& mesh) {
 }
 
 void requireDeclared(const DeclaredCounts& declared, const FaceCounts& read, Format format) {
-  const auto faces = format == Format::gltf ? read.triangles : read.faces;
-  if (declared.vertices.value_or(read.vertices) != read.vertices || declared.faces.value_or(faces) != faces) {
+  const auto require = [](std::uint64_t promised, std::uint64_t got, const char* what) {
+    if (promised == got) return;
     throw sim::InputError(fmt::format(
-        "the file promises {} vertices and {} faces, but {} and {} could be read: it is cut, or faces "
-        "ask for vertices that are not there",
-        declared.vertices.value_or(read.vertices), declared.faces.value_or(faces), read.vertices, faces));
+        "the file promises {} {} and {} could be read: it is cut, or asks for vertices that are not there",
+        promised, what, got));
+  };
+  require(declared.vertices.value_or(read.vertices), read.vertices, "vertices");
+  const auto faces = format == Format::gltf ? read.triangles : read.faces;
+  require(declared.faces.value_or(faces), faces, format == Format::gltf ? "triangles" : "faces");
+}
+
+/// Assimp 5.2.5 puts the faces of an object that is taken up again (`o a`, `o b`, `o a`) into the object
+/// before, and cuts an object's name at its first space. With groups it does neither.
+void objectsAsGroups(std::string& obj) {
+  bool line_begins = true;
+  for (std::size_t at = 0; at + 1 < obj.size(); ++at) {
+    if (line_begins && obj[at] == 'o' && (obj[at + 1] == ' ' || obj[at + 1] == '\t')) obj[at] = 'g';
+    line_begins = obj[at] == '\n' || obj[at] == '\r';
   }
 }
 
@@ -127,26 +143,23 @@ sim::Mesh readWithAssimp(const std::filesystem::path& file, RegionsFrom regions_
   Assimp::Importer importer;
   keepOnlyReaderOf(importer, format);
   const auto real = std::filesystem::canonical(file);
-  auto* io = new MeshFolderIo(real.parent_path());  // the importer owns it
+  auto* io =
+      new MeshFolderIo(real, format == Format::obj ? objectsAsGroups : nullptr);  // the importer owns it
   importer.SetIOHandler(io);
   // By its name alone, so that everything that the file asks for comes to the handler as a name in its
   // folder.
   const aiScene* scene = importer.ReadFile(real.filename().string(), 0);
   if (!io->refused().empty()) {
-    throw sim::InputError(fmt::format("it asks for the file '{}', which is not a regular file in its folder",
-                                      io->refused().front()));
+    throw sim::InputError(
+        fmt::format("it names the file '{}', which is not there as a regular file in its folder; put it "
+                    "there or remove its name",
+                    io->refused().front()));
   }
   if (scene == nullptr || scene->mRootNode == nullptr) failWith(importer.GetErrorString());
   for (unsigned m = 0; m < scene->mNumMeshes; ++m) requireSound(*scene->mMeshes[m]);
-  const FaceCounts counts = countFaces(instancesOf(*scene));
-  requireDeclared(declared, counts, format);
-
-  scene = importer.ApplyPostProcessing(aiProcess_Triangulate);
-  if (scene == nullptr) failWith(importer.GetErrorString());
-  sim::Mesh mesh =
-      meshOf(*scene, instancesOf(*scene), regions_from, file.stem().string(), format == Format::gltf);
-  mesh.degenerate_dropped = counts.triangles - mesh.triangles.size();
-  return mesh;
+  const auto instances = instancesOf(*scene);
+  requireDeclared(declared, countFaces(instances), format);
+  return meshOf(*scene, instances, regions_from, file.stem().string(), coloursOf(format));
 }
 
 }  // namespace espalier::scenes

@@ -11,9 +11,8 @@ namespace espalier::scenes {
 void requireMeshFormat(const std::filesystem::path& file);
 
 /// Reads a mesh file through Assimp, in this process. Only for a child process: Assimp can crash or hang on
-/// damaged files; importMesh is the safe way. Degenerate triangles are still there, but for those that
-/// triangulation of a polygon left out: they are counted in `degenerate_dropped`. Throws sim::InputError,
-/// without the file's name.
+/// damaged files; importMesh is the safe way. Degenerate triangles are still there.
+/// Throws sim::InputError, without the file's name.
 sim::Mesh readWithAssimp(const std::filesystem::path& file, RegionsFrom regions_from);
 
 }  // namespace espalier::scenes

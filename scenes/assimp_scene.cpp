@@ -7,35 +7,25 @@
 #include <array>
 #include <cmath>
 #include <map>
-#include <nlohmann/json.hpp>
 #include <string_view>
 
+#include "scenes/clean_text.h"
+#include "scenes/triangulate.h"
 #include "sim/error.h"
 
 namespace espalier::scenes {
 namespace {
 
-/// The names that Assimp makes up where a file gives none.
+/// The names that Assimp makes up where a file gives none: `nodes[3]`, `<STL_BINARY>`.
 bool isMadeUp(std::string_view name) {
-  const auto numbered = [&](std::string_view stem) {
-    return name.starts_with(stem) &&
-           name.find_first_not_of("0123456789", stem.size()) == std::string_view::npos;
-  };
-  return name.empty() || name == "defaultobject" || name == AI_DEFAULT_MATERIAL_NAME ||
-         (name.front() == '<' && name.back() == '>') || numbered("nodes_") || numbered("meshes_");
+  return name == "defaultobject" || name == AI_DEFAULT_MATERIAL_NAME || name.starts_with("nodes[") ||
+         name.starts_with("meshes[") || (name.front() == '<' && name.back() == '>');
 }
 
-/// The name as valid UTF-8 without control characters, or nothing where Assimp made it up.
+/// The name, or nothing where Assimp made it up.
 std::string nameIn(const aiString& raw) {
-  const std::string_view text(raw.data, std::min<std::size_t>(raw.length, MAXLEN - 1));
-  const auto quoted = nlohmann::json(text).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
-  auto name = nlohmann::json::parse(quoted).get<std::string>();
-  std::replace_if(
-      name.begin(), name.end(), [](unsigned char c) { return c < ' ' || c == 0x7f; }, ' ');
-  const auto first = name.find_first_not_of(' ');
-  if (first == std::string::npos) return {};
-  name = name.substr(first, name.find_last_not_of(' ') + 1 - first);
-  return isMadeUp(name) ? std::string() : name;
+  const auto name = cleanText({raw.data, std::min<std::size_t>(raw.length, MAXLEN - 1)});
+  return name.empty() || isMadeUp(name) ? std::string() : name;
 }
 
 /// A display value as linear light (IEC 61966-2-1).
@@ -92,12 +82,19 @@ class MeshBuilder {
       const auto& p = from.mVertices[v];
       mesh_.vertices_m.emplace_back(instance.world_from_mesh * glm::dvec4(p.x, p.y, p.z, 1.0));
     }
+    std::vector<sim::Vec3> corners;
     for (unsigned f = 0; f < from.mNumFaces; ++f) {
       const aiFace& face = from.mFaces[f];
-      if (face.mNumIndices != 3) continue;  // points and lines
-      mesh_.triangles.push_back({base + face.mIndices[0], base + face.mIndices[1], base + face.mIndices[2]});
-      mesh_.region.push_back(regionIndex(region_name));
-      mesh_.material.push_back(materialIndex(from.mMaterialIndex, material));
+      if (face.mNumIndices < 3) continue;  // points and lines
+      corners.clear();
+      for (unsigned c = 0; c < face.mNumIndices; ++c)
+        corners.push_back(mesh_.vertices_m[base + face.mIndices[c]]);
+      for (const auto& [a, b, c] : triangulate(corners)) {
+        mesh_.triangles.push_back(
+            {base + face.mIndices[a], base + face.mIndices[b], base + face.mIndices[c]});
+        mesh_.region.push_back(regionIndex(region_name));
+        mesh_.material.push_back(materialIndex(from.mMaterialIndex, material));
+      }
     }
   }
 
@@ -131,17 +128,17 @@ std::vector<MeshInstance> instancesOf(const aiScene& scene) {
   };
   std::vector<MeshInstance> instances;
   std::vector<Open> open{{scene.mRootNode, glm::dmat4(1.0)}};
-  std::size_t triangles = 0;
+  std::size_t corners = 0;
   while (!open.empty()) {
     const Open next = open.back();
     open.pop_back();
     const glm::dmat4 world_from_mesh = next.world_from_parent * matrixOf(next.node->mTransformation);
     for (unsigned i = 0; i < next.node->mNumMeshes; ++i) {
       const aiMesh* mesh = scene.mMeshes[next.node->mMeshes[i]];
-      triangles += mesh->mNumFaces;
-      if (triangles > kMostTriangles) {
+      for (unsigned f = 0; f < mesh->mNumFaces; ++f) corners += mesh->mFaces[f].mNumIndices;
+      if (corners > 3 * kMostTriangles) {
         throw sim::InputError(
-            fmt::format("more than {} triangles; make the mesh simpler first", kMostTriangles));
+            fmt::format("there are more than {} triangles; make the mesh simpler first", kMostTriangles));
       }
       instances.push_back({world_from_mesh, mesh, groupOf(*next.node, *mesh)});
     }
@@ -152,13 +149,13 @@ std::vector<MeshInstance> instancesOf(const aiScene& scene) {
 }
 
 sim::Mesh meshOf(const aiScene& scene, const std::vector<MeshInstance>& instances, RegionsFrom regions_from,
-                 const std::string& stem, bool is_gltf) {
-  std::vector<sim::Material> materials;
-  for (unsigned i = 0; i < scene.mNumMaterials; ++i) {
-    // Behind a glTF file's own materials Assimp puts one more for primitives that have none.
-    const bool is_default = is_gltf && i + 1 == scene.mNumMaterials;
-    materials.push_back(is_default ? sim::Material{.name = stem}
-                                   : materialOf(*scene.mMaterials[i], stem, is_gltf));
+                 const std::string& stem, MeshColours colours) {
+  const sim::Material plain{.name = stem};
+  std::vector<sim::Material> materials(scene.mNumMaterials, plain);
+  // Behind a glTF file's own materials Assimp puts one more, for primitives that have none.
+  const unsigned given = scene.mNumMaterials - (colours == MeshColours::linear ? 1 : 0);
+  for (unsigned i = 0; i < given && colours != MeshColours::none; ++i) {
+    materials[i] = materialOf(*scene.mMaterials[i], stem, colours == MeshColours::linear);
   }
   const bool has_groups =
       std::any_of(instances.begin(), instances.end(), [](const MeshInstance& i) { return !i.group.empty(); });

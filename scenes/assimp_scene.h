@@ -25,8 +25,12 @@ struct MeshInstance {
 /// The scene's nodes, flattened, in the file's order. Throws sim::InputError above kMostTriangles.
 std::vector<MeshInstance> instancesOf(const aiScene& scene);
 
+/// What the base colours in a file are: none to speak of (PLY, STL), display values (OBJ), linear light
+/// (glTF).
+enum class MeshColours { none, display, linear };
+
 /// The instances' triangles as one mesh, named `stem`, with regions and linear base colours.
 sim::Mesh meshOf(const aiScene& scene, const std::vector<MeshInstance>& instances, RegionsFrom regions_from,
-                 const std::string& stem, bool is_gltf);
+                 const std::string& stem, MeshColours colours);
 
 }  // namespace espalier::scenes

@@ -12,6 +12,7 @@
 #include <glm/mat3x3.hpp>
 
 #include "scenes/assimp_reader.h"
+#include "scenes/clean_text.h"
 #include "scenes/mesh_wire.h"
 #include "sim/error.h"
 
@@ -54,7 +55,7 @@ sim::Mesh readInChild(const std::filesystem::path& file, RegionsFrom regions_fro
     case ChildEnd::finished:
       break;
     case ChildEnd::threw:
-      throw sim::InputError(result.bytes);
+      throw sim::InputError(cleanText(result.bytes));
     case ChildEnd::crashed:
       throw sim::InputError(
           fmt::format("the file is damaged: it made the mesh reader crash ({})", result.bytes));

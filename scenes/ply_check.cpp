@@ -146,14 +146,37 @@ class HeaderReader {
   }
 
   void requireBody() {
-    std::uint64_t needed = 0;
-    for (const auto& element : elements_) needed += element.count * element.bytes_each;
     const auto begin = in_.tellg();
     in_.seekg(0, std::ios::end);
     const auto have = static_cast<std::uint64_t>(in_.tellg() - begin);
+    std::uint64_t needed = 0;
+    std::uint64_t lines = 0;
+    for (const auto& element : elements_) {
+      needed += element.count * element.bytes_each;
+      lines += element.count;
+    }
     if (have + 1 < needed) {  // the last line may lack its end
       throw sim::InputError(fmt::format(
           "the file is cut: its header promises at least {} bytes of data and {} follow", needed, have));
+    }
+    in_.seekg(begin);
+    if (ascii_) requireLines(lines);
+  }
+
+  /// Assimp takes a letter for a zero, and repeats the last line where lines are missing.
+  void requireLines(std::uint64_t promised) {
+    std::uint64_t found = 0;
+    for (std::string line; std::getline(in_, line);) {
+      ++line_number_;
+      const auto strange = line.find_first_not_of("0123456789+-.eE \t\rnaifNAIF");
+      if (strange != std::string::npos) {
+        throw sim::InputError(fmt::format("line {}: '{}' is no number", line_number_, line[strange]));
+      }
+      found += line.find_first_not_of(" \t\r") == std::string::npos ? 0 : 1;
+    }
+    if (found < promised) {
+      throw sim::InputError(fmt::format("the file is cut: its header promises {} lines of data and {} follow",
+                                        promised, found));
     }
   }
 

@@ -116,9 +116,9 @@ TEST_F(Vdb, SaysWhatItHolds) {
 
 TEST_F(Vdb, TheSameBytesOnAnyNumberOfThreads) {
   const auto write = [&](int threads) {
-    const sim::ThreadLimit limit(threads);
-    const sim::World world = tests::wallPlot({30, 24, 20}, 3);
-    return render::vdbBytes(world, {&sun_, &sky_});
+    std::string bytes;
+    sim::onThreads(threads, [&] { bytes = render::vdbBytes(tests::wallPlot({30, 24, 20}, 3), {&sun_, &sky_}); });
+    return bytes;
   };
   const std::string one = write(1);
   EXPECT_EQ(one, write(1));

@@ -19,7 +19,7 @@ std::string messageOf(const std::function<void()>& work) {
 }
 
 TEST(FrameAround, HoldsTheMeshesAndTheirMargin) {
-  const std::vector<TiledMesh> meshes{{test::boxMesh({-1, 0, 2}, {1, 3, 2.5}), false}};
+  const std::vector<TiledMesh> meshes{{tests::boxMesh({-1, 0, 2}, {1, 3, 2.5}), false}};
   const Frame frame = frameAround(meshes, 0.25, 0.5);
   EXPECT_EQ(frame.size, Voxel(12, 16, 6));
   EXPECT_EQ(frame.voxel_m, 0.25);
@@ -29,7 +29,7 @@ TEST(FrameAround, HoldsTheMeshesAndTheirMargin) {
 TEST(FrameAround, LosesNoVoxelEvenWithoutMargin) {
   // High faces lie between two layers and belong to the upper one, which must be there.
   for (const double voxel : {0.1, 0.25, 0.3, 1.0 / 3.0, 0.7}) {
-    const std::vector<TiledMesh> meshes{{test::boxMesh({0.1, 0.2, 0.3}, {1.1, 1.2, 1.3}), false}};
+    const std::vector<TiledMesh> meshes{{tests::boxMesh({0.1, 0.2, 0.3}, {1.1, 1.2, 1.3}), false}};
     Frame frame = frameAround(meshes, voxel, 0.0);
     const std::size_t count = buildWorld(frame, meshes, 0).occupied().count();
     frame.size += 4;
@@ -40,8 +40,8 @@ TEST(FrameAround, LosesNoVoxelEvenWithoutMargin) {
 
 TEST(FrameAround, AsksForSomethingToHold) {
   EXPECT_THROW(frameAround({}, 0.1, 0.0), InputError);
-  EXPECT_THROW(frameAround({{test::emptyMesh("nothing"), false}}, 0.1, 0.0), InputError);
-  const std::vector<TiledMesh> meshes{{test::boxMesh(Vec3(0.0), Vec3(1.0)), false}};
+  EXPECT_THROW(frameAround({{tests::emptyMesh("nothing"), false}}, 0.1, 0.0), InputError);
+  const std::vector<TiledMesh> meshes{{tests::boxMesh(Vec3(0.0), Vec3(1.0)), false}};
   for (const double voxel : {0.0, -1.0, std::nan(""), HUGE_VAL}) {
     EXPECT_THROW(frameAround(meshes, voxel, 0.0), InputError);
   }
@@ -51,7 +51,7 @@ TEST(FrameAround, AsksForSomethingToHold) {
 }
 
 TEST(RequireFits, NamesAVoxelSizeThatWouldFit) {
-  const std::vector<TiledMesh> meshes{{test::boxMesh(Vec3(0.0), Vec3(10, 7, 9)), false}};
+  const std::vector<TiledMesh> meshes{{tests::boxMesh(Vec3(0.0), Vec3(10, 7, 9)), false}};
   for (const double voxel : {0.001, 1e-5, 1e-9, 1e-300}) {
     const std::string message = messageOf([&] { frameAround(meshes, voxel, 0.1); });
     std::smatch found;

@@ -7,7 +7,7 @@
 #include "sim/frame.h"
 #include "sim/tiling.h"
 
-namespace espalier::test {
+namespace espalier::tests {
 
 using Rational = boost::multiprecision::cpp_rational;
 using Point = std::array<Rational, 3>;
@@ -73,4 +73,4 @@ inline std::vector<sim::Voxel> exactTiling(const std::vector<sim::Vec3>& corners
   return voxels;
 }
 
-}  // namespace espalier::test
+}  // namespace espalier::tests

@@ -13,8 +13,6 @@
 namespace espalier::sim {
 namespace {
 
-using namespace std::string_literals;
-
 double totalCoverage(const World& world) {
   double sum = 0.0;
   for (const TiledVoxel& t : world.surfaces()) sum += t.surface.coverage;

@@ -14,8 +14,6 @@
 namespace espalier::sim {
 namespace {
 
-using namespace std::string_literals;
-
 double totalCoverage(const World& world) {
   double sum = 0.0;
   for (const TiledVoxel& t : world.surfaces()) sum += t.surface.coverage;
@@ -218,8 +216,8 @@ TEST(BuildWorld, RefusesMeshesThatAreNotSound) {
   mesh.vertices_m[3].y = std::numeric_limits<double>::quiet_NaN();
   EXPECT_EQ(build(mesh), "mesh 'box': a vertex is not finite");
   mesh.vertices_m[3].y = 1e300;
-  EXPECT_EQ(build(mesh).substr(0, 72),
-            "mesh 'box': a vertex lies more than 1e+12 voxels from the world; expected"s);
+  EXPECT_TRUE(build(mesh).starts_with("mesh 'box': a vertex lies more than 1e+12 voxels from the world;"))
+      << build(mesh);
   mesh = tests::boxMesh(Vec3(0.0), Vec3(1.0));
   mesh.triangles[0][1] = 8;
   EXPECT_EQ(build(mesh), "mesh 'box': a triangle's vertex does not exist");

@@ -27,7 +27,7 @@ struct RandomTree {
   int branch_age_min = 1;  ///< iterations before a node branches, drawn evenly from [min, max]
   int branch_age_max = 3;
   Value branch_angle_deg = 60.0;
-  Value wander_deg = 35.0;  ///< a trial's direction lies within this angle of the way that the limb was going
+  Value wander_deg = 30.0;  ///< a trial's direction lies within this angle of the way that the limb was going
   int trials_min = 150;     ///< trials before the best one is taken
   int trials_max = 300;     ///< trials before the tip gives up
 };

@@ -222,7 +222,8 @@ Image contactSheet(const Scene& scene, const ImageSpec& sheet,
   for (const std::string& name : sheet.of) {
     const auto spec = std::find_if(scene.images.begin(), scene.images.end(),
                                    [&](const ImageSpec& image) { return image.name == name; });
-    captioned.push_back({pictures.at(name).get(), std::string(1, static_cast<char>('A' + captioned.size())),
+    const std::string letter(1, static_cast<char>('A' + captioned.size()));
+    captioned.push_back({pictures.at(name).get(), spec->letter.empty() ? letter : spec->letter,
                          spec->caption.empty() ? name : spec->caption});
   }
   render::SheetLook look;

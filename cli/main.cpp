@@ -3,6 +3,7 @@
 #include <CLI/App.hpp>
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
+#include <csignal>
 #include <cstdio>
 #include <exception>
 #include <new>
@@ -13,6 +14,9 @@
 int main(int argc, char** argv) {
   using namespace espalier;
   int exit_status = 0;
+  // A file that grows beyond a limit, or a closed pipe, is a failed write with a reason, not the end of the program.
+  std::signal(SIGXFSZ, SIG_IGN);
+  std::signal(SIGPIPE, SIG_IGN);
   try {
     CLI::App app("Espalier grows plants that feel their way through a world of voxels.", "espalier");
     app.require_subcommand(1);

@@ -85,10 +85,8 @@ std::vector<sim::ProposedElement> proposeElements(const sim::GrowthView& view, c
         tiled.erase(std::unique(tiled.begin(), tiled.end()), tiled.end());
         // Its own segment is no obstacle, but its siblings are.
         std::erase_if(tiled, [&](sim::Voxel v) { return has(segment, v); });
-        const sim::Attachment attachment{sim::voxelAt(element.position_vx), view.plant.stem_part,
-                                         senses.parent_voxels};
         if (std::any_of(tiled.begin(), tiled.end(), [&](sim::Voxel v) { return has(taken, v); })) continue;
-        if (sim::fits(view.world, tiled, attachment) != sim::Fit::clear) continue;
+        if (sim::fits(view.world, tiled, senses.attachment) != sim::Fit::clear) continue;
         std::erase_if(tiled, [&](sim::Voxel v) { return view.world.occupied().at(v); });
         taken.insert(taken.end(), tiled.begin(), tiled.end());
         const double share = area * element.scale * element.scale /

@@ -66,7 +66,7 @@ class RandomTreeRule final : public sim::Rule {
  private:
   /// The rule set of the region that is nearest to the bud; null where nothing may grow.
   const RuleSet* rulesAt(const sim::World& world, sim::Voxel v) const;
-  sim::Vec3 trialDirection(const RuleSet& rules, const Senses& senses, const sim::Bud& bud,
+  sim::Vec3 trialDirection(const RuleSet& rules, const Senses& senses, const sim::Bud& bud, double widening,
                            sim::Draws& draws) const;
   Outcome judge(const sim::GrowthView& view, const RuleSet& rules, const Senses& senses,
                 Candidate& trial) const;
@@ -101,10 +101,11 @@ const RuleSet* RandomTreeRule::rulesAt(const sim::World& world, sim::Voxel v) co
 }
 
 sim::Vec3 RandomTreeRule::trialDirection(const RuleSet& rules, const Senses& senses, const sim::Bud& bud,
-                                         sim::Draws& draws) const {
+                                         double widening, sim::Draws& draws) const {
   sim::Vec3 direction;
   if (senses.heading == sim::Vec3(0.0)) {
-    // A seed has no way of its own yet: a shoot makes for the open above, or along the wall that it stands at.
+    // A seed has no way of its own yet: a shoot makes for the open above, or along the wall that it stands
+    // at.
     direction = draws.inCone(sim::Vec3(0, 1, 0), 0.5);
   } else {
     sim::Vec3 heading = senses.heading;
@@ -114,7 +115,8 @@ sim::Vec3 RandomTreeRule::trialDirection(const RuleSet& rules, const Senses& sen
           glm::normalize(glm::cross(heading, draws.onSphere()) + 1e-9 * sim::perpendicular(heading));
       heading = cosineOfDegrees(angle) * heading + sineOfDegrees(angle) * sideways;
     }
-    const double wander = evaluate(rules.random_tree.wander_deg, senses.circumstance, draws.uniform());
+    const double wander = std::min(
+        180.0, widening * evaluate(rules.random_tree.wander_deg, senses.circumstance, draws.uniform()));
     direction = draws.inCone(heading, cosineOfDegrees(wander));
   }
   const Bias& bias = rules.bias;
@@ -134,9 +136,8 @@ Outcome RandomTreeRule::judge(const sim::GrowthView& view, const RuleSet& rules,
                               Candidate& trial) const {
   trial.voxels.clear();
   sim::tileSegment(senses.at_vx, trial.to_vx, trial.voxels);
-  const sim::Attachment attachment{senses.voxel, view.plant.stem_part, senses.parent_voxels};
   if (rules.require.clear) {
-    switch (sim::fits(view.world, trial.voxels, attachment)) {
+    switch (sim::fits(view.world, trial.voxels, senses.attachment)) {
       case sim::Fit::outside:
         return Outcome::out_of_world;
       case sim::Fit::blocked:
@@ -164,7 +165,11 @@ std::optional<Candidate> RandomTreeRule::bestTrial(const sim::GrowthView& view, 
   for (int i = 0; i < tree.trials_max && !(best && i >= tree.trials_min); ++i) {
     sim::Draws draws(key, bud.side ? sim::Purpose::branch : sim::Purpose::tip,
                      first_trial + static_cast<std::uint32_t>(i));
-    const sim::Vec3 direction = flattened(trialDirection(rules, senses, bud, draws), view.world.frame().size);
+    // A tip that has not found a way among its first trials looks farther afield.
+    const double widening =
+        i < tree.trials_min ? 1.0 : 1.0 + (i - tree.trials_min + 1.0) / (tree.trials_max - tree.trials_min);
+    const sim::Vec3 direction =
+        flattened(trialDirection(rules, senses, bud, widening, draws), view.world.frame().size);
     if (direction == sim::Vec3(0.0)) continue;
     const double length = evaluate(tree.length.value, senses.circumstance, draws.uniform());
     trial.to_vx = senses.at_vx + direction * (tree.length.metres ? length / voxel_m_ : length);
@@ -210,7 +215,8 @@ sim::Proposal RandomTreeRule::propose(const sim::GrowthView& view, const sim::Bu
     rules = rules->otherwise.get();
     best = bestTrial(view, *rules, senses, bud, key, set * kTrialsOfOneSet, proposal);
   }
-  if (!best) return stop(Outcome::no_trial, true);
+  const bool seed = senses.heading == sim::Vec3(0.0);
+  if (!best) return stop(Outcome::no_trial, !seed);
 
   proposal.outcome = Outcome::grown;
   proposal.to_vx = best->to_vx;

@@ -1,6 +1,7 @@
 #include "rules/trial.h"
 
 #include <algorithm>
+#include <iterator>
 
 #include "sim/sense/mass.h"
 #include "sim/sense/proximity.h"
@@ -12,6 +13,18 @@ namespace {
 sim::Vec3 unitOrZero(sim::Vec3 v) {
   const double length = glm::length(v);
   return length > 1e-9 ? v / length : sim::Vec3(0.0);
+}
+
+/// Limbs leave one node through the same voxels: those of a sibling right beside the node are no obstacle.
+void addSiblings(const sim::Skeleton& skeleton, sim::NodeId node, Senses& senses) {
+  std::vector<sim::Voxel> limb;
+  for (std::size_t child = static_cast<std::size_t>(node) + 1; child < skeleton.parent.size(); ++child) {
+    if (skeleton.parent[child] != node) continue;
+    limb.clear();
+    sim::tileSegment(senses.at_vx, skeleton.position_vx[child], limb);
+    std::copy_if(limb.begin(), limb.end(), std::back_inserter(senses.attachment),
+                 [&](sim::Voxel v) { return sim::besides(v, senses.voxel); });
+  }
 }
 
 /// Growth rate over that at the least exposure: linear from 1 at the minimum to boost at the maximum.
@@ -37,8 +50,9 @@ Senses sense(const sim::GrowthView& view, const sim::Bud& bud, const RuleSet& ru
   if (const sim::NodeId parent = skeleton.parent[node]; parent != sim::kNoNode) {
     const sim::Vec3 from = skeleton.position_vx[static_cast<std::size_t>(parent)];
     senses.heading = unitOrZero(senses.at_vx - from);
-    sim::tileSegment(from, senses.at_vx, senses.parent_voxels);
+    sim::tileSegment(from, senses.at_vx, senses.attachment);
   }
+  addSiblings(skeleton, bud.node, senses);
   const sim::Outlook sky = sim::lookOut(view.world.opaque(), senses.voxel, view.sky);
   const sim::Outlook sun = sim::lookOut(view.world.opaque(), senses.voxel, view.sun);
   senses.light = unitOrZero(sky.toward);

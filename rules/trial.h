@@ -21,7 +21,7 @@ struct Senses {
   double sun_exposure = 0.0;
   double exposure = 0.0;                  ///< blended
   double vigour = 1.0;                    ///< growth rate over that at the least exposure: 1 .. boost
-  std::vector<sim::Voxel> parent_voxels;  ///< of the limb that ends here
+  std::vector<sim::Voxel> attachment;  ///< voxels of the limb that ends here, and the first ones of those that leave
   Circumstance circumstance;
 };
 

@@ -9,6 +9,7 @@
 #include <assimp/Importer.hpp>
 #include <cctype>
 #include <cmath>
+#include <new>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -53,8 +54,9 @@ void keepOnlyReaderOf(Assimp::Importer& importer, Format format) {
     importer.UnregisterLoader(other);
     delete other;  // unregistering hands it over
   }
-  if (importer.GetImporterCount() != 1)
+  if (importer.GetImporterCount() != 1) {
     throw sim::InputError("this build of Assimp has no reader for this format");
+  }
 }
 
 struct FaceCounts {
@@ -143,11 +145,9 @@ sim::Mesh readWithAssimp(const std::filesystem::path& file, RegionsFrom regions_
   Assimp::Importer importer;
   keepOnlyReaderOf(importer, format);
   const auto real = std::filesystem::canonical(file);
-  auto* io =
-      new MeshFolderIo(real, format == Format::obj ? objectsAsGroups : nullptr);  // the importer owns it
-  importer.SetIOHandler(io);
-  // By its name alone, so that everything that the file asks for comes to the handler as a name in its
-  // folder.
+  auto* io = new MeshFolderIo(real, format == Format::obj ? objectsAsGroups : nullptr);
+  importer.SetIOHandler(io);  // and owns it
+  // By its name alone, so that all that the file asks for comes to the handler as a name in its folder.
   const aiScene* scene = importer.ReadFile(real.filename().string(), 0);
   if (!io->refused().empty()) {
     throw sim::InputError(

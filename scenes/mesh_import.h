@@ -14,8 +14,8 @@ namespace espalier::scenes {
 /// file's groups (OBJ: `g` and `o`; glTF: the node's name, or its mesh's; STL: the solid's) or its materials,
 /// in the order of first use. Where groups are asked for and the file names none, its materials stand in;
 /// what has no name at all becomes a region named after the file. Materials carry base colours as linear RGB:
-/// glTF's are linear; Kd of an MTL file is taken as a display value (sRGB), as modelling programs write it.
-/// Textures and vertex colours are not read.
+/// glTF's are linear; Kd of an MTL file, of which its format says nothing, is taken as a display value
+/// (sRGB), as a colour picker shows it. Textures and vertex colours are not read.
 ///
 /// Triangles with two equal corners or a height below 1e-7 of their longest edge are dropped and counted, at
 /// any size.

@@ -121,16 +121,13 @@ class Lines {
       IntRange ws{first_.z, last_.z};
       for (const HalfPlane& e : edges) keepAtMost<std::int64_t>(ws, e.b, e.limit - e.a * v);
       for (int w = ws.first; w <= ws.last; ++w) {
-        // A centre that the plane goes through is in a tiled voxel, so rounding cannot move a free one
-        // across.
-        const Vec3 at(0.0, static_cast<double>(v * kFixedOne - q[0].y),
-                      static_cast<double>(w * kFixedOne - q[0].z));
-        const double along =
-            static_cast<double>(q[0].x) -
-            (static_cast<double>(n.y) * at.y + static_cast<double>(n.z) * at.z) / static_cast<double>(n.x);
-        const double voxel = std::ceil(along / static_cast<double>(kFixedOne));
-        const double clamped =
-            std::clamp(voxel, static_cast<double>(first_.x), static_cast<double>(last_.x) + 1.0);
+        // The plane is crossed at along / n.x; what counts is the first centre at or after it, rounded up
+        // twice.
+        const Int128 along = Int128{n.x} * q[0].x - Int128{n.y} * (v * kFixedOne - q[0].y) -
+                             Int128{n.z} * (w * kFixedOne - q[0].z);
+        const Int128 upwards = -floorDiv<Int128>(n.x > 0 ? -along : along, std::abs(n.x));
+        const Int128 before = -floorDiv<Int128>(-upwards, kFixedOne);
+        const Int128 clamped = std::clamp<Int128>(before, first_.x, last_.x + 1);
         crossings.push_back({line(v, w), static_cast<std::int32_t>(clamped), n.x > 0 ? 1 : -1});
       }
     }

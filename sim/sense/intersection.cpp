@@ -4,14 +4,12 @@
 
 namespace espalier::sim {
 
-Fit fits(const World& world, std::span<const Voxel> voxels, const Attachment& attachment) {
+Fit fits(const World& world, std::span<const Voxel> voxels, std::span<const Voxel> attachment) {
   const auto& occupied = world.occupied();
   for (const Voxel v : voxels) {
     if (!contains(occupied.size(), v)) return Fit::outside;
     if (!occupied.at(v)) continue;
-    if (std::find(attachment.parent.begin(), attachment.parent.end(), v) != attachment.parent.end()) continue;
-    if (besides(v, attachment.at) && world.partAt(v) == attachment.stem) continue;
-    return Fit::blocked;
+    if (std::find(attachment.begin(), attachment.end(), v) == attachment.end()) return Fit::blocked;
   }
   return Fit::clear;
 }

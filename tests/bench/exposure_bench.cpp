@@ -12,9 +12,9 @@ namespace {
 /// A ground plane and a wall with a return, in a world of Greene's size.
 sim::BitVolume yard() {
   sim::BitVolume bits({165, 150, 195});
-  test::addBox(bits, {0, 0, 0}, {164, 4, 194});
-  test::addBox(bits, {5, 5, 80}, {160, 100, 88});
-  test::addBox(bits, {5, 5, 80}, {12, 100, 180});
+  tests::addBox(bits, {0, 0, 0}, {164, 4, 194});
+  tests::addBox(bits, {5, 5, 80}, {160, 100, 88});
+  tests::addBox(bits, {5, 5, 80}, {12, 100, 180});
   return bits;
 }
 

@@ -36,8 +36,8 @@ const T& at(const std::vector<T>& list, int index) {
 
 class Glb : public testing::Test {
  protected:
-  sim::Mesh wall_ = test::wallMesh();
-  render::PlantModel vine_ = render::modelPlant(test::smallVine(), test::kVineFrame);
+  sim::Mesh wall_ = tests::wallMesh();
+  render::PlantModel vine_ = render::modelPlant(tests::smallVine(), tests::kVineFrame);
   std::string bytes_ = glbBytes({{&wall_}, {&vine_}});
 };
 

@@ -20,12 +20,12 @@ constexpr std::array kNames = {"sun_exposure", "sky_exposure",   "threshold",
                                "shadow_matte", "surface_colour", "first_pass"};
 
 std::vector<Image> paintAll(int width, int height) {
-  const test::LittleGarden garden;
+  const tests::LittleGarden garden;
   const sim::Bricks bricks(garden.occupied());
-  const sim::ExposureField sun = garden.exposure(test::LittleGarden::sunArc());
-  const sim::ExposureField sky = garden.exposure(test::LittleGarden::sky());
+  const sim::ExposureField sun = garden.exposure(tests::LittleGarden::sunArc());
+  const sim::ExposureField sky = garden.exposure(tests::LittleGarden::sky());
   const Visibility seen =
-      see(garden.frame(), garden.occupied(), bricks, test::LittleGarden::camera(), width, height);
+      see(garden.frame(), garden.occupied(), bricks, tests::LittleGarden::camera(), width, height);
   const PanelWorld world{garden.occupied(), bricks, sun, sky, [&](sim::Voxel v) { return garden.colour(v); }};
   PanelLook look;
   look.threshold = 0.55f;
@@ -39,7 +39,7 @@ std::vector<Image> paintAll(int width, int height) {
 TEST(Golden, PanelsOfTheLittleGarden) {
   const std::vector<Image> pictures = paintAll(160, 120);
   for (std::size_t i = 0; i < pictures.size(); ++i)
-    test::expectLikeGolden(pictures[i], std::string("panel_") + kNames[i]);
+    tests::expectLikeGolden(pictures[i], std::string("panel_") + kNames[i]);
 }
 
 TEST(Golden, ContactSheet) {
@@ -47,20 +47,20 @@ TEST(Golden, ContactSheet) {
   std::vector<Captioned> captioned;
   for (std::size_t i = 0; i < pictures.size(); ++i)
     captioned.push_back({&pictures[i], std::string(1, static_cast<char>('A' + i)), kNames[i]});
-  test::expectLikeGolden(contactSheet(captioned, {3, 120, "The little garden"}), "contact_sheet");
+  tests::expectLikeGolden(contactSheet(captioned, {3, 120, "The little garden"}), "contact_sheet");
 }
 
 TEST(Golden, Legends) {
   Image bar(300, 130, 3, 0.45f);
   drawLegend(bar, BarLegend{"sky exposure", "fraction of the sky seen, solid-angle weighted"},
              ColourMap("viridis"));
-  test::expectLikeGolden(bar, "legend_bar");
+  tests::expectLikeGolden(bar, "legend_bar");
   Image swatches(200, 120, 3, 0.45f);
   const ThresholdColours colours = thresholdColours();
   drawLegend(swatches, SwatchLegend{"illumination threshold",
                                     "exposure = 0.8 sun + 0.2 sky",
                                     {{colours.above, "0.3 and above"}, {colours.below, "below"}}});
-  test::expectLikeGolden(swatches, "legend_swatches");
+  tests::expectLikeGolden(swatches, "legend_swatches");
 }
 
 TEST(Golden, SectionThroughAColumn) {
@@ -78,7 +78,7 @@ TEST(Golden, SectionThroughAColumn) {
         return Cut{k == 0, k <= 4 ? k : 0, sim::Colour(0.45f, 0.33f, 0.24f)};
       },
       {{30, 30}, 4, 240, "boundary layers"});
-  test::expectLikeGolden(section, "section");
+  tests::expectLikeGolden(section, "section");
 }
 
 TEST(Golden, AttemptsOfAWalk) {
@@ -96,7 +96,7 @@ TEST(Golden, AttemptsOfAWalk) {
     tip += 2.0 * glm::dvec2(std::cos(heading), std::sin(heading));
     voxels.emplace_back(static_cast<int>(std::lround(tip.x)), static_cast<int>(std::lround(tip.y)));
   }
-  test::expectLikeGolden(drawAttempts(attempts, voxels, {{16, 16}, 140}), "attempts");
+  tests::expectLikeGolden(drawAttempts(attempts, voxels, {{16, 16}, 140}), "attempts");
 }
 
 }  // namespace

@@ -22,7 +22,7 @@ struct Scene {
       : bricks(garden.occupied()),
         sun(madeUp(7)),
         sky(madeUp(11)),
-        seen(see(garden.frame(), garden.occupied(), bricks, test::LittleGarden::camera(), 160, 120)) {
+        seen(see(garden.frame(), garden.occupied(), bricks, tests::LittleGarden::camera(), 160, 120)) {
     look.to_sun = glm::normalize(sim::Vec3(-0.55, 0.75, 0.5));
   }
   sim::ExposureField madeUp(int seed) const {
@@ -35,7 +35,7 @@ struct Scene {
   PanelWorld world() const {
     return {garden.occupied(), bricks, sun, sky, [this](sim::Voxel v) { return garden.colour(v); }};
   }
-  test::LittleGarden garden;
+  tests::LittleGarden garden;
   sim::Bricks bricks;
   sim::ExposureField sun, sky;
   Visibility seen;

@@ -44,21 +44,21 @@ double distanceTo(const ModelMesh& mesh, Vec3 p) {
 }
 
 TEST(PlantModel, StemsPassThroughTheNodes) {
-  const sim::Plant plant = test::smallVine();
-  const auto model = modelPlant(plant, test::kVineFrame);
+  const sim::Plant plant = tests::smallVine();
+  const auto model = modelPlant(plant, tests::kVineFrame);
   expectSound(model.stems);
   const auto radii = render::pipeRadii(plant.skeleton, {});
   for (std::size_t n = 0; n < radii.size(); ++n) {
-    const Vec3 node_m = sim::worldFromVoxel(test::kVineFrame, plant.skeleton.position_vx[n]);
-    EXPECT_LE(distanceTo(model.stems, node_m) / test::kVineFrame.voxel_m,
+    const Vec3 node_m = sim::worldFromVoxel(tests::kVineFrame, plant.skeleton.position_vx[n]);
+    EXPECT_LE(distanceTo(model.stems, node_m) / tests::kVineFrame.voxel_m,
               static_cast<double>(radii[n]) * 1.01)
         << n;
   }
 }
 
 TEST(PlantModel, IsLight) {
-  const sim::Plant plant = test::smallVine();
-  const auto model = modelPlant(plant, test::kVineFrame);
+  const sim::Plant plant = tests::smallVine();
+  const auto model = modelPlant(plant, tests::kVineFrame);
   const auto segments = static_cast<std::size_t>(plant.skeleton.size());
   EXPECT_LT(model.stems.triangles.size(), 45 * segments);
   EXPECT_EQ(model.elements[0].triangles.size(), (6 + 10) * plant.elements.size());  // blade and stalk
@@ -66,8 +66,8 @@ TEST(PlantModel, IsLight) {
 
 TEST(PlantModel, ExposureComesFromTheNodes) {
   sim::Plant plant;
-  test::addNode(plant.skeleton, sim::kNoNode, {0, 0, 0}, 0, 0.25f);
-  test::addNode(plant.skeleton, 0, {0, 3, 0}, 4, 0.75f);
+  tests::addNode(plant.skeleton, sim::kNoNode, {0, 0, 0}, 0, 0.25f);
+  tests::addNode(plant.skeleton, 0, {0, 3, 0}, 4, 0.75f);
   const auto model = modelPlant(plant, kUnit);
   for (std::size_t i = 0; i < model.stems.positions_m.size(); ++i) {
     const float y = model.stems.positions_m[i].y;
@@ -83,12 +83,12 @@ TEST(PlantModel, ExposureComesFromTheNodes) {
 TEST(PlantModel, DegeneratePlants) {
   sim::Plant plant;
   EXPECT_TRUE(modelPlant(plant, kUnit).stems.empty());
-  test::addNode(plant.skeleton, sim::kNoNode, {1, 1, 1});
+  tests::addNode(plant.skeleton, sim::kNoNode, {1, 1, 1});
   EXPECT_TRUE(modelPlant(plant, kUnit).stems.empty());
-  test::addNode(plant.skeleton, 0, {1, 1, 1});  // in the seed's own place
+  tests::addNode(plant.skeleton, 0, {1, 1, 1});  // in the seed's own place
   EXPECT_TRUE(modelPlant(plant, kUnit).stems.empty());
-  test::addNode(plant.skeleton, 1, {1, 3, 1});
-  plant.shapes = {test::keeledLeaf(), {"nothing", {}, {}}};
+  tests::addNode(plant.skeleton, 1, {1, 3, 1});
+  plant.shapes = {tests::keeledLeaf(), {"nothing", {}, {}}};
   plant.elements.resize(2);
   plant.elements[0].node = 1;
   plant.elements[1] = {0, 1, {1, 1, 1}};
@@ -126,7 +126,7 @@ TEST(Leaves, AreWhereTheyWerePlaced) {
 
 TEST(Leaves, FaceTheirOwnFaceHoweverTheyAreWound) {
   ModelMesh mesh;
-  render::appendElement(mesh, {}, test::keeledLeaf(), kUnit, 0.0f, 0);
+  render::appendElement(mesh, {}, tests::keeledLeaf(), kUnit, 0.0f, 0);
   for (const auto& t : mesh.triangles) {
     const Vec3f a = mesh.positions_m[t[0]], b = mesh.positions_m[t[1]], c = mesh.positions_m[t[2]];
     EXPECT_GT(glm::cross(b - a, c - a).z, 0.0f);
@@ -157,9 +157,9 @@ TEST(Leaves, FansCoverConvexAndHollowPolygons) {
 
 TEST(Leaves, StalksReachFromTheStemToTheBlade) {
   sim::Plant plant;
-  test::addNode(plant.skeleton, sim::kNoNode, {5, 0, 5});
-  test::addNode(plant.skeleton, 0, {5, 6, 5});
-  plant.shapes = {test::keeledLeaf()};
+  tests::addNode(plant.skeleton, sim::kNoNode, {5, 0, 5});
+  tests::addNode(plant.skeleton, 0, {5, 6, 5});
+  plant.shapes = {tests::keeledLeaf()};
   sim::PlacedElement element;
   element.node = 1;
   element.position_vx = {5, 3, 5};

@@ -14,7 +14,7 @@ using render::PipeModel;
 using render::pipeRadii;
 
 TEST(Radii, EveryForkFollowsThePipeModel) {
-  const sim::Skeleton skeleton = test::smallVine().skeleton;
+  const sim::Skeleton skeleton = tests::smallVine().skeleton;
   const PipeModel model{2.05f, 0.1f, 100.0f};
   const auto radii = pipeRadii(skeleton, model);
   std::vector<double> children(radii.size(), 0.0);
@@ -37,16 +37,16 @@ TEST(Radii, EveryForkFollowsThePipeModel) {
 }
 
 TEST(Radii, AreCapped) {
-  const auto radii = pipeRadii(test::smallVine().skeleton, {2.05f, 0.1f, 0.15f});
+  const auto radii = pipeRadii(tests::smallVine().skeleton, {2.05f, 0.1f, 0.15f});
   EXPECT_EQ(*std::max_element(radii.begin(), radii.end()), 0.15f);
 }
 
 TEST(Radii, TheExponentIsTheRule) {  // two equal twigs: Leonardo's sqrt(2), Murray's cube root
   sim::Skeleton skeleton;
-  test::addNode(skeleton, sim::kNoNode, {0, 0, 0});
-  const auto trunk = test::addNode(skeleton, 0, {0, 1, 0});
-  test::addNode(skeleton, trunk, {1, 2, 0});
-  test::addNode(skeleton, trunk, {-1, 2, 0});
+  tests::addNode(skeleton, sim::kNoNode, {0, 0, 0});
+  const auto trunk = tests::addNode(skeleton, 0, {0, 1, 0});
+  tests::addNode(skeleton, trunk, {1, 2, 0});
+  tests::addNode(skeleton, trunk, {-1, 2, 0});
   EXPECT_FLOAT_EQ(pipeRadii(skeleton, {2.0f, 1.0f, 9.0f})[1], std::sqrt(2.0f));
   EXPECT_FLOAT_EQ(pipeRadii(skeleton, {3.0f, 1.0f, 9.0f})[1], std::cbrt(2.0f));
 }

@@ -57,7 +57,7 @@ TEST(Spline, TwoPointsAndOnePoint) {
 }
 
 TEST(StemCurves, EverySegmentLiesOnOneStem) {
-  const sim::Plant plant = test::smallVine();
+  const sim::Plant plant = tests::smallVine();
   const auto radii = render::pipeRadii(plant.skeleton, {});
   const auto curves = render::stemCurves(plant.skeleton, radii);
   std::size_t segments = 0;
@@ -72,25 +72,25 @@ TEST(StemCurves, EverySegmentLiesOnOneStem) {
 
 TEST(StemCurves, TheThickestChildContinuesAndAmongEqualsTheStraightest) {
   sim::Skeleton skeleton;
-  test::addNode(skeleton, sim::kNoNode, {0, 0, 0});
-  const auto fork = test::addNode(skeleton, 0, {0, 2, 0});
-  const auto bent = test::addNode(skeleton, fork, {2, 2.5, 0});
-  const auto straight = test::addNode(skeleton, fork, {0.1, 4, 0});
+  tests::addNode(skeleton, sim::kNoNode, {0, 0, 0});
+  const auto fork = tests::addNode(skeleton, 0, {0, 2, 0});
+  const auto bent = tests::addNode(skeleton, fork, {2, 2.5, 0});
+  const auto straight = tests::addNode(skeleton, fork, {0.1, 4, 0});
   const auto stemFrom = [&] {
     return render::stemCurves(skeleton, render::pipeRadii(skeleton, {})).stems[0].nodes[2];
   };
   EXPECT_EQ(stemFrom(), straight);
-  test::addNode(skeleton, bent, {4, 3, 0});
-  test::addNode(skeleton, bent, {4, 2, 0});  // now the bent one carries two tips
+  tests::addNode(skeleton, bent, {4, 3, 0});
+  tests::addNode(skeleton, bent, {4, 2, 0});  // now the bent one carries two tips
   EXPECT_EQ(stemFrom(), bent);
 }
 
 TEST(StemCurves, NodesInOnePlaceAreOneKnot) {
   sim::Skeleton skeleton;
-  test::addNode(skeleton, sim::kNoNode, {0, 0, 0});
-  test::addNode(skeleton, 0, {0, 2, 0});
-  test::addNode(skeleton, 1, {0, 2, 0});
-  test::addNode(skeleton, 2, {0, 4, 0});
+  tests::addNode(skeleton, sim::kNoNode, {0, 0, 0});
+  tests::addNode(skeleton, 0, {0, 2, 0});
+  tests::addNode(skeleton, 1, {0, 2, 0});
+  tests::addNode(skeleton, 2, {0, 4, 0});
   const auto curves = render::stemCurves(skeleton, render::pipeRadii(skeleton, {}));
   ASSERT_EQ(curves.stems.size(), 1u);
   EXPECT_EQ(curves.stems[0].nodes.size(), 3u);

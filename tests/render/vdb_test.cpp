@@ -41,7 +41,7 @@ ReadBack readBack(const std::string& bytes) {
 
 class Vdb : public testing::Test {
  protected:
-  sim::World world_ = test::wallPlot({30, 24, 20}, 3);
+  sim::World world_ = tests::wallPlot({30, 24, 20}, 3);
   sim::ExposureField sky_ = sim::sweepExposure(world_.occupied(), sim::skyDirections(32));
   sim::ExposureField sun_ = sim::sweepExposure(world_.occupied(), sim::sunDirections({}));
 
@@ -118,8 +118,7 @@ TEST_F(Vdb, TheSameBytesOnAnyNumberOfThreads) {
   const auto write = [&](int threads) {
     std::string bytes;
     sim::onThreads(threads, [&] {
-      const sim::World world = test::wallPlot({30, 24, 20}, 3);
-      bytes = render::vdbBytes(world, {&sun_, &sky_});
+      bytes = render::vdbBytes(tests::wallPlot({30, 24, 20}, 3), {&sun_, &sky_});
     });
     return bytes;
   };

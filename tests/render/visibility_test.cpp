@@ -18,9 +18,9 @@ constexpr int kWidth = 200, kHeight = 150;
 struct Scene {
   explicit Scene(int scale = 1) : garden(scale), bricks(garden.occupied()) {}
   Visibility look(int width = kWidth, int height = kHeight) const {
-    return see(garden.frame(), garden.occupied(), bricks, test::LittleGarden::camera(), width, height);
+    return see(garden.frame(), garden.occupied(), bricks, tests::LittleGarden::camera(), width, height);
   }
-  test::LittleGarden garden;
+  tests::LittleGarden garden;
   sim::Bricks bricks;
 };
 

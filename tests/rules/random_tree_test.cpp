@@ -74,7 +74,7 @@ std::uint64_t of(const sim::OutcomeCounts& counts, Outcome outcome) {
 const std::vector<Vec3> kBothSides = {{12, 2, 23}, {30, 2, 23}, {20, 2, 16}};
 
 TEST(RandomTree, GrowsAlongTheWall) {
-  sim::World world = test::wallPlot();
+  sim::World world = tests::wallPlot();
   const auto growth = growIn(world, vine(), kBothSides, settings(20));
   EXPECT_GT(segments(growth), 150u);
   EXPECT_GT(leaves(growth), 100u);
@@ -90,7 +90,7 @@ TEST(RandomTree, GrowsAlongTheWall) {
 TEST(RandomTree, PrefersTheProximityThatItIsTold) {
   std::map<double, double> mean;
   for (const double wanted : {1.2, 1.9, 2.6}) {
-    sim::World world = test::wallPlot();
+    sim::World world = tests::wallPlot();
     RuleSet rules = vine();
     rules.prefer.proximity_vx = wanted;
     rules.elements.clear();
@@ -108,7 +108,7 @@ TEST(RandomTree, PrefersTheProximityThatItIsTold) {
 }
 
 TEST(RandomTree, NothingIntersectsButAtItsAttachment) {
-  sim::World world = test::wallPlot();
+  sim::World world = tests::wallPlot();
   const sim::BitVolume before = world.occupied();
   const auto growth = growIn(world, vine(), kBothSides, settings(18));
   for (const auto& plant : growth.plants) {
@@ -143,7 +143,7 @@ TEST(RandomTree, TheSameBytesOnAnyNumberOfThreads) {
   std::set<std::uint64_t> hashes;
   for (const int threads : {1, 2, 5}) {
     sim::onThreads(threads, [&] {
-      sim::World world = test::wallPlot();
+      sim::World world = tests::wallPlot();
       const auto growth = growIn(world, vine(), kBothSides, settings(20));
       hashes.insert(sim::stateHash(world, growth.plants));
     });
@@ -154,7 +154,7 @@ TEST(RandomTree, TheSameBytesOnAnyNumberOfThreads) {
 TEST(RandomTree, AnotherSeedIsAnotherPlant) {
   std::set<std::uint64_t> hashes;
   for (const std::uint64_t seed : {1, 2, 3}) {
-    sim::World world = test::wallPlot();
+    sim::World world = tests::wallPlot();
     auto s = settings(8);
     s.seed = seed;
     const auto growth = growIn(world, vine(), kBothSides, s);
@@ -168,7 +168,7 @@ TEST(RandomTree, StopsInTheDark) {
   RuleSet rules = vine();
   rules.require.exposure_min = 0.5;
   rules.elements.clear();  // so that nothing but the wall makes it dark
-  sim::World world = test::wallPlot();
+  sim::World world = tests::wallPlot();
   const auto growth = growIn(world, rules, {{12, 2, 23}, {20, 2, 16}}, settings(15));
   EXPECT_GT(growth.plants[0].skeleton.size(), 40);
   EXPECT_LT(growth.plants[1].skeleton.size(), 10);
@@ -185,7 +185,7 @@ TEST(RandomTree, LightMakesLeavesMoreAndLarger) {
     RuleSet rules = vine();
     rules.light.boost = boost;
     rules.elements[0].trials = 200;
-    sim::World world = test::wallPlot();
+    sim::World world = tests::wallPlot();
     const auto growth = growIn(world, rules, {{12, 2, 23}}, settings(9));
     double scale = 0.0;
     for (const auto& e : growth.plants[0].elements) scale += e.scale;
@@ -200,7 +200,7 @@ TEST(RandomTree, LightMakesLeavesMoreAndLarger) {
 TEST(RandomTree, DimTipsRest) {
   RuleSet rules = vine();
   rules.light = {0.0, 1.0, 4.0};
-  sim::World world = test::wallPlot();
+  sim::World world = tests::wallPlot();
   const auto growth = growIn(world, rules, {{12, 2, 23}}, settings(12));
   EXPECT_GT(of(growth.buds, Outcome::resting), of(growth.buds, Outcome::grown) / 4);
 }
@@ -209,7 +209,7 @@ TEST(RandomTree, RegionsForbidOrRuleForThemselves) {
   {
     RuleSet rules = vine();
     rules.regions["brick"] = {true, nullptr};
-    sim::World world = test::wallPlot();
+    sim::World world = tests::wallPlot();
     const auto growth = growIn(world, rules, {{12, 2, 30}}, settings(25));
     EXPECT_GT(of(growth.buds, Outcome::forbidden), 0u);
     for (const Vec3 p : growth.plants[0].skeleton.position_vx) EXPECT_LT(p.y, 8.0);
@@ -219,7 +219,7 @@ TEST(RandomTree, RegionsForbidOrRuleForThemselves) {
     bare.elements.clear();
     RuleSet rules = vine();
     rules.regions["brick"] = {false, std::make_shared<RuleSet>(bare)};
-    sim::World world = test::wallPlot();
+    sim::World world = tests::wallPlot();
     const auto growth = growIn(world, rules, {{12, 2, 23}}, settings(15));
     for (const auto& e : growth.plants[0].elements) {
       const auto from = growth.plants[0].skeleton.parent[static_cast<std::size_t>(e.node)];
@@ -236,11 +236,11 @@ TEST(RandomTree, TheSecondSetIsTriedWhereTheFirstFails) {
   RuleSet first = vine();
   first.require.proximity_max_vx = 0.5;  // nothing is that near and yet free
   {
-    sim::World world = test::wallPlot();
+    sim::World world = tests::wallPlot();
     EXPECT_EQ(segments(growIn(world, first, kBothSides, settings(6))), 0u);
   }
   first.otherwise = std::make_shared<RuleSet>(second);
-  sim::World world = test::wallPlot();
+  sim::World world = tests::wallPlot();
   EXPECT_GT(segments(growIn(world, first, kBothSides, settings(6))), 10u);
 }
 
@@ -300,7 +300,7 @@ TEST(RandomTree, TwistWindsAboutTheCentreOfMass) {
     rules.bias.twist = twist;
     rules.random_tree.branch_age_min = rules.random_tree.branch_age_max = 100;
     sim::World world({Vec3(0.0), 0.04, {40, 90, 40}});
-    test::addBox(world, "column", {17, 0, 17}, {23, 89, 23});
+    tests::addBox(world, "column", {17, 0, 17}, {23, 89, 23});
     world.setLayers(4);
     const auto growth = growIn(world, rules, {{20, 2, 25}}, settings(45));
     double turned = 0.0;
@@ -334,7 +334,7 @@ TEST(RandomTree, AFlatWorldStaysFlat) {
 TEST(RandomTree, LengthsInMetresFollowTheVoxel) {
   RuleSet rules = vine();
   rules.random_tree.length = {0.12, true};
-  sim::World world = test::wallPlot();
+  sim::World world = tests::wallPlot();
   const auto growth = growIn(world, rules, {{12, 2, 23}}, settings(3));
   EXPECT_NEAR(
       glm::distance(growth.plants[0].skeleton.position_vx[0], growth.plants[0].skeleton.position_vx[1]), 3.0,
@@ -344,13 +344,13 @@ TEST(RandomTree, LengthsInMetresFollowTheVoxel) {
 }
 
 TEST(RandomTree, SeedsInsideSomethingOrOutsideAreRefused) {
-  sim::World world = test::wallPlot();
+  sim::World world = tests::wallPlot();
   EXPECT_THROW(growIn(world, vine(), {{5, 0, 5}}, settings(1)), sim::InputError);
   EXPECT_THROW(growIn(world, vine(), {{5, 500, 5}}, settings(1)), sim::InputError);
 }
 
 TEST(RandomTree, StopsWhenAsked) {
-  sim::World world = test::wallPlot();
+  sim::World world = tests::wallPlot();
   std::stop_source source;
   auto s = settings(50);
   s.stop = source.get_token();

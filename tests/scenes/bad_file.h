@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "scenes/read_scene.h"
-#include "tests/scenes/scratch.h"
+#include "tests/support/scratch.h"
 
 /// A corpus of broken files: each with the place and the words that its author must be shown, and nothing
 /// else.

@@ -36,7 +36,7 @@ TEST(ChildProcess, ExceptionsComeAcrossAsText) {
 
 TEST(ChildProcess, CrashesAreResults) {
   EXPECT_EQ(runInChild([]() -> std::string { std::abort(); }, quick()).end, ChildEnd::crashed);
-  EXPECT_EQ(runInChild([]() -> std::string { std::exit(3); }, quick()).end, ChildEnd::crashed);
+  EXPECT_EQ(runInChild([]() -> std::string { ::_exit(3); }, quick()).end, ChildEnd::crashed);
   EXPECT_EQ(runInChild(
                 []() -> std::string {
                   std::raise(SIGKILL);

@@ -7,7 +7,7 @@
 #include "scenes/yaml_tree.h"
 #include "scenes/yaml_value.h"
 #include "tests/scenes/sample.h"
-#include "tests/scenes/scratch.h"
+#include "tests/support/scratch.h"
 
 /// What holds for every key of the registries; a new key is covered without a word here.
 namespace espalier::scenes {

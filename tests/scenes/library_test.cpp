@@ -11,7 +11,7 @@
 #include "scenes/reference.h"
 #include "scenes/registry.h"
 #include "tests/scenes/sample.h"
-#include "tests/scenes/scratch.h"
+#include "tests/support/scratch.h"
 
 namespace espalier::scenes {
 namespace {

@@ -214,7 +214,7 @@ TEST_P(RealMeshes, AreReadWhole) {
   const auto mesh = importMesh(file, RegionsFrom::group);
   EXPECT_EQ(mesh.triangles.size() + mesh.degenerate_dropped, GetParam().triangles);
   const auto [low, high] = boundsOf(mesh);
-  expectNear(high - low, GetParam().size_m, 0.06);
+  expectNear(high - low, GetParam().size_m, 0.007 * glm::length(GetParam().size_m));
 }
 
 INSTANTIATE_TEST_SUITE_P(All, RealMeshes,

@@ -4,7 +4,7 @@
 #include <cstdint>
 
 #include "scenes/read_scene.h"
-#include "tests/scenes/scratch.h"
+#include "tests/support/scratch.h"
 
 namespace espalier::scenes {
 namespace {

@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "rules/colour.h"
-#include "tests/scenes/scratch.h"
+#include "tests/support/scratch.h"
 
 namespace espalier::scenes {
 namespace {

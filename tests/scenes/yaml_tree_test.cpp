@@ -5,7 +5,7 @@
 #include <sys/stat.h>
 
 #include "scenes/yaml_text.h"
-#include "tests/scenes/scratch.h"
+#include "tests/support/scratch.h"
 
 namespace espalier::scenes {
 namespace {

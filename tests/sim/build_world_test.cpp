@@ -14,8 +14,6 @@
 namespace espalier::sim {
 namespace {
 
-using namespace std::string_literals;
-
 double totalCoverage(const World& world) {
   double sum = 0.0;
   for (const TiledVoxel& t : world.surfaces()) sum += t.surface.coverage;
@@ -34,16 +32,16 @@ std::string messageOf(const std::function<void()>& work) {
 TEST(BuildWorld, ABoxBetweenVoxelsCountsExactly) {
   // Faces in the planes between voxels: by the rule each goes to the layer above it, so low faces lie just
   // inside the box and high faces just outside.
-  const Mesh box = test::boxMesh({1.5, 2.5, 3.5}, {6.5, 9.5, 7.5});
+  const Mesh box = tests::boxMesh({1.5, 2.5, 3.5}, {6.5, 9.5, 7.5});
   std::vector<FillReport> fills;
-  const World world = buildWorld(test::unitFrame(Voxel(14)), {{box, true}}, 0, &fills);
+  const World world = buildWorld(tests::unitFrame(Voxel(14)), {{box, true}}, 0, &fills);
   // Shell of 6 x 8 x 5 voxels, whose inside is 4 x 6 x 3.
   EXPECT_EQ(world.occupied().count(), 6u * 8 * 5);
   ASSERT_EQ(fills.size(), 1u);
   EXPECT_EQ(fills[0].object, "box");
   EXPECT_EQ(fills[0].filled, 4u * 6 * 3);
   EXPECT_EQ(fills[0].doubtful, 0u);
-  const World shell = buildWorld(test::unitFrame(Voxel(14)), {{box, false}}, 0);
+  const World shell = buildWorld(tests::unitFrame(Voxel(14)), {{box, false}}, 0);
   EXPECT_EQ(shell.occupied().count(), 6u * 8 * 5 - 4 * 6 * 3);
   for (const TiledVoxel& t : shell.surfaces()) {
     EXPECT_EQ(world.surfaceAt(t.voxel)->normal, t.surface.normal);
@@ -56,11 +54,11 @@ TEST(BuildWorld, ABoxBetweenVoxelsCountsExactly) {
 
 TEST(BuildWorld, CoverageIsTheAreaInsideTheVoxel) {
   // A horizontal rectangle, its border at quarters of voxels.
-  Mesh sheet = test::emptyMesh("sheet");
+  Mesh sheet = tests::emptyMesh("sheet");
   sheet.vertices_m = {{1.75, 3.0, 1.0}, {5.25, 3.0, 1.0}, {5.25, 3.0, 4.0}, {1.75, 3.0, 4.0}};
-  test::addTriangle(sheet, 0, 2, 1);
-  test::addTriangle(sheet, 0, 3, 2);
-  const World world = buildWorld(test::unitFrame(Voxel(8)), {{sheet, false}}, 1);
+  tests::addTriangle(sheet, 0, 2, 1);
+  tests::addTriangle(sheet, 0, 3, 2);
+  const World world = buildWorld(tests::unitFrame(Voxel(8)), {{sheet, false}}, 1);
   const auto surface = [&](int x, int z) { return world.surfaceAt({x, 3, z}).value_or(Surface{}); };
   EXPECT_FLOAT_EQ(surface(3, 2).coverage, 1.0f);
   EXPECT_FLOAT_EQ(surface(2, 2).coverage, 0.75f);
@@ -74,10 +72,10 @@ TEST(BuildWorld, CoverageIsTheAreaInsideTheVoxel) {
 TEST(BuildWorld, CoverageSumsToTheAreaOfASphere) {
   // Coverage is cut off at 1, so voxels that the sphere crosses aslant lose some: at most a factor of the
   // root of 3.
-  const Mesh sphere = test::sphereMesh({20, 20, 20}, 15.0, 40);
-  const World world = buildWorld(test::unitFrame(Voxel(40)), {{sphere, false}}, 0);
-  EXPECT_LT(totalCoverage(world), test::area(sphere) + 1e-3);
-  EXPECT_GT(totalCoverage(world), 0.8 * test::area(sphere));
+  const Mesh sphere = tests::sphereMesh({20, 20, 20}, 15.0, 40);
+  const World world = buildWorld(tests::unitFrame(Voxel(40)), {{sphere, false}}, 0);
+  EXPECT_LT(totalCoverage(world), tests::area(sphere) + 1e-3);
+  EXPECT_GT(totalCoverage(world), 0.8 * tests::area(sphere));
   const auto top = world.surfaceAt({20, 35, 20});
   ASSERT_TRUE(top);
   EXPECT_GT(top->normal.y, 0.99f);
@@ -89,32 +87,32 @@ TEST(BuildWorld, ASphereConvergesAsVoxelsShrink) {
   // to the surface's own half voxel.
   constexpr double kRadius = 0.5;
   for (const double voxel : {0.05, 0.025, 0.0125}) {
-    const Mesh sphere = test::sphereMesh(Vec3(0.01, 0.02, 0.03), kRadius, 64);
+    const Mesh sphere = tests::sphereMesh(Vec3(0.01, 0.02, 0.03), kRadius, 64);
     const std::vector<TiledMesh> meshes{{sphere, true}};
     std::vector<FillReport> fills;
     const World world = buildWorld(frameAround(meshes, voxel, voxel), meshes, 0, &fills);
     ASSERT_EQ(fills.at(0).doubtful, 0u);
     const double shell = static_cast<double>(world.occupied().count() - fills[0].filled);
-    const double expected_shell = 1.5 * test::area(sphere) / (voxel * voxel);
+    const double expected_shell = 1.5 * tests::area(sphere) / (voxel * voxel);
     EXPECT_NEAR(shell / expected_shell, 1.0, 0.8 * voxel / kRadius + 0.01) << "voxel " << voxel;
     // Half of the surface's voxels lie outside.
     const double volume = (static_cast<double>(fills[0].filled) + shell / 2) * voxel * voxel * voxel;
-    const double error = std::abs(volume / test::signedVolume(sphere) - 1.0);
+    const double error = std::abs(volume / tests::signedVolume(sphere) - 1.0);
     EXPECT_LT(error, 0.05 * voxel / kRadius) << "voxel " << voxel;
   }
 }
 
 TEST(BuildWorld, PartsAreRegionsAndTheLargestTakesTheVoxel) {
-  Mesh mesh = test::emptyMesh("house");
+  Mesh mesh = tests::emptyMesh("house");
   mesh.regions = {"wall", "roof"};
   mesh.materials = {{"red", {1, 0, 0}}, {"blue", {0, 0, 1}}};
   mesh.vertices_m = {{0, 2, 0}, {2.75, 2, 0}, {2.75, 2, 3}, {0, 2, 3}, {6, 2, 0}, {6, 2, 3}};
-  test::addTriangle(mesh, 0, 1, 2, 0);
-  test::addTriangle(mesh, 0, 2, 3, 0);
-  test::addTriangle(mesh, 1, 4, 5, 1);
-  test::addTriangle(mesh, 1, 5, 2, 1);
-  const World world = buildWorld(test::unitFrame(Voxel(8)),
-                                 {{test::boxMesh({0, 6, 0}, {1, 7, 1}, "first"), false}, {mesh, false}}, 0);
+  tests::addTriangle(mesh, 0, 1, 2, 0);
+  tests::addTriangle(mesh, 0, 2, 3, 0);
+  tests::addTriangle(mesh, 1, 4, 5, 1);
+  tests::addTriangle(mesh, 1, 5, 2, 1);
+  const World world = buildWorld(tests::unitFrame(Voxel(8)),
+                                 {{tests::boxMesh({0, 6, 0}, {1, 7, 1}, "first"), false}, {mesh, false}}, 0);
   ASSERT_EQ(world.parts().size(), 3u);
   EXPECT_EQ(world.part(2).object, "house");
   EXPECT_EQ(world.part(2).region, "wall");
@@ -130,13 +128,13 @@ TEST(BuildWorld, PartsAreRegionsAndTheLargestTakesTheVoxel) {
 }
 
 TEST(BuildWorld, EqualShareGoesToTheLowestPartAndOppositeSidesLeaveNoNormal) {
-  Mesh mesh = test::emptyMesh("leaf");
+  Mesh mesh = tests::emptyMesh("leaf");
   mesh.regions = {"under", "over"};
   mesh.materials = {{"a", Colour(0.2f)}, {"b", Colour(0.4f)}};
   mesh.vertices_m = {{1, 2, 1}, {4, 2, 1}, {1, 2, 4}};
-  test::addTriangle(mesh, 0, 2, 1, 1);
-  test::addTriangle(mesh, 0, 1, 2, 0);
-  const World world = buildWorld(test::unitFrame(Voxel(6)), {{mesh, false}}, 0);
+  tests::addTriangle(mesh, 0, 2, 1, 1);
+  tests::addTriangle(mesh, 0, 1, 2, 0);
+  const World world = buildWorld(tests::unitFrame(Voxel(6)), {{mesh, false}}, 0);
   const auto both = world.surfaceAt({2, 2, 2});
   ASSERT_TRUE(both);
   EXPECT_EQ(both->part, 1);
@@ -145,9 +143,9 @@ TEST(BuildWorld, EqualShareGoesToTheLowestPartAndOppositeSidesLeaveNoNormal) {
 }
 
 TEST(BuildWorld, EarlierMeshesKeepTheirVoxels) {
-  const Mesh first = test::boxMesh({2, 2, 2}, {6, 6, 6}, "first");
-  const Mesh second = test::boxMesh({4, 4, 4}, {9, 9, 9}, "second");
-  const World world = buildWorld(test::unitFrame(Voxel(12)), {{first, true}, {second, true}}, 0);
+  const Mesh first = tests::boxMesh({2, 2, 2}, {6, 6, 6}, "first");
+  const Mesh second = tests::boxMesh({4, 4, 4}, {9, 9, 9}, "second");
+  const World world = buildWorld(tests::unitFrame(Voxel(12)), {{first, true}, {second, true}}, 0);
   EXPECT_EQ(world.partAt({5, 5, 5}), 1);
   EXPECT_EQ(world.partAt({6, 6, 6}), 1);
   EXPECT_EQ(world.partAt({8, 8, 8}), 2);
@@ -155,10 +153,10 @@ TEST(BuildWorld, EarlierMeshesKeepTheirVoxels) {
 
 TEST(BuildWorld, VoxelsThatAreOnlyTouchedAreTiled) {
   // A triangle in the plane below voxel 3 whose tip touches the corner of another voxel.
-  Mesh mesh = test::emptyMesh("tip");
+  Mesh mesh = tests::emptyMesh("tip");
   mesh.vertices_m = {{1, 2.5, 1}, {2, 2.5, 1}, {2.5, 2.5, 2.5}};
-  test::addTriangle(mesh, 0, 2, 1);
-  const World world = buildWorld(test::unitFrame(Voxel(6)), {{mesh, false}}, 0);
+  tests::addTriangle(mesh, 0, 2, 1);
+  const World world = buildWorld(tests::unitFrame(Voxel(6)), {{mesh, false}}, 0);
   std::vector<Voxel> expected;
   tileTriangle({mesh.vertices_m[0], mesh.vertices_m[1], mesh.vertices_m[2]}, expected);
   const auto surfaces = world.surfaces();
@@ -173,11 +171,11 @@ TEST(BuildWorld, VoxelsThatAreOnlyTouchedAreTiled) {
 
 TEST(BuildWorld, ClipsWhatLiesOutsideHoweverLarge) {
   // A ground a thousand kilometres wide, and a wall that is partly in the world.
-  Mesh ground = test::emptyMesh("ground");
+  Mesh ground = tests::emptyMesh("ground");
   ground.vertices_m = {{-5e5, 2.1, -5e5}, {5e5, 2.1, -5e5}, {0, 2.1, 9e5}};
-  test::addTriangle(ground, 0, 2, 1);
-  const World world = buildWorld(test::unitFrame(Voxel(20)),
-                                 {{ground, false}, {test::boxMesh({-50, -50, 10}, {10, 50, 99}), false}}, 2);
+  tests::addTriangle(ground, 0, 2, 1);
+  const World world = buildWorld(tests::unitFrame(Voxel(20)),
+                                 {{ground, false}, {tests::boxMesh({-50, -50, 10}, {10, 50, 99}), false}}, 2);
   for (int x = 0; x < 20; ++x) {
     for (int z = 0; z < 20; ++z) {
       EXPECT_EQ(world.partAt({x, 2, z}), 1);
@@ -191,19 +189,19 @@ TEST(BuildWorld, ClipsWhatLiesOutsideHoweverLarge) {
 
 TEST(BuildWorld, IsTheSameOnAnyNumberOfThreads) {
   const auto bumps = [](double x, double z) { return 8 + 3 * std::sin(0.7 * x) * std::cos(0.5 * z); };
-  Mesh hole = test::without(test::sphereMesh({20, 22, 20}, 12, 30), [](Vec3 p) { return p.y > 31; });
+  Mesh hole = tests::without(tests::sphereMesh({20, 22, 20}, 12, 30), [](Vec3 p) { return p.y > 31; });
   const auto make = [&](int threads, std::vector<FillReport>& fills) {
     std::optional<World> world;
     sim::onThreads(threads, [&] {
-      world = buildWorld(test::unitFrame({45, 40, 42}),
-                         {{test::terrainMesh(50, 0.83, bumps), false}, {hole, true}}, 4, &fills);
+      world = buildWorld(tests::unitFrame({45, 40, 42}),
+                         {{tests::terrainMesh(50, 0.83, bumps), false}, {hole, true}}, 4, &fills);
     });
     return std::move(*world);
   };
   std::vector<FillReport> fills;
   const World one = make(1, fills);
-  test::expectSameWorld(one, make(2, fills));
-  test::expectSameWorld(one, make(5, fills));
+  tests::expectSameWorld(one, make(2, fills));
+  tests::expectSameWorld(one, make(5, fills));
   for (const FillReport& f : fills) {
     EXPECT_EQ(f.filled, fills[0].filled);
     EXPECT_EQ(f.doubtful, fills[0].doubtful);
@@ -212,21 +210,21 @@ TEST(BuildWorld, IsTheSameOnAnyNumberOfThreads) {
 
 TEST(BuildWorld, RefusesMeshesThatAreNotSound) {
   const auto build = [](const Mesh& mesh) {
-    return messageOf([&] { buildWorld(test::unitFrame(Voxel(4)), {{mesh, false}}, 0); });
+    return messageOf([&] { buildWorld(tests::unitFrame(Voxel(4)), {{mesh, false}}, 0); });
   };
-  Mesh mesh = test::boxMesh(Vec3(0.0), Vec3(1.0));
+  Mesh mesh = tests::boxMesh(Vec3(0.0), Vec3(1.0));
   mesh.vertices_m[3].y = std::numeric_limits<double>::quiet_NaN();
   EXPECT_EQ(build(mesh), "mesh 'box': a vertex is not finite");
   mesh.vertices_m[3].y = 1e300;
-  EXPECT_EQ(build(mesh).substr(0, 72),
-            "mesh 'box': a vertex lies more than 1e+12 voxels from the world; expected"s);
-  mesh = test::boxMesh(Vec3(0.0), Vec3(1.0));
+  EXPECT_TRUE(build(mesh).starts_with("mesh 'box': a vertex lies more than 1e+12 voxels from the world;"))
+      << build(mesh);
+  mesh = tests::boxMesh(Vec3(0.0), Vec3(1.0));
   mesh.triangles[0][1] = 8;
   EXPECT_EQ(build(mesh), "mesh 'box': a triangle's vertex does not exist");
-  mesh = test::boxMesh(Vec3(0.0), Vec3(1.0));
+  mesh = tests::boxMesh(Vec3(0.0), Vec3(1.0));
   mesh.region.pop_back();
   EXPECT_EQ(build(mesh), "mesh 'box': every triangle needs a region that exists");
-  mesh = test::boxMesh(Vec3(0.0), Vec3(1.0));
+  mesh = tests::boxMesh(Vec3(0.0), Vec3(1.0));
   mesh.material[2] = 1;
   EXPECT_EQ(build(mesh), "mesh 'box': every triangle needs a material that exists");
 }

@@ -21,7 +21,7 @@ struct Filled {
 
 Filled filled(const Mesh& mesh, Voxel size) {
   std::vector<FillReport> fills;
-  World world = buildWorld(test::unitFrame(size), {{mesh, true}}, 0, &fills);
+  World world = buildWorld(tests::unitFrame(size), {{mesh, true}}, 0, &fills);
   return {std::move(world), fills.at(0)};
 }
 
@@ -46,22 +46,22 @@ bool inSphere(Vec3 p) {
 }
 
 TEST(Fill, ASphere) {
-  const Filled f = filled(test::sphereMesh(kMiddle, 14, 24), Voxel(40));
+  const Filled f = filled(tests::sphereMesh(kMiddle, 14, 24), Voxel(40));
   EXPECT_EQ(f.report.doubtful, 0u);
   EXPECT_GT(f.report.filled, 8000u);
   expectFilled(f, inSphere);
 }
 
 TEST(Fill, ASphereInsideOut) {
-  const Filled f = filled(test::insideOut(test::sphereMesh(kMiddle, 14, 24)), Voxel(40));
+  const Filled f = filled(tests::insideOut(tests::sphereMesh(kMiddle, 14, 24)), Voxel(40));
   EXPECT_EQ(f.report.doubtful, 0u);
   expectFilled(f, inSphere);
 }
 
 TEST(Fill, ASphereWithAHole) {
-  const Mesh sphere = test::sphereMesh(kMiddle, 14, 24);
+  const Mesh sphere = tests::sphereMesh(kMiddle, 14, 24);
   const Mesh holed =
-      test::without(sphere, [](Vec3 p) { return glm::distance(p, kMiddle + Vec3(0, 10, 10)) < 4.5; });
+      tests::without(sphere, [](Vec3 p) { return glm::distance(p, kMiddle + Vec3(0, 10, 10)) < 4.5; });
   ASSERT_LT(holed.triangles.size(), sphere.triangles.size() - 10);
   const Filled f = filled(holed, Voxel(40));
   EXPECT_GT(f.report.doubtful, 20u);
@@ -83,7 +83,7 @@ TEST(Fill, ASphereWithAHole) {
 
 TEST(Fill, TwoSpheresThatOverlapAreOneSolid) {
   const Vec3 other = kMiddle + Vec3(9, 2, -3);
-  const Mesh both = test::together(test::sphereMesh(kMiddle, 10, 20), test::sphereMesh(other, 10, 20));
+  const Mesh both = tests::together(tests::sphereMesh(kMiddle, 10, 20), tests::sphereMesh(other, 10, 20));
   const Filled f = filled(both, Voxel(48, 40, 40));
   EXPECT_EQ(f.report.doubtful, 0u);
   expectFilled(f, [&](Vec3 p) { return glm::distance(p, kMiddle) < 10 || glm::distance(p, other) < 10; });
@@ -91,14 +91,14 @@ TEST(Fill, TwoSpheresThatOverlapAreOneSolid) {
 
 TEST(Fill, ACavityStaysHollow) {
   const Mesh bubble =
-      test::together(test::sphereMesh(kMiddle, 14, 24), test::insideOut(test::sphereMesh(kMiddle, 8, 20)));
+      tests::together(tests::sphereMesh(kMiddle, 14, 24), tests::insideOut(tests::sphereMesh(kMiddle, 8, 20)));
   const Filled f = filled(bubble, Voxel(40));
   EXPECT_EQ(f.report.doubtful, 0u);
   expectFilled(f, [](Vec3 p) { return inSphere(p) && glm::distance(p, kMiddle) > 8; });
 }
 
 TEST(Fill, FacesWoundTheWrongWayDoNoHarm) {
-  Mesh mesh = test::sphereMesh(kMiddle, 14, 24);
+  Mesh mesh = tests::sphereMesh(kMiddle, 14, 24);
   for (std::size_t i = 0; i < mesh.triangles.size(); i += 3)
     std::swap(mesh.triangles[i][1], mesh.triangles[i][2]);
   const Filled f = filled(mesh, Voxel(40));
@@ -113,8 +113,8 @@ TEST(Fill, FacesWoundTheWrongWayDoNoHarm) {
 }
 
 TEST(Fill, ABucketWithoutALidIsDoubtful) {
-  const Mesh box = test::boxMesh({5, 5, 5}, {25, 25, 25});
-  const Mesh bucket = test::without(box, [](Vec3 p) { return p.y > 24.9; });
+  const Mesh box = tests::boxMesh({5, 5, 5}, {25, 25, 25});
+  const Mesh bucket = tests::without(box, [](Vec3 p) { return p.y > 24.9; });
   const Filled f = filled(bucket, Voxel(30));
   EXPECT_EQ(f.report.doubtful, 19u * 19 * 19);
   EXPECT_GT(f.report.filled, 19u * 19 * 19 / 2);  // more is walled than open, but near the open top
@@ -127,23 +127,23 @@ TEST(Fill, ABucketWithoutALidIsDoubtful) {
 }
 
 TEST(Fill, ASheetHasNoInside) {
-  Mesh sheet = test::emptyMesh("sheet");
+  Mesh sheet = tests::emptyMesh("sheet");
   sheet.vertices_m = {{2, 5.2, 2}, {15, 5.2, 3}, {3, 9.1, 15}};
-  test::addTriangle(sheet, 0, 1, 2);
+  tests::addTriangle(sheet, 0, 1, 2);
   const Filled f = filled(sheet, Voxel(18));
   EXPECT_EQ(f.report.filled, 0u);
 }
 
 TEST(Fill, GoesOnWhereTheWorldEnds) {
   // The world lies wholly inside the box, and half inside the other.
-  const Filled inside = filled(test::boxMesh(Vec3(-100.0), Vec3(100.0)), Voxel(9));
+  const Filled inside = filled(tests::boxMesh(Vec3(-100.0), Vec3(100.0)), Voxel(9));
   EXPECT_EQ(inside.report.filled, 9u * 9 * 9);
-  const Filled half = filled(test::boxMesh({-100, -100, -100}, {4.2, 100, 100}), Voxel(9));
+  const Filled half = filled(tests::boxMesh({-100, -100, -100}, {4.2, 100, 100}), Voxel(9));
   EXPECT_EQ(half.world.occupied().count(), 5u * 9 * 9);
 }
 
 TEST(Fill, InsideLooksLikeTheNearestSurface) {
-  Mesh box = test::boxMesh({2, 2, 2}, {12, 12, 12});
+  Mesh box = tests::boxMesh({2, 2, 2}, {12, 12, 12});
   box.regions = {"left", "rest"};
   box.materials = {{"red", {1, 0, 0}}, {"grey", Colour(0.5f)}};
   for (std::size_t i = 2; i < box.triangles.size(); ++i) box.region[i] = box.material[i] = 1;
@@ -154,7 +154,7 @@ TEST(Fill, InsideLooksLikeTheNearestSurface) {
 }
 
 TEST(Fill, RefusesAMeshThatReachesTooFar) {
-  EXPECT_THROW(filled(test::boxMesh(Vec3(-20000.0), Vec3(5.0)), Voxel(9)), InputError);
+  EXPECT_THROW(filled(tests::boxMesh(Vec3(-20000.0), Vec3(5.0)), Voxel(9)), InputError);
 }
 
 /// The generalized winding number of a point (Jacobson and others 2013): signed solid angles over the whole
@@ -175,8 +175,8 @@ class RealMesh : public testing::TestWithParam<const char*> {};
 TEST_P(RealMesh, FillsWhatItsWindingNumberCallsInside) {
   const std::string path = std::string(ESPALIER_SHARED_MESHES) + "/" + GetParam();
   if (!std::filesystem::exists(path)) GTEST_SKIP() << "no " << path;
-  const Mesh mesh = test::objShape(path);
-  const double voxel = std::cbrt(std::abs(test::signedVolume(mesh))) / 50;
+  const Mesh mesh = tests::objShape(path);
+  const double voxel = std::cbrt(std::abs(tests::signedVolume(mesh))) / 50;
   const std::vector<TiledMesh> meshes{{mesh, true}}, hollow{{mesh, false}};
   const Frame frame = frameAround(meshes, voxel, 2 * voxel);
   std::vector<FillReport> fills;
@@ -202,8 +202,8 @@ TEST_P(RealMesh, FillsWhatItsWindingNumberCallsInside) {
 TEST(Fill, TheBunnyKeepsItsVolume) {
   const std::string path = std::string(ESPALIER_SHARED_MESHES) + "/bunny.obj";
   if (!std::filesystem::exists(path)) GTEST_SKIP() << "no " << path;
-  const Mesh mesh = test::objShape(path);
-  const double volume = test::signedVolume(mesh);
+  const Mesh mesh = tests::objShape(path);
+  const double volume = tests::signedVolume(mesh);
   const double voxel = std::cbrt(volume) / 60;
   const std::vector<TiledMesh> meshes{{mesh, true}};
   std::vector<FillReport> fills;

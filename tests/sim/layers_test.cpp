@@ -18,9 +18,9 @@ struct Random {
 
 /// Parts in any order, some of a plant, which must not count.
 World randomWorld(Random& random, Voxel size, int voxels, int parts) {
-  World world(test::unitFrame(size));
+  World world(tests::unitFrame(size));
   for (int i = 0; i < parts; ++i) {
-    world.addPart(i % 4 == 2 ? test::stemPart("part") : test::scenePart("part"));
+    world.addPart(i % 4 == 2 ? tests::stemPart("part") : tests::scenePart("part"));
   }
   std::vector<TiledVoxel> tiles;
   for (int i = 0; i < voxels; ++i) {
@@ -78,14 +78,14 @@ TEST(Layers, CanBeManyAndLongKeysAgreeWithShortOnes) {
   world.setLayers(20);
   expectLayers(world, 20);
   for (int i = 0; i < (1 << 18); ++i)
-    world.addPart(test::scenePart("filler"));  // part numbers too long for 32 bits
+    world.addPart(tests::scenePart("filler"));  // part numbers too long for 32 bits
   world.setLayers(20);
   expectLayers(world, 20);
 }
 
 TEST(Layers, AnswerAcrossWordAndBlockBorders) {
-  World world(test::unitFrame({140, 3, 3}));
-  for (int i = 0; i < 3; ++i) world.addPart(test::scenePart("a"));
+  World world(tests::unitFrame({140, 3, 3}));
+  for (int i = 0; i < 3; ++i) world.addPart(tests::scenePart("a"));
   world.occupy(std::vector<TiledVoxel>{
       {{63, 1, 1}, {.part = 3}}, {{64, 1, 1}, {.part = 1}}, {{128, 0, 2}, {.part = 2}}});
   for (const int layers : {1, 7, 8, 33, 64}) {
@@ -95,9 +95,9 @@ TEST(Layers, AnswerAcrossWordAndBlockBorders) {
 }
 
 TEST(Layers, ReplaceWhatWasKnownAndIgnorePlants) {
-  World world(test::unitFrame(Voxel(12)));
-  const PartId wall = world.addPart(test::scenePart("wall"));
-  const PartId stem = world.addPart(test::stemPart("ivy"));
+  World world(tests::unitFrame(Voxel(12)));
+  const PartId wall = world.addPart(tests::scenePart("wall"));
+  const PartId stem = world.addPart(tests::stemPart("ivy"));
   world.occupy(std::vector<TiledVoxel>{{{2, 2, 2}, {.part = wall}}, {{8, 8, 8}, {.part = stem}}});
   world.setLayers(3);
   EXPECT_TRUE(world.nearnessAt({5, 5, 5}));
@@ -108,7 +108,7 @@ TEST(Layers, ReplaceWhatWasKnownAndIgnorePlants) {
 }
 
 TEST(Layers, OfAnEmptyWorldAreEmpty) {
-  World world(test::unitFrame(Voxel(10)));
+  World world(tests::unitFrame(Voxel(10)));
   world.setLayers(4);
   EXPECT_EQ(world.layers(), 4);
   EXPECT_FALSE(world.nearnessAt(Voxel(5)));
@@ -122,12 +122,12 @@ TEST(Layers, AreTheSameOnAnyNumberOfThreads) {
     return world;
   };
   const World one = make(1);
-  test::expectSameWorld(one, make(2));
-  test::expectSameWorld(one, make(5));
+  tests::expectSameWorld(one, make(2));
+  tests::expectSameWorld(one, make(5));
 }
 
 TEST(Layers, RefuseANumberOutOfRange) {
-  World world(test::unitFrame(Voxel(3)));
+  World world(tests::unitFrame(Voxel(3)));
   EXPECT_THROW(world.setLayers(-1), InputError);
   EXPECT_THROW(world.setLayers(100000), InputError);
 }

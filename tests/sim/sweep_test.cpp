@@ -46,7 +46,7 @@ TEST(Sweep, EqualsCastingEachRayBitForBit) {
                            Voxel(63, 20, 1), Voxel(130, 17, 11), Voxel(1, 30, 20), Voxel(200, 5, 4)}) {
     for (const double chance : {0.0, 0.01, 0.2}) {
       ++seed;
-      expectSameAsRays(test::randomBits(size, chance, seed), randomDirections(20, 7, seed));
+      expectSameAsRays(tests::randomBits(size, chance, seed), randomDirections(20, 7, seed));
     }
   }
 }
@@ -57,11 +57,11 @@ TEST(Sweep, EqualsRaysForTheLongestDirections) {
                         Voxel(63, 63, 62), Voxel(-62, 63, -61), Voxel(-63, 2, 63), Voxel(1, 63, -1)}) {
     set.push_back({v, sim::crossedVoxels(v), 100});
   }
-  expectSameAsRays(test::randomBits({90, 40, 70}, 0.002, 5), set);
+  expectSameAsRays(tests::randomBits({90, 40, 70}, 0.002, 5), set);
 }
 
 TEST(Sweep, DoesNotDependOnTheNumberOfThreads) {
-  const auto bits = test::randomBits({70, 33, 41}, 0.03, 9);
+  const auto bits = tests::randomBits({70, 33, 41}, 0.03, 9);
   const auto set = sim::skyDirections(100);
   std::vector<std::vector<std::uint16_t>> answers;
   for (const int threads : {1, 2, 5}) {

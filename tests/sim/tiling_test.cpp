@@ -97,7 +97,7 @@ TEST(TileTriangle, EqualsExactClippingOnRandomAndAdversarialTriangles) {
     const int reach = i % 3 == 0 ? 3 : 1;
     const Triangle t = corners.triangle(reach);
     const Voxel bound(3 * reach + 2);
-    ASSERT_EQ(tiled(t), test::exactTiling({t[0], t[1], t[2]}, -bound, bound))
+    ASSERT_EQ(tiled(t), tests::exactTiling({t[0], t[1], t[2]}, -bound, bound))
         << "triangle " << i << ": " << testing::PrintToString(t);
   }
 }
@@ -121,7 +121,7 @@ TEST(TileTriangle, EqualsExactClippingInsideHugeTriangles) {
     forEachTriangleRow(q, middle - 2, middle + 2, [&](int y, int z, int first, int last) {
       for (int x = first; x <= last; ++x) voxels.emplace_back(x, y, z);
     });
-    ASSERT_EQ(voxels, test::exactTiling({t[0], t[1], t[2]}, middle - 2, middle + 2))
+    ASSERT_EQ(voxels, tests::exactTiling({t[0], t[1], t[2]}, middle - 2, middle + 2))
         << testing::PrintToString(t);
     met += voxels.empty() ? 0 : 1;
   }
@@ -227,7 +227,7 @@ TEST(TileSegment, EqualsExactClippingAndStepsThroughFaces) {
   for (int i = 0; i < 900; ++i) {
     const Triangle t = corners.triangle(2);
     const auto path = tiled(t[0], t[1]);
-    ASSERT_EQ(sorted(path), test::exactTiling({t[0], t[1]}, Voxel(-8), Voxel(8)))
+    ASSERT_EQ(sorted(path), tests::exactTiling({t[0], t[1]}, Voxel(-8), Voxel(8)))
         << testing::PrintToString(t);
     EXPECT_EQ(path.front(), tilePoint(t[0]));
     EXPECT_EQ(path.back(), tilePoint(t[1]));

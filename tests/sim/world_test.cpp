@@ -16,7 +16,7 @@ TiledVoxel tile(Voxel v, PartId part, float shade = 0.5f) {
 }
 
 TEST(World, TellsBackWhatOccupiesIt) {
-  World world(test::unitFrame({40, 33, 70}));
+  World world(tests::unitFrame({40, 33, 70}));
   const PartId wall = world.addPart({.object = "house", .region = "wall"});
   const PartId leaf =
       world.addPart({.object = "ivy", .region = "leaf", .kind = PartKind::element, .plant = 0});
@@ -44,9 +44,9 @@ TEST(World, TellsBackWhatOccupiesIt) {
 }
 
 TEST(World, AnOccupiedVoxelKeepsWhatItHas) {
-  World world(test::unitFrame(Voxel(8)));
-  const PartId first = world.addPart(test::scenePart("first"));
-  const PartId second = world.addPart(test::scenePart("second"));
+  World world(tests::unitFrame(Voxel(8)));
+  const PartId first = world.addPart(tests::scenePart("first"));
+  const PartId second = world.addPart(tests::scenePart("second"));
   world.occupy(std::vector{tile(Voxel(3), first), tile(Voxel(3), second), tile(Voxel(4), first)});
   world.occupy(std::vector{tile(Voxel(4), second), tile(Voxel(5), second)});
   EXPECT_EQ(world.partAt(Voxel(3)), first);
@@ -56,8 +56,8 @@ TEST(World, AnOccupiedVoxelKeepsWhatItHas) {
 }
 
 TEST(World, EditsRaiseTheVersion) {
-  World world(test::unitFrame(Voxel(8)));
-  const PartId part = world.addPart(test::scenePart("a"));
+  World world(tests::unitFrame(Voxel(8)));
+  const PartId part = world.addPart(tests::scenePart("a"));
   const auto before = world.version();
   world.occupy(std::vector{tile(Voxel(1), part)});
   const auto after = world.version();
@@ -69,8 +69,8 @@ TEST(World, EditsRaiseTheVersion) {
 TEST(World, GridsAgreeWithItAndShareOneTransform) {
   const Frame frame{.origin_m = {1.5, -2.0, 10.0}, .voxel_m = 0.25, .size = {30, 20, 25}};
   World world(frame);
-  world.addPart(test::scenePart("a"));
-  world.addPart(test::scenePart("b"));
+  world.addPart(tests::scenePart("a"));
+  world.addPart(tests::scenePart("b"));
   std::mt19937 random(5);
   const auto below = [&](int n) { return static_cast<int>(random() % static_cast<unsigned>(n)); };
   std::vector<TiledVoxel> voxels;
@@ -113,8 +113,8 @@ TEST(World, GridsAgreeWithItAndShareOneTransform) {
 }
 
 TEST(World, ListsItsSurfacesInRows) {
-  World world(test::unitFrame({70, 10, 10}));
-  const PartId part = world.addPart(test::scenePart("a"));
+  World world(tests::unitFrame({70, 10, 10}));
+  const PartId part = world.addPart(tests::scenePart("a"));
   const std::vector<Voxel> rows{{69, 0, 0}, {3, 0, 1}, {64, 0, 1}, {0, 2, 0}, {0, 2, 9}, {1, 9, 0}};
   for (std::size_t i = rows.size(); i-- > 0;) world.occupy(std::vector{tile(rows[i], part)});
   const auto all = world.surfaces();
@@ -123,8 +123,8 @@ TEST(World, ListsItsSurfacesInRows) {
 }
 
 TEST(World, CanBeMoved) {
-  World world(test::unitFrame(Voxel(9)));
-  world.addPart(test::scenePart("a"));
+  World world(tests::unitFrame(Voxel(9)));
+  world.addPart(tests::scenePart("a"));
   world.occupy(std::vector{tile(Voxel(2), 1)});
   world.setLayers(1);
   World moved(std::move(world));

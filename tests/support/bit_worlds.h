@@ -4,7 +4,7 @@
 #include "sim/bits.h"
 
 /// Small worlds with known answers.
-namespace espalier::test {
+namespace espalier::tests {
 
 /// Every voxel occupied with the same chance.
 inline sim::BitVolume randomBits(sim::Voxel size, double chance, unsigned seed) {
@@ -29,4 +29,4 @@ inline void addBox(sim::BitVolume& bits, sim::Voxel low, sim::Voxel high) {
   }
 }
 
-}  // namespace espalier::test
+}  // namespace espalier::tests

@@ -7,9 +7,13 @@
 #include "sim/frame.h"
 #include "sim/tiling.h"
 
-namespace espalier::test {
+namespace espalier::tests {
 
-using Rational = boost::multiprecision::cpp_rational;
+// Without expression templates, which take long to compile.
+using Rational =
+    boost::multiprecision::number<boost::multiprecision::cpp_rational_backend, boost::multiprecision::et_off>;
+using Integer =
+    boost::multiprecision::number<boost::multiprecision::cpp_int_backend<>, boost::multiprecision::et_off>;
 using Point = std::array<Rational, 3>;
 using Shape = std::vector<Point>;  ///< one corner: a point; two: a segment; more: a convex polygon
 
@@ -17,7 +21,7 @@ using Shape = std::vector<Point>;  ///< one corner: a point; two: a segment; mor
 /// overtake one.
 inline Shape movedALittle(const std::vector<sim::Vec3>& corners) {
   Shape shape;
-  const boost::multiprecision::cpp_int one = 1;
+  const Integer one = 1;
   for (const sim::Vec3& p : corners) {
     const sim::Fixed f = sim::fixedFromVoxel(p);
     shape.push_back({Rational(f.x) + Rational(one, one << 64), Rational(f.y) + Rational(one, one << 128),
@@ -73,4 +77,4 @@ inline std::vector<sim::Voxel> exactTiling(const std::vector<sim::Vec3>& corners
   return voxels;
 }
 
-}  // namespace espalier::test
+}  // namespace espalier::tests

@@ -11,7 +11,7 @@
 #include "render/image_io.h"
 #include "sim/whole_file.h"
 
-namespace espalier::test {
+namespace espalier::tests {
 
 /// Compares a picture of display values with tests/golden/NAME.png. A pixel may be off by `tolerance`, one in
 /// two hundred by more, none by a quarter. A failure leaves the result and the difference, four times
@@ -61,4 +61,4 @@ inline void expectLikeGolden(const render::Image& display, const std::string& na
                 << found.maxerror << " at (" << found.maxx << ", " << found.maxy << ")";
 }
 
-}  // namespace espalier::test
+}  // namespace espalier::tests

@@ -13,7 +13,7 @@
 #include "sim/frame.h"
 #include "sim/ray.h"
 
-namespace espalier::test {
+namespace espalier::tests {
 
 /// A garden small enough to hold in the head: paving, a wall with an arched window and a coping, steps, a bed
 /// with a clipped ball in it. Colours as plain arrays and exposures by casting every ray, so that pictures
@@ -159,4 +159,4 @@ class LittleGarden {
   std::vector<sim::Colour> colours_;
 };
 
-}  // namespace espalier::test
+}  // namespace espalier::tests

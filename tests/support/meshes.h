@@ -8,7 +8,7 @@
 
 #include "sim/mesh.h"
 
-namespace espalier::test {
+namespace espalier::tests {
 
 using sim::Mesh;
 using sim::Vec3;
@@ -156,4 +156,4 @@ inline Mesh objShape(const std::string& path) {
   return mesh;
 }
 
-}  // namespace espalier::test
+}  // namespace espalier::tests

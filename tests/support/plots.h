@@ -5,7 +5,7 @@
 #include "sim/world.h"
 
 /// Worlds to grow in, with parts and boundary layers.
-namespace espalier::test {
+namespace espalier::tests {
 
 inline void addBox(sim::World& world, const std::string& region, sim::Voxel low, sim::Voxel high) {
   const sim::PartId part = world.addPart({"plot", region, sim::PartKind::scene, -1});
@@ -29,4 +29,4 @@ inline sim::World wallPlot(sim::Voxel size = {48, 48, 40}, int layers = 4) {
   return world;
 }
 
-}  // namespace espalier::test
+}  // namespace espalier::tests

@@ -9,7 +9,7 @@
 #include "sim/plant.h"
 
 /// A wall with a floor, and a vine on it that grew by no rule at all: something to model and to draw.
-namespace espalier::test {
+namespace espalier::tests {
 
 inline sim::NodeId addNode(sim::Skeleton& skeleton, sim::NodeId parent, sim::Vec3 position_vx,
                            std::int32_t born = 0, float exposure = 0.5f) {
@@ -115,4 +115,4 @@ inline sim::BitVolume wallVoxels() {
   return bits;
 }
 
-}  // namespace espalier::test
+}  // namespace espalier::tests

@@ -4,7 +4,7 @@
 
 #include "sim/world.h"
 
-namespace espalier::test {
+namespace espalier::tests {
 
 inline sim::Frame unitFrame(sim::Voxel size) {
   return {.origin_m = sim::Vec3(0.0), .voxel_m = 1.0, .size = size};
@@ -49,4 +49,4 @@ inline void expectSameWorld(const sim::World& a, const sim::World& b) {
   }
 }
 
-}  // namespace espalier::test
+}  // namespace espalier::tests

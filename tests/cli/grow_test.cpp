@@ -1,0 +1,302 @@
+// The program as a user runs it: what it writes, what it says, and how it ends.
+#include <gtest/gtest.h>
+
+#include <csignal>
+#include <filesystem>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <set>
+#include <string>
+#include <sys/wait.h>
+#include <thread>
+#include <unistd.h>
+
+#include "tests/support/process.h"
+#include "tests/support/scratch.h"
+
+namespace espalier {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+using tests::Scratch;
+
+constexpr const char* kMesh = R"(
+v -1 0 -1
+v 1 0 -1
+v 1 0 1
+v -1 0 1
+v -1 0 0
+v 1 0 0
+v 1 1 0
+v -1 1 0
+g ground
+f 1 4 3 2
+g wall
+f 5 6 7 8
+)";
+
+constexpr const char* kScene = R"(espalier: scene
+name: plot
+meshes:
+  - file: plot.obj
+world:
+  voxel: 5 cm
+  bounds: {min: [-1.1, -0.1, -1.1], max: [1.1, 1.5, 1.1]}
+plants:
+  - name: vine
+    rules: vine.yaml
+    seeds:
+      - [-0.4, 0.1, 0.1]
+      - [0.3, 0.1, 0.1]
+iterations: 14
+seed: 5
+image: {width: 160, height: 120}
+cameras:
+  main: {eye: [2.2, 1.6, 3.2], target: [0, 0.5, 0]}
+images:
+  - sun_exposure
+  - sky_exposure
+  - threshold
+  - shadow_matte
+  - surface_colour
+  - first_pass
+  - vines
+  - {kind: section, axis: y, at: 0.5}
+  - {kind: contact_sheet, of: [sun_exposure, sky_exposure, threshold, shadow_matte, surface_colour, first_pass]}
+)";
+
+/// A scene with its files in a folder of its own.
+class Plot : public testing::Test {
+ protected:
+  void SetUp() override {
+    scratch_.write("plot.obj", kMesh);
+    scratch_.write("vine.yaml", tests::fileText(tests::sourceFolder() / "rules/library/courtyard_vine.yaml"));
+    scratch_.write("vine.yaml", withoutRegions(tests::fileText(scratch_.path("vine.yaml"))));
+    scratch_.write("scene.yaml", kScene);
+  }
+
+  tests::Ran grow(const std::string& more = "", const std::string& folder = "out") {
+    return tests::espalier("grow " + scratch_.path("scene.yaml").string() + " -o " + scratch_.path(folder).string() +
+                           " " + more);
+  }
+  json report(const std::string& folder = "out") {
+    return json::parse(tests::fileText(scratch_.path(folder) / "report.json"));
+  }
+  static std::map<std::string, std::string> files(const fs::path& folder) {
+    std::map<std::string, std::string> all;
+    for (const auto& entry : fs::directory_iterator(folder)) {
+      all[entry.path().filename().string()] = tests::fileText(entry.path());
+    }
+    return all;
+  }
+
+  Scratch scratch_;
+
+ private:
+  /// The plot has other regions than the courtyard.
+  static std::string withoutRegions(std::string text) {
+    const auto at = text.find("\nregions:");
+    if (at == std::string::npos) return text;
+    const auto end = text.find("\n", text.find("\n", at + 1));
+    auto next = end;
+    while (next != std::string::npos && next + 1 < text.size() && (text[next + 1] == ' ' || text[next + 1] == '#')) {
+      next = text.find('\n', next + 1);
+    }
+    return text.substr(0, at) + (next == std::string::npos ? "\n" : text.substr(next));
+  }
+};
+
+TEST_F(Plot, WritesTheModelTheWorldThePicturesAndTheReport) {
+  const auto ran = grow();
+  ASSERT_EQ(ran.status, 0) << ran.output;
+  std::set<std::string> names;
+  for (const auto& [name, bytes] : files(scratch_.path("out"))) {
+    names.insert(name);
+    EXPECT_GT(bytes.size(), 500u) << name;
+    EXPECT_NE(ran.output.find(name), std::string::npos) << "the program does not name " << name;
+  }
+  for (const char* name : {"plant.glb", "world.vdb", "report.json", "vines.png", "sun_exposure.png", "sun_exposure.exr",
+                           "sky_exposure.png", "sky_exposure.exr", "threshold.png", "shadow_matte.png",
+                           "surface_colour.png", "first_pass.png", "section.png", "contact_sheet.png"}) {
+    EXPECT_TRUE(names.contains(name)) << name;
+  }
+  const json r = report();
+  EXPECT_GT(r["growth"]["buds"]["grown"].get<int>(), 30);
+  EXPECT_EQ(r["growth"]["plants"].size(), 2u);
+  EXPECT_EQ(r["world"]["size"], json({44, 32, 44}));
+  EXPECT_EQ(r["files"].size(), names.size());
+  EXPECT_GT(r["run"]["peak_memory_bytes"].get<double>(), 1e6);
+}
+
+TEST_F(Plot, EveryByteIsTheSameOnOneTwoAndFiveThreads) {
+  for (const int threads : {1, 2, 5}) {
+    const std::string folder = "out" + std::to_string(threads);
+    const auto ran = grow("--threads " + std::to_string(threads), folder);
+    ASSERT_EQ(ran.status, 0) << ran.output;
+  }
+  auto one = files(scratch_.path("out1"));
+  json first = report("out1");
+  first.erase("run");  // timings and memory
+  for (const char* folder : {"out2", "out5"}) {
+    json other = report(folder);
+    other.erase("run");
+    EXPECT_EQ(first, other);
+    for (const auto& [name, bytes] : files(scratch_.path(folder))) {
+      if (name != "report.json") EXPECT_TRUE(one[name] == bytes) << folder << '/' << name;
+    }
+  }
+}
+
+TEST_F(Plot, PicturesDoNotChangeWhatGrows) {
+  ASSERT_EQ(grow("", "with").status, 0);
+  ASSERT_EQ(grow("--no-pictures", "without").status, 0);
+  EXPECT_EQ(report("with")["growth"]["state_hash"], report("without")["growth"]["state_hash"]);
+  EXPECT_FALSE(fs::exists(scratch_.path("without") / "vines.png"));
+  EXPECT_TRUE(fs::exists(scratch_.path("without") / "plant.glb"));
+}
+
+TEST_F(Plot, TheSeedOfTheCommandLineWins) {
+  ASSERT_EQ(grow("--no-pictures", "a").status, 0);
+  ASSERT_EQ(grow("--no-pictures --seed 6", "b").status, 0);
+  ASSERT_EQ(grow("--no-pictures --seed 5", "c").status, 0);
+  EXPECT_NE(report("a")["growth"]["state_hash"], report("b")["growth"]["state_hash"]);
+  EXPECT_EQ(report("a")["growth"]["state_hash"], report("c")["growth"]["state_hash"]);
+}
+
+TEST_F(Plot, JsonPrintsTheReportAndNothingElse) {
+  const auto ran = grow("--json --no-pictures");
+  ASSERT_EQ(ran.status, 0);
+  EXPECT_EQ(json::parse(ran.output), report());
+}
+
+TEST_F(Plot, QuietSaysNothing) { EXPECT_EQ(grow("--quiet --no-pictures").output, ""); }
+
+TEST_F(Plot, BadInputIsNamedWithItsPlaceAndNothingIsWritten) {
+  std::string scene = kScene;
+  scene.replace(scene.find("iterations: 14"), 14, "iteratons: 14");
+  scene.replace(scene.find("voxel: 5 cm"), 11, "voxel: -5 cm");
+  scratch_.write("scene.yaml", scene);
+  const auto ran = grow();
+  EXPECT_EQ(ran.status, 2);
+  EXPECT_NE(ran.output.find("scene.yaml:6:"), std::string::npos) << ran.output;
+  EXPECT_NE(ran.output.find("scene.yaml:14:1:"), std::string::npos) << ran.output;
+  EXPECT_NE(ran.output.find("did you mean 'iterations'"), std::string::npos) << ran.output;
+  EXPECT_FALSE(fs::exists(scratch_.path("out")));
+}
+
+TEST_F(Plot, WhatOnlyShowsInTheWorldIsNamedToo) {
+  const auto with = [&](const std::string& from, const std::string& to) {
+    std::string scene = kScene;
+    scene.replace(scene.find(from), from.size(), to);
+    scratch_.write("scene.yaml", scene);
+    const auto ran = grow();
+    EXPECT_EQ(ran.status, 2) << to;
+    EXPECT_NE(ran.output.find("scene.yaml"), std::string::npos) << ran.output;
+    EXPECT_FALSE(fs::exists(scratch_.path("out")));
+    return ran.output;
+  };
+  EXPECT_NE(with("[-0.4, 0.1, 0.1]", "[-0.4, 0.5, 0.0]").find("(wall)"), std::string::npos);
+  EXPECT_NE(with("plot.obj", "missing.obj").find("missing.obj"), std::string::npos);
+  const std::string large = with("voxel: 5 cm", "voxel: 0.02 mm");
+  EXPECT_NE(large.find("voxel"), std::string::npos) << large;
+}
+
+TEST_F(Plot, AFolderThatCannotBeMadeIsAnError) {
+  scratch_.write("file", "in the way");
+  const auto ran = grow("--no-pictures", "file");
+  EXPECT_EQ(ran.status, 2);
+  EXPECT_NE(ran.output.find("file"), std::string::npos);
+}
+
+TEST_F(Plot, AFullDiskIsAnErrorAndLeavesNoHalfFiles) {
+  ASSERT_EQ(grow("--no-pictures").status, 0);
+  const auto before = files(scratch_.path("out"));
+  const auto ran = tests::run("ulimit -f 20; " + std::string(ESPALIER_PROGRAM) + " grow " +
+                              scratch_.path("scene.yaml").string() + " --seed 9 --no-pictures -o " +
+                              scratch_.path("out").string());
+  EXPECT_EQ(ran.status, 2) << ran.output;
+  EXPECT_NE(ran.output.find("cannot write"), std::string::npos) << ran.output;
+  EXPECT_EQ(files(scratch_.path("out")).at("world.vdb"), before.at("world.vdb"));
+  EXPECT_EQ(files(scratch_.path("out")).size(), before.size());
+}
+
+/// Starts the program, and sends it a signal after a while.
+int growAndSignal(const std::string& scene, const std::string& folder, int signal, int after_ms) {
+  const pid_t child = ::fork();
+  if (child == 0) {
+    ::execl(ESPALIER_PROGRAM, ESPALIER_PROGRAM, "grow", scene.c_str(), "-o", folder.c_str(), "--quiet", nullptr);
+    ::_exit(127);
+  }
+  std::this_thread::sleep_for(std::chrono::milliseconds(after_ms));
+  ::kill(child, signal);
+  int status = 0;
+  ::waitpid(child, &status, 0);
+  return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+}
+
+TEST_F(Plot, KilledAtAnyMomentNoFileIsHalf) {
+  ASSERT_EQ(grow("", "whole").status, 0);
+  auto whole = files(scratch_.path("whole"));
+  const auto out = scratch_.path("out");
+  for (int after_ms = 40; after_ms < 1000; after_ms += 120) {
+    growAndSignal(scratch_.path("scene.yaml"), out, SIGKILL, after_ms);
+    if (!fs::exists(out)) continue;
+    for (const auto& [name, bytes] : files(out)) {
+      if (name.starts_with(".espalier-part-") || name == "report.json") continue;
+      EXPECT_TRUE(bytes == whole[name]) << name << " after " << after_ms << " ms";
+    }
+  }
+  ASSERT_EQ(grow().status, 0);
+  for (const auto& [name, bytes] : files(out)) EXPECT_FALSE(name.starts_with(".espalier-part-")) << name;
+}
+
+TEST_F(Plot, CtrlCEndsCleanly) {
+  std::string scene = kScene;
+  scene.replace(scene.find("iterations: 14"), 14, "iterations: 100000");
+  scene.replace(scene.find("voxel: 5 cm"), 11, "voxel: 1 cm");
+  scratch_.write("scene.yaml", scene);
+  EXPECT_EQ(growAndSignal(scratch_.path("scene.yaml"), scratch_.path("out"), SIGINT, 600), 130);
+  EXPECT_FALSE(fs::exists(scratch_.path("out")));
+}
+
+TEST(CommandLine, HelpVersionAndMistakes) {
+  EXPECT_EQ(tests::espalier("--help").status, 0);
+  EXPECT_NE(tests::espalier("--help").output.find("grow"), std::string::npos);
+  EXPECT_EQ(tests::espalier("--version").status, 0);
+  EXPECT_NE(tests::espalier("").status, 0);
+  EXPECT_NE(tests::espalier("grow").status, 0);
+  EXPECT_NE(tests::espalier("plant x").status, 0);
+  EXPECT_EQ(tests::espalier("grow no-such-scene.yaml").status, 2);
+}
+
+TEST(CommandLine, CheckIsSilentWhenAllIsWell) {
+  std::string all;
+  for (const auto& file : tests::libraryFiles()) all += " " + file.string();
+  const auto ran = tests::espalier("check" + all);
+  EXPECT_EQ(ran.status, 0);
+  EXPECT_EQ(ran.output, "");
+}
+
+TEST(CommandLine, CheckNamesEveryErrorOfEveryFile) {
+  const Scratch scratch;
+  const auto a = scratch.write("a.yaml", "espalier: rules\nnam: x\nlight: {boost: -1}\n");
+  const auto b = scratch.write("b.yaml", "espalier: scene\nmeshes: 3\n");
+  const auto ran = tests::espalier("check " + a.string() + " " + b.string());
+  EXPECT_EQ(ran.status, 2);
+  for (const char* part : {"a.yaml:2:1:", "did you mean 'name'", "a.yaml:3:", "b.yaml:2:"}) {
+    EXPECT_NE(ran.output.find(part), std::string::npos) << part << " in\n" << ran.output;
+  }
+}
+
+TEST(CommandLine, SchemasAreJson) {
+  for (const char* kind : {"rules", "scene"}) {
+    const auto ran = tests::espalier(std::string("schema ") + kind);
+    EXPECT_EQ(ran.status, 0);
+    EXPECT_EQ(json::parse(ran.output)["$schema"], "https://json-schema.org/draft/2020-12/schema");
+  }
+  EXPECT_NE(tests::espalier("schema plants").status, 0);
+}
+
+}  // namespace
+}  // namespace espalier

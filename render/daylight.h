@@ -12,8 +12,8 @@ struct Daylight {
   sim::Colour sun{1.68f, 1.40f, 1.04f};           ///< light on a surface square to the sun
   sim::Colour zenith_light{0.34f, 0.41f, 0.52f};  ///< light of the whole sky on a surface that looks up
   sim::Colour side_light{0.37f, 0.39f, 0.41f};    ///< the same for one that looks to the side
-  sim::Colour horizon{0.86f, 0.82f, 0.74f};       ///< seen; also the haze's colour
-  sim::Colour zenith{0.13f, 0.29f, 0.56f};        ///< seen
+  sim::Colour horizon{0.84f, 0.83f, 0.78f};       ///< seen; also the haze's colour
+  sim::Colour zenith{0.15f, 0.33f, 0.60f};        ///< seen
 };
 
 /// The sky behind everything, in a unit direction; below the horizon there is haze.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 
 #include "render/daylight.h"
 #include "render/ground.h"
@@ -67,7 +68,7 @@ class Painter {
         height_(height) {
     light_.to_sun = Vec3f(glm::normalize(scene.to_sun));
     if (light_.to_sun.y <= 0.0f) light_.sun = Colour(0.0f);
-    ground_.height_m -= 0.02 * scene.frame.voxel_m;  // just below a floor that is there
+    ground_.height_m -= 0.1 * scene.frame.voxel_m;  // just below a floor that is there
     const Vec3 extent = Vec3(scene.frame.size) * scene.frame.voxel_m;
     centre_ = Vec3f(sim::worldFromVoxel(scene.frame, 0.5 * Vec3(scene.frame.size)));
     diagonal_m_ = static_cast<float>(glm::length(extent));
@@ -81,9 +82,7 @@ class Painter {
   Colour pixel(int x, int y) const;
 
  private:
-  struct Round {
-    std::array<Colour, kRays> light;
-  };
+  using Round = std::array<Colour, kRays>;
   Round round(int x, int y, std::uint32_t number) const;
   std::optional<Fragment> groundBelow(Vec3f direction) const;
   Fragment fragmentAt(const SurfaceHit& hit, Vec3f direction) const;
@@ -197,7 +196,7 @@ Painter::Round Painter::round(int x, int y, std::uint32_t number) const {
     if (hits[i].any() && !(fragments[i] && fragments[i]->distance_m < hits[i].distance_m)) {
       fragments[i] = fragmentAt(hits[i], directions[i]);
     } else if (fragments[i]) {
-      fragments[i]->look = stoneLook(noise_, ground_.colour, fragments[i]->p_m);
+      fragments[i]->look = groundLook(noise_, ground_.colour, fragments[i]->p_m);
     }
     if (!fragments[i]) continue;
     const Fragment& f = *fragments[i];
@@ -210,9 +209,9 @@ Painter::Round Painter::round(int x, int y, std::uint32_t number) const {
   const auto sunlit = rays_.clear(shadows);
   Round result;
   for (std::size_t i = 0; i < kRays; ++i) {
-    result.light[i] = fragments[i] ? hazed(lit(*fragments[i], directions[i], sunlit[i] ? 1.0f : 0.0f),
-                                           *fragments[i], directions[i])
-                                   : skySeen(light_, directions[i]);
+    result[i] = fragments[i] ? hazed(lit(*fragments[i], directions[i], sunlit[i] ? 1.0f : 0.0f),
+                                     *fragments[i], directions[i])
+                             : skySeen(light_, directions[i]);
   }
   return result;
 }
@@ -222,7 +221,7 @@ Colour Painter::pixel(int x, int y) const {
   Colour sum(0.0f);
   float darkest = 1.0f, brightest = 0.0f;
   const auto add = [&](const Round& r) {
-    for (const Colour& light : r.light) {
+    for (const Colour& light : r) {
       sum += light;
       const float shown = tone(0.3f * light.r + 0.6f * light.g + 0.1f * light.b);
       darkest = std::min(darkest, shown);

@@ -15,7 +15,7 @@ constexpr double kThinSlab = 0.05;  // of the plan's diagonal
 
 struct Level {
   double area = 0.0;
-  double lowest = std::numeric_limits<double>::infinity();
+  double lowest = std::numeric_limits<double>::infinity(), highest = -lowest;
   Vec3 area_colour{0.0};
 };
 
@@ -33,12 +33,13 @@ Ground groundOf(const std::vector<const sim::Mesh*>& meshes, double voxel_m) {
       high = glm::max(high, glm::max(a, glm::max(b, c)));
       const Vec3 normal = glm::cross(b - a, c - a);
       const double area = 0.5 * glm::length(normal);
-      if (!(std::abs(normal.y) > 1.98 * area) || area == 0.0)
-        continue;  // within 8 degrees of level, either way up
+      const bool level_enough = std::abs(normal.y) > 1.98 * area;  // within 8 degrees, either way up
+      if (!level_enough || area == 0.0) continue;
       const double height = (a.y + b.y + c.y) / 3.0;
       Level& level = levels[static_cast<std::int64_t>(std::floor(height / voxel_m))];
       level.area += area;
       level.lowest = std::min(level.lowest, height);
+      level.highest = std::max(level.highest, height);
       level.area_colour += area * Vec3(mesh->materials[mesh->material[t]].colour);
     }
   }
@@ -51,7 +52,12 @@ Ground groundOf(const std::vector<const sim::Mesh*>& meshes, double voxel_m) {
   for (const auto& [bin, level] : levels) {
     if (level.area >= kGoodPart * width * depth && level.lowest <= highest) floor = &level;
   }
-  if (floor) return {floor->lowest, sim::Colour(floor->area_colour / floor->area)};
+  if (floor) {
+    // Uneven flags may lie on both sides of a level's edge.
+    const auto under = levels.find(static_cast<std::int64_t>(std::floor(floor->lowest / voxel_m)) - 1);
+    const bool uneven = under != levels.end() && floor->lowest - under->second.highest < 0.5 * voxel_m;
+    return {uneven ? under->second.lowest : floor->lowest, sim::Colour(floor->area_colour / floor->area)};
+  }
   return {low.y, sim::Colour(0.30f, 0.29f, 0.27f)};
 }
 

@@ -1,6 +1,7 @@
 #include "render/leaves.h"
 
 #include <algorithm>
+#include <limits>
 
 namespace espalier::render {
 namespace {

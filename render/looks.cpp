@@ -54,6 +54,11 @@ Look stoneLook(const Noise& noise, Colour base, Vec3f p_m) {
   return {glm::clamp(base * value * warmth, 0.0f, 1.0f), Colour(0.0f), 0.0f};
 }
 
+Look groundLook(const Noise& noise, Colour base, Vec3f p_m) {
+  const float value = 1.0f + 0.025f * noise(p_m * 1.7f) + 0.06f * noise(p_m * 43.0f);
+  return {glm::clamp(base * value, 0.0f, 1.0f), Colour(0.0f), 0.0f};
+}
+
 Look barkLook(const Noise& noise, const ModelMesh& mesh, const SurfaceHit& hit, Vec3f p_m) {
   const auto& t = mesh.triangles[hit.triangle];
   const float youth = onTriangle(mesh.youths, t, hit);
@@ -66,7 +71,7 @@ Look barkLook(const Noise& noise, const ModelMesh& mesh, const SurfaceHit& hit, 
 Look bladeLook(const ModelMesh& mesh, const SurfaceHit& hit) {
   const auto& t = mesh.triangles[hit.triangle];
   const auto bits = r123::Philox4x32()({{mesh.pieces[t[0]], 0, 0, 0}}, {{kBladeKey, 0}});
-  const float value = 0.70f + 0.50f * unit(bits[0]);
+  const float value = 0.82f + 0.52f * unit(bits[0]);
   const float hue = 2.0f * unit(bits[1]) - 1.0f;  // towards yellow .. towards blue
   const float youth = mesh.youths[t[0]], light = mesh.exposures[t[0]];
   Colour albedo = mesh.base_colour * value;

@@ -24,8 +24,10 @@ class Noise {
   std::vector<float> table_;
 };
 
-/// Masonry and ground: the material's colour, weathered a little.
+/// Masonry: the material's colour, weathered a little.
 Look stoneLook(const Noise& noise, sim::Colour base, sim::Vec3f p_m);
+/// The ground that carries on, calm: grain and the faintest of stains.
+Look groundLook(const Noise& noise, sim::Colour base, sim::Vec3f p_m);
 /// Bark, greener towards young ends; p in metres.
 Look barkLook(const Noise& noise, const ModelMesh& mesh, const SurfaceHit& hit, sim::Vec3f p_m);
 /// Leaves: each its own shade; young ones lighter, those that grew in the light yellower; a pale midrib.

@@ -117,7 +117,9 @@ TEST_F(Vdb, SaysWhatItHolds) {
 TEST_F(Vdb, TheSameBytesOnAnyNumberOfThreads) {
   const auto write = [&](int threads) {
     std::string bytes;
-    sim::onThreads(threads, [&] { bytes = render::vdbBytes(tests::wallPlot({30, 24, 20}, 3), {&sun_, &sky_}); });
+    sim::onThreads(threads, [&] {
+      bytes = render::vdbBytes(tests::wallPlot({30, 24, 20}, 3), {&sun_, &sky_});
+    });
     return bytes;
   };
   const std::string one = write(1);

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <numbers>
 #include <tuple>
 #include <unordered_map>
 #include <utility>
@@ -121,9 +120,8 @@ void occupyWith(std::vector<TiledVoxel>& edit, std::span<const Voxel> voxels, co
 void accept(Plant& plant, const Bud& bud, Proposal& proposal, int iteration, Claims& claims,
             std::vector<TiledVoxel>& edit) {
   claims.takeForLimb(proposal.voxels, bud);
-  const double r = plant.stem_radius_vx;
   occupyWith(edit, proposal.voxels,
-             {plant.stem_part, plant.stem_colour, static_cast<float>(std::min(1.0, std::numbers::pi * r * r)),
+             {plant.stem_part, plant.stem_colour, static_cast<float>(std::min(1.0, 2.0 * plant.stem_radius_vx)),
               Vec3f(0.0f)});
   const NodeId node = plant.skeleton.size();
   addNode(plant.skeleton, bud.node, iteration, proposal);

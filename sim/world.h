@@ -61,8 +61,8 @@ class World {
   const Frame& frame() const { return frame_; }
   /// What obstructs.
   const BitVolume& occupied() const { return occupied_; }
-  /// What takes light: all of the scene, and of the plants' voxels a share as large as their coverage. A leaf takes
-  /// up a whole voxel but shades a part of it; so of ten voxels that leaves cover by a third, three stop light.
+  /// What takes light: all of the scene, and of the plants' voxels a share. A leaf takes up a whole voxel but stops
+  /// few of the rays through it; so as many of the voxels stop all light as the leaves in them would stop rays.
   /// Which ones follows from their place alone.
   const BitVolume& opaque() const { return opaque_; }
   const std::vector<Part>& parts() const { return parts_; }

@@ -143,7 +143,8 @@ TEST_F(Plot, EveryByteIsTheSameOnOneTwoAndFiveThreads) {
     other.erase("run");
     EXPECT_EQ(first, other);
     for (const auto& [name, bytes] : files(scratch_.path(folder))) {
-      if (name != "report.json") EXPECT_TRUE(one[name] == bytes) << folder << '/' << name;
+      if (name == "report.json") continue;
+      EXPECT_TRUE(one[name] == bytes) << folder << '/' << name;
     }
   }
 }

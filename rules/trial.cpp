@@ -53,8 +53,8 @@ Senses sense(const sim::GrowthView& view, const sim::Bud& bud, const RuleSet& ru
     sim::tileSegment(from, senses.at_vx, senses.attachment);
   }
   addSiblings(skeleton, bud.node, senses);
-  const sim::Outlook sky = sim::lookOut(view.world.opaque(), senses.voxel, view.sky);
-  const sim::Outlook sun = sim::lookOut(view.world.opaque(), senses.voxel, view.sun);
+  const sim::Outlook sky = view.sky.from(view.world.opaque(), senses.voxel);
+  const sim::Outlook sun = view.sun.from(view.world.opaque(), senses.voxel);
   senses.light = unitOrZero(sky.toward);
   senses.sky_exposure = sky.fraction();
   senses.sun_exposure = sun.fraction();

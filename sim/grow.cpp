@@ -121,8 +121,8 @@ void accept(Plant& plant, const Bud& bud, Proposal& proposal, int iteration, Cla
             std::vector<TiledVoxel>& edit) {
   claims.takeForLimb(proposal.voxels, bud);
   occupyWith(edit, proposal.voxels,
-             {plant.stem_part, plant.stem_colour, static_cast<float>(std::min(1.0, 2.0 * plant.stem_radius_vx)),
-              Vec3f(0.0f)});
+             {plant.stem_part, plant.stem_colour,
+              static_cast<float>(std::min(1.0, 2.0 * plant.stem_radius_vx)), Vec3f(0.0f)});
   const NodeId node = plant.skeleton.size();
   addNode(plant.skeleton, bud.node, iteration, proposal);
   for (ProposedElement& leaf : proposal.elements) {
@@ -145,6 +145,7 @@ Growth grow(World& world, const std::vector<Planting>& plantings, const GrowthSe
   Growth growth;
   State state = plantSeeds(world, plantings);
   Claims claims(world.frame().size);
+  const Lookout sky(world.opaque(), settings.sky), sun(world.opaque(), settings.sun);
   std::size_t segments = 0;
 
   for (int iteration = 0; iteration < settings.iterations && !state.buds.empty(); ++iteration) {
@@ -157,8 +158,7 @@ Growth grow(World& world, const std::vector<Planting>& plantings, const GrowthSe
       for (std::size_t i = begin; i < end; ++i) {
         const Bud& bud = due[i];
         const auto plant = static_cast<std::size_t>(bud.plant);
-        const GrowthView view{world,        state.plants[plant], settings.sky,
-                              settings.sun, iteration,           settings.record_attempts};
+        const GrowthView view{world, state.plants[plant], sky, sun, iteration, settings.record_attempts};
         const RandomKey key{settings.seed, static_cast<std::uint32_t>(bud.plant), agentOf(bud),
                             static_cast<std::uint32_t>(iteration)};
         proposals[i] = state.rules[plant]->propose(view, bud, key);

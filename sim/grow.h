@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "sim/directions.h"
 #include "sim/rule.h"
 
 namespace espalier::sim {

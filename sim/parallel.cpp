@@ -64,6 +64,12 @@ void parallelFor(std::size_t count, std::size_t grain, const Body& body) {
   loop({0, count, grain}, body, tbb::simple_partitioner());
 }
 
+void parallelForEach(std::size_t count, const std::function<void(std::size_t)>& body) {
+  parallelFor(count, 1, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) body(i);
+  });
+}
+
 void parallelInvoke(const std::function<void()>& a, const std::function<void()>& b) {
   Failures failures;
   tbb::parallel_invoke([&] { failures.guard(0, a); }, [&] { failures.guard(1, b); });

@@ -43,6 +43,7 @@ struct Bud {
 struct GrowthView {
   const World& world;
   const Plant& plant;
+  const std::vector<std::vector<NodeId>>& children;  ///< of each of the plant's nodes
   const Lookout& sky;
   const Lookout& sun;
   int iteration = 0;

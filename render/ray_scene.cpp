@@ -54,8 +54,9 @@ RayScene::RayScene(const ModelScene& scene) : device_(std::make_unique<Device>()
     add(plant->stems, SurfaceKind::stem);
     for (const ModelMesh& element : plant->elements) add(element, SurfaceKind::blade);
   }
-  // Built by one thread: then the tree, and with it the winner among surfaces in one place, is always the same.
-  // (Embree's own setting threads=1 would hold the whole process to one thread for as long as the device lives.)
+  // Built by one thread: then the tree, and with it the winner among surfaces in one place, is always the
+  // same. (Embree's own setting threads=1 would hold the whole process to one thread for as long as the
+  // device lives.)
   sim::onThreads(1, [&] { rtcCommitScene(device_->scene); });
 }
 

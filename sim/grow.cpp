@@ -187,6 +187,7 @@ Growth grow(World& world, const std::vector<Planting>& plantings, const GrowthSe
       if (proposal.outcome == Outcome::grown && !claims.allow(proposal.voxels, bud, start)) {
         proposal.outcome = Outcome::claimed;
         proposal.retire = false;
+        for (Attempt& attempt : proposal.attempts) attempt.taken = false;
       }
       if (proposal.outcome == Outcome::grown) {
         accept(growing, bud, proposal, iteration, claims, edit);

@@ -69,7 +69,7 @@ const std::vector<BadFile> kBadRules = {
     {"a fraction of a trial",
      "random_tree: {trials: {min: 1.5}}\n",
      {"2:29: random_tree.trials.min is '1.5', which is no whole number; expected a whole number from 1 to "
-      "100000 (trials)"}},
+      "10000 (trials)"}},
     {"a word for a number", "bias: {up: slightly}\n", {"2:12: bias.up is 'slightly', which is no number"}},
     {"nothing for a number",
      "bias:\n  up:\n  light: 1\n",

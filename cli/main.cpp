@@ -14,7 +14,8 @@
 int main(int argc, char** argv) {
   using namespace espalier;
   int exit_status = 0;
-  // A file that grows beyond a limit, or a closed pipe, is a failed write with a reason, not the end of the program.
+  // A file that grows beyond a limit, or a closed pipe, is a failed write with a reason, not the end of the
+  // program.
   std::signal(SIGXFSZ, SIG_IGN);
   std::signal(SIGPIPE, SIG_IGN);
   try {

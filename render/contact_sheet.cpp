@@ -1,6 +1,6 @@
 #include "render/contact_sheet.h"
 
-#include <tbb/parallel_for.h>
+#include "sim/parallel.h"
 
 #include <cmath>
 #include <vector>
@@ -45,8 +45,8 @@ Image contactSheet(std::span<const Captioned> pictures, const SheetLook& look) {
              {1.35f * text, kTitle, Align::left, Font::bold});
   }
   std::vector<Image> reduced(pictures.size());
-  tbb::parallel_for(std::size_t{0}, pictures.size(),
-                    [&](std::size_t i) { reduced[i] = resized(*pictures[i].picture, width, height); });
+  sim::parallelForEach(pictures.size(),
+                       [&](std::size_t i) { reduced[i] = resized(*pictures[i].picture, width, height); });
   for (int i = 0; i < count; ++i) {
     const Captioned& p = pictures[static_cast<std::size_t>(i)];
     const int x = gutter + (i % columns) * (width + gutter);

@@ -69,7 +69,9 @@ std::string encodeExr(const Image& measured, const std::vector<std::string>& cha
     throw sim::InputError(
         fmt::format("{} names for the {} channels of an EXR", channel_names.size(), measured.channels));
   }
-  OIIO::ImageSpec spec(measured.width, measured.height, measured.channels, OIIO::TypeDesc::FLOAT);
+  const bool colour = measured.channels >= 3;
+  OIIO::ImageSpec spec(measured.width, measured.height, measured.channels,
+                       colour ? OIIO::TypeDesc::HALF : OIIO::TypeDesc::FLOAT);
   spec.channelnames = channel_names;
   spec.attribute("compression", "zip");
   // Left alone, the writer stamps the time of day.

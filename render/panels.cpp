@@ -1,6 +1,6 @@
 #include "render/panels.h"
 
-#include <tbb/parallel_for.h>
+#include "sim/parallel.h"
 
 #include <algorithm>
 #include <cmath>
@@ -20,8 +20,8 @@ constexpr float kCreaseRelief = 0.62f;
 
 template <typename Task>
 void forEachFragment(const Visibility& seen, Task task) {
-  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, seen.fragments.size(), 4096), [&](const auto& range) {
-    for (std::size_t i = range.begin(); i < range.end(); ++i)
+  sim::parallelFor(seen.fragments.size(), 4096, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i)
       if (seen.fragments[i].face != kSky) task(i, seen.fragments[i]);
   });
 }
@@ -97,7 +97,8 @@ Colour neutralBackdrop(float down) {
 template <typename Shade, typename Backdrop>
 Image compose(const Visibility& seen, Shade shade, Backdrop backdrop) {
   Image image(seen.width, seen.height, 3);
-  tbb::parallel_for(0, seen.height, [&](int y) {
+  sim::parallelForEach(static_cast<std::size_t>(seen.height), [&](std::size_t row) {
+    const int y = static_cast<int>(row);
     for (int x = 0; x < seen.width; ++x) {
       const std::size_t pixel =
           static_cast<std::size_t>(y) * static_cast<std::size_t>(seen.width) + static_cast<std::size_t>(x);
@@ -121,7 +122,8 @@ Image compose(const Visibility& seen, Shade shade, Backdrop backdrop) {
 template <int kValues, typename Values>
 Image measure(const Visibility& seen, bool divide, Values values) {
   Image image(seen.width, seen.height, kValues + 1);
-  tbb::parallel_for(0, seen.height, [&](int y) {
+  sim::parallelForEach(static_cast<std::size_t>(seen.height), [&](std::size_t row) {
+    const int y = static_cast<int>(row);
     for (int x = 0; x < seen.width; ++x) {
       const std::size_t pixel =
           static_cast<std::size_t>(y) * static_cast<std::size_t>(seen.width) + static_cast<std::size_t>(x);

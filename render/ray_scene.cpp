@@ -6,13 +6,12 @@
 #include <limits>
 
 #include "sim/error.h"
+#include "sim/parallel.h"
 
 namespace espalier::render {
 
 struct RayScene::Device {
-  // Built by one thread: then the tree, and with it the winner among surfaces in one place, is always the
-  // same.
-  RTCDevice device = rtcNewDevice("threads=1,isa=sse4.2");
+  RTCDevice device = rtcNewDevice("isa=sse4.2");  // one instruction set: the same bits on every processor
   RTCScene scene = device ? rtcNewScene(device) : nullptr;
 
   Device() {
@@ -55,7 +54,10 @@ RayScene::RayScene(const ModelScene& scene) : device_(std::make_unique<Device>()
     add(plant->stems, SurfaceKind::stem);
     for (const ModelMesh& element : plant->elements) add(element, SurfaceKind::blade);
   }
-  rtcCommitScene(device_->scene);
+  // Built by one thread: then the tree, and with it the winner among surfaces in one place, is always the
+  // same. (Embree's own setting threads=1 would hold the whole process to one thread for as long as the
+  // device lives.)
+  sim::onThreads(1, [&] { rtcCommitScene(device_->scene); });
 }
 
 RayScene::RayScene(RayScene&&) noexcept = default;

@@ -1,6 +1,6 @@
 #include "render/shadow.h"
 
-#include <tbb/parallel_for.h>
+#include "sim/parallel.h"
 
 #include <cmath>
 
@@ -51,8 +51,8 @@ std::vector<float> castShadows(const Visibility& seen, const sim::BitVolume& occ
                                const sim::Bricks& bricks, sim::Vec3 to_sun) {
   const Sun sun(occupied, bricks, to_sun);
   std::vector<float> lit(seen.fragments.size(), 0.0f);
-  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, lit.size(), 4096), [&](const auto& range) {
-    for (std::size_t i = range.begin(); i < range.end(); ++i) {
+  sim::parallelFor(lit.size(), 4096, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
       const Fragment& f = seen.fragments[i];
       if (sun.faces(f) && sun.reaches(f, f.at)) lit[i] = 1.0f;
     }
@@ -62,7 +62,8 @@ std::vector<float> castShadows(const Visibility& seen, const sim::BitVolume& occ
   std::vector<float> smooth = lit;
   const sim::Vec3 eye_vx = sim::voxelFromWorld(seen.frame, seen.rays.eye_m());
   const std::size_t width = static_cast<std::size_t>(seen.width);
-  tbb::parallel_for(0, seen.height, [&](int y) {
+  sim::parallelForEach(static_cast<std::size_t>(seen.height), [&](std::size_t row) {
+    const int y = static_cast<int>(row);
     for (int x = 0; x < seen.width; ++x) {
       const std::size_t pixel = static_cast<std::size_t>(y) * width + static_cast<std::size_t>(x);
       const auto differs = [&](std::size_t other, const Fragment& f, float light) {

@@ -1,7 +1,7 @@
 #include "render/visibility.h"
 
 #include <fmt/format.h>
-#include <tbb/parallel_for.h>
+#include "sim/parallel.h"
 
 #include <algorithm>
 
@@ -122,14 +122,16 @@ Visibility see(const sim::Frame& frame, const sim::BitVolume& occupied, const si
 
   const std::size_t width = static_cast<std::size_t>(width_px), height = static_cast<std::size_t>(height_px);
   std::vector<Fragment> centres(width * height);
-  tbb::parallel_for(0, height_px, [&](int y) {
+  sim::parallelForEach(static_cast<std::size_t>(height_px), [&](std::size_t row) {
+    const int y = static_cast<int>(row);
     for (int x = 0; x < width_px; ++x)
       centres[static_cast<std::size_t>(y) * width + static_cast<std::size_t>(x)] = eye.look(x + 0.5, y + 0.5);
   });
 
   std::vector<std::vector<Fragment>> rows(height);
   all.starts.assign(width * height + 1, 0);
-  tbb::parallel_for(0, height_px, [&](int y) {
+  sim::parallelForEach(static_cast<std::size_t>(height_px), [&](std::size_t line) {
+    const int y = static_cast<int>(line);
     std::vector<Fragment>& row = rows[static_cast<std::size_t>(y)];
     row.reserve(2 * width);
     for (int x = 0; x < width_px; ++x) {

@@ -15,7 +15,8 @@ namespace espalier::rules {
 /// that
 ///   fully exposed buds grow in every iteration and dim ones `boost` times more rarely; segments keep their
 ///   length;
-/// - trials beyond trials.min, made where none was good yet, wander farther and farther, up to twice the angle;
+/// - trials beyond trials.min, made where none was good yet, wander farther and farther, up to twice the
+/// angle;
 /// - a bud all of whose trials fail retires, as around it the world only gets fuller; a seed tries again.
 ///
 /// `voxel_m` turns lengths given in metres into voxel widths. Throws sim::InputError for a rule set that

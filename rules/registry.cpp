@@ -160,8 +160,9 @@ std::shared_ptr<const Table> lightKeys() {
 std::shared_ptr<const Table> stemKeys() {
   return TableOf<RuleSet>()
       .colour("colour", &RuleSet::stem_colour, {.meaning = "Colour of the bark."})
-      .number("radius", &RuleSet::stem_radius_vx,
-              {.unit = kVoxels, .limits = {0.0, 100.0, true}, .meaning = "Radius of a twig that does not fork."})
+      .number(
+          "radius", &RuleSet::stem_radius_vx,
+          {.unit = kVoxels, .limits = {0.0, 100.0, true}, .meaning = "Radius of a twig that does not fork."})
       .shared();
 }
 

@@ -27,7 +27,7 @@ struct RandomTree {
   int branch_age_min = 1;  ///< iterations before a node branches, drawn evenly from [min, max]
   int branch_age_max = 3;
   Value branch_angle_deg = 60.0;
-  Value wander_deg = 30.0;  ///< a trial's direction lies within this angle of the way that the limb was going
+  Value wander_deg = 20.0;  ///< a trial's direction lies within this angle of the way that the limb was going
   int trials_min = 150;     ///< trials before the best one is taken
   int trials_max = 300;     ///< trials before the tip gives up
 };
@@ -93,7 +93,7 @@ struct RuleSet {
   Prefer prefer;
   Light light;
   sim::Colour stem_colour{0.16f, 0.10f, 0.05f};  ///< linear RGB
-  double stem_radius_vx = 0.11;  ///< of a twig that does not fork
+  double stem_radius_vx = 0.08;                  ///< of a twig that does not fork
   std::vector<Element> elements;
   std::map<std::string, RegionRule> regions;  ///< by region name
   std::shared_ptr<const RuleSet> otherwise;   ///< tried where this one fails (Greene's secondary set)

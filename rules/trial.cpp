@@ -16,12 +16,11 @@ sim::Vec3 unitOrZero(sim::Vec3 v) {
 }
 
 /// Limbs leave one node through the same voxels: those of a sibling right beside the node are no obstacle.
-void addSiblings(const sim::Skeleton& skeleton, sim::NodeId node, Senses& senses) {
+void addSiblings(const sim::GrowthView& view, sim::NodeId node, Senses& senses) {
   std::vector<sim::Voxel> limb;
-  for (std::size_t child = static_cast<std::size_t>(node) + 1; child < skeleton.parent.size(); ++child) {
-    if (skeleton.parent[child] != node) continue;
+  for (const sim::NodeId child : view.children[static_cast<std::size_t>(node)]) {
     limb.clear();
-    sim::tileSegment(senses.at_vx, skeleton.position_vx[child], limb);
+    sim::tileSegment(senses.at_vx, view.plant.skeleton.position_vx[static_cast<std::size_t>(child)], limb);
     std::copy_if(limb.begin(), limb.end(), std::back_inserter(senses.attachment),
                  [&](sim::Voxel v) { return sim::besides(v, senses.voxel); });
   }
@@ -52,9 +51,9 @@ Senses sense(const sim::GrowthView& view, const sim::Bud& bud, const RuleSet& ru
     senses.heading = unitOrZero(senses.at_vx - from);
     sim::tileSegment(from, senses.at_vx, senses.attachment);
   }
-  addSiblings(skeleton, bud.node, senses);
-  const sim::Outlook sky = sim::lookOut(view.world.opaque(), senses.voxel, view.sky);
-  const sim::Outlook sun = sim::lookOut(view.world.opaque(), senses.voxel, view.sun);
+  addSiblings(view, bud.node, senses);
+  const sim::Outlook sky = view.sky.from(view.world.opaque(), senses.voxel);
+  const sim::Outlook sun = view.sun.from(view.world.opaque(), senses.voxel);
   senses.light = unitOrZero(sky.toward);
   senses.sky_exposure = sky.fraction();
   senses.sun_exposure = sun.fraction();

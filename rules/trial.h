@@ -19,9 +19,10 @@ struct Senses {
       0.0};  ///< unit normal of the plane through the heading and the local centre of mass, or zero
   double sky_exposure = 0.0;
   double sun_exposure = 0.0;
-  double exposure = 0.0;                  ///< blended
-  double vigour = 1.0;                    ///< growth rate over that at the least exposure: 1 .. boost
-  std::vector<sim::Voxel> attachment;  ///< voxels of the limb that ends here, and the first ones of those that leave
+  double exposure = 0.0;  ///< blended
+  double vigour = 1.0;    ///< growth rate over that at the least exposure: 1 .. boost
+  std::vector<sim::Voxel>
+      attachment;  ///< voxels of the limb that ends here, and the first ones of those that leave
   Circumstance circumstance;
 };
 

@@ -107,8 +107,8 @@ render::PanelPicture Studio::paint(const ImageSpec& image, Panel panel) {
       if (wanted && other.camera == image.camera) panels.push_back(*wanted);
     }
     view = std::make_unique<View>(
-        render::see(finished_.job.world.frame(), finished_.job.world.occupied(), bricks_, cameraOf(scene_, image),
-                    scene_.image_width, scene_.image_height),
+        render::see(finished_.job.world.frame(), finished_.job.world.occupied(), bricks_,
+                    cameraOf(scene_, image), scene_.image_width, scene_.image_height),
         world_, look_, panels);
   }
   return view->painter.paint(panel);

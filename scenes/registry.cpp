@@ -168,7 +168,8 @@ std::shared_ptr<const Table> imageKeys() {
             {.meaning = "The picture's file name without an ending; without it, its kind."})
       .text("camera", &ImageSpec::camera, {.meaning = "One of the scene's cameras; without it, the first."})
       .text("caption", &ImageSpec::caption, {.meaning = "A line below the picture."})
-      .text("letter", &ImageSpec::letter, {.meaning = "On a contact sheet, beside the caption; by default A, B, C .. in order."})
+      .text("letter", &ImageSpec::letter,
+            {.meaning = "On a contact sheet, beside the caption; by default A, B, C .. in order."})
       .choice<char>("axis", &ImageSpec::axis, {{"x", 'x'}, {"y", 'y'}, {"z", 'z'}},
                     {.meaning = "Of a section: the way in which the cut looks."})
       .metres("at", &ImageSpec::at_m,

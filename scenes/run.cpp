@@ -103,8 +103,7 @@ Report runScene(Scene scene, const RunOptions& options) {
   sim::GrowthSettings settings = growthSettings(job);
   settings.stop = options.stop;
   settings.progress = options.on_growth;
-  const sim::Growth growth =
-      stages.run("growing", [&] {
+  const sim::Growth growth = stages.run("growing", [&] {
     try {
       return sim::grow(job.world, job.plantings, settings);
     } catch (const sim::InputError& error) {

@@ -94,7 +94,7 @@ struct ImageSpec {
   ImageKind kind = ImageKind::vines;
   std::string camera;  ///< empty: the first one
   std::string caption;
-  std::string letter;   ///< on a contact sheet; empty: A, B, C .. in order
+  std::string letter;           ///< on a contact sheet; empty: A, B, C .. in order
   char axis = 'y';              ///< section: which way the cut looks
   double at_m = 0.0;            ///< section: where the cut lies on that axis
   std::vector<std::string> of;  ///< contact_sheet: names of the images on it, in order

@@ -22,13 +22,13 @@ struct FillReport {
 };
 
 /// Tiles meshes into a new world, in parallel; the result does not depend on the thread count.
-/// A voxel that several triangles cross takes the part that covers most of it, the mean colour by area, and the
-/// area-weighted normal; meshes that come first keep their voxels. Triangles outside the frame are clipped away.
-/// Filling is robust: lines through each free voxel judge it from both of their ends by the winding number of their
-/// crossings, so overlapping solids stay full, meshes may be inside out, and where a line leaks its ends contradict
-/// each other and the majority of thirteen directions decides (sim/fill.cpp).
-/// Throws InputError if the world is too large for memory, naming the voxel size that would fit, and for a mesh that
-/// is not sound (indices, numbers) or too large to fill.
+/// A voxel that several triangles cross takes the part that covers most of it, the mean colour by area, and
+/// the area-weighted normal; meshes that come first keep their voxels. Triangles outside the frame are
+/// clipped away. Filling is robust: lines through each free voxel judge it from both of their ends by the
+/// winding number of their crossings, so overlapping solids stay full, meshes may be inside out, and where a
+/// line leaks its ends contradict each other and the majority of thirteen directions decides (sim/fill.cpp).
+/// Throws InputError if the world is too large for memory, naming the voxel size that would fit, and for a
+/// mesh that is not sound (indices, numbers) or too large to fill.
 World buildWorld(const Frame& frame, const std::vector<TiledMesh>& meshes, int layers,
                  std::vector<FillReport>* fills = nullptr);
 

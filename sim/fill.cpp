@@ -16,14 +16,13 @@
 // Voxels lie on one line of each direction, so lines run in parallel and only count into voxels of their own.
 #include "sim/fill.h"
 
-#include <oneapi/tbb/parallel_for.h>
-
 #include <algorithm>
 #include <cmath>
 #include <glm/vector_relational.hpp>
 #include <limits>
 #include <span>
 
+#include "sim/parallel.h"
 #include "sim/triangle_rows.h"
 
 namespace espalier::sim {
@@ -190,7 +189,7 @@ class Lines {
 void countVotes(const std::vector<std::array<Vec3, 3>>& triangles_vx, const Lines& lines, Votes& votes) {
   constexpr std::size_t kChunk = 1024;
   std::vector<std::vector<Crossing>> chunks((triangles_vx.size() + kChunk - 1) / kChunk);
-  tbb::parallel_for(std::size_t{0}, chunks.size(), [&](std::size_t c) {
+  parallelForEach(chunks.size(), [&](std::size_t c) {
     const std::size_t last = std::min((c + 1) * kChunk, triangles_vx.size());
     for (std::size_t i = c * kChunk; i < last; ++i) lines.cross(triangles_vx[i], chunks[c]);
   });
@@ -204,7 +203,7 @@ void countVotes(const std::vector<std::array<Vec3, 3>>& triangles_vx, const Line
   for (const auto& chunk : chunks) {
     for (const Crossing& c : chunk) crossings[end[c.line]++] = c;
   }
-  tbb::parallel_for(std::size_t{0}, lines.count(), [&](std::size_t line) {
+  parallelForEach(lines.count(), [&](std::size_t line) {
     const std::size_t from = line == 0 ? 0 : end[line - 1];
     if (from == end[line]) return;
     lines.vote(static_cast<std::uint32_t>(line), {crossings.data() + from, end[line] - from}, votes);

@@ -72,7 +72,17 @@ void requireFree(const World& world, const Planting& planting, Vec3 seed_vx) {
   }
 }
 
-void addNode(Skeleton& s, NodeId parent, int iteration, const Proposal& p) {
+/// A plant while it grows.
+struct Growing {
+  Plant plant;
+  const Rule* rule = nullptr;
+  std::vector<std::vector<NodeId>> children;  // of each node
+};
+
+void addNode(Growing& growing, NodeId parent, int iteration, const Proposal& p) {
+  Skeleton& s = growing.plant.skeleton;
+  if (parent != kNoNode) growing.children[static_cast<std::size_t>(parent)].push_back(s.size());
+  growing.children.emplace_back();
   s.parent.push_back(parent);
   s.position_vx.push_back(p.to_vx);
   s.born.push_back(iteration);
@@ -84,9 +94,8 @@ void addNode(Skeleton& s, NodeId parent, int iteration, const Proposal& p) {
 
 /// Everything that changes from one iteration to the next.
 struct State {
-  std::vector<Plant> plants;
-  std::vector<const Rule*> rules;  // by plant
-  std::vector<Bud> buds;           // sorted by (plant, node, tip before side)
+  std::vector<Growing> plants;
+  std::vector<Bud> buds;  // sorted by (plant, node, tip before side)
 };
 
 State plantSeeds(World& world, const std::vector<Planting>& plantings) {
@@ -95,7 +104,8 @@ State plantSeeds(World& world, const std::vector<Planting>& plantings) {
     for (std::size_t i = 0; i < planting.seeds_vx.size(); ++i) {
       requireFree(world, planting, planting.seeds_vx[i]);
       const auto number = static_cast<std::int32_t>(state.plants.size());
-      Plant plant = planting.rule->seedling();
+      Growing growing{planting.rule->seedling(), planting.rule, {}};
+      Plant& plant = growing.plant;
       plant.name = planting.seeds_vx.size() == 1 ? planting.name : fmt::format("{} {}", planting.name, i + 1);
       plant.stem_part = world.addPart({plant.name, "stem", PartKind::stem, number});
       for (const ElementShape& shape : plant.shapes) {
@@ -103,9 +113,8 @@ State plantSeeds(World& world, const std::vector<Planting>& plantings) {
       }
       Proposal seed;
       seed.to_vx = planting.seeds_vx[i];
-      addNode(plant.skeleton, kNoNode, 0, seed);
-      state.plants.push_back(std::move(plant));
-      state.rules.push_back(planting.rule);
+      addNode(growing, kNoNode, 0, seed);
+      state.plants.push_back(std::move(growing));
       state.buds.push_back({number, 0, false, 0});
     }
   }
@@ -117,14 +126,15 @@ void occupyWith(std::vector<TiledVoxel>& edit, std::span<const Voxel> voxels, co
 }
 
 /// Grows a proposal's segment and those of its elements that nobody else's claim hinders.
-void accept(Plant& plant, const Bud& bud, Proposal& proposal, int iteration, Claims& claims,
+void accept(Growing& growing, const Bud& bud, Proposal& proposal, int iteration, Claims& claims,
             std::vector<TiledVoxel>& edit) {
+  Plant& plant = growing.plant;
   claims.takeForLimb(proposal.voxels, bud);
   occupyWith(edit, proposal.voxels,
-             {plant.stem_part, plant.stem_colour, static_cast<float>(std::min(1.0, 2.0 * plant.stem_radius_vx)),
-              Vec3f(0.0f)});
+             {plant.stem_part, plant.stem_colour,
+              static_cast<float>(std::min(1.0, 2.0 * plant.stem_radius_vx)), Vec3f(0.0f)});
   const NodeId node = plant.skeleton.size();
-  addNode(plant.skeleton, bud.node, iteration, proposal);
+  addNode(growing, bud.node, iteration, proposal);
   for (ProposedElement& leaf : proposal.elements) {
     const Voxel start = voxelAt(leaf.element.position_vx);
     if (!claims.allow(leaf.voxels, bud, start)) continue;
@@ -145,41 +155,44 @@ Growth grow(World& world, const std::vector<Planting>& plantings, const GrowthSe
   Growth growth;
   State state = plantSeeds(world, plantings);
   Claims claims(world.frame().size);
+  const Lookout sky(world.opaque(), settings.sky), sun(world.opaque(), settings.sun);
   std::size_t segments = 0;
 
   for (int iteration = 0; iteration < settings.iterations && !state.buds.empty(); ++iteration) {
-    if (settings.stop.stop_requested()) throw Stopped();
     std::vector<Bud> due, next;
     for (const Bud& bud : state.buds) (bud.due <= iteration ? due : next).push_back(bud);
 
     std::vector<Proposal> proposals(due.size());
     parallelFor(due.size(), 4, [&](std::size_t begin, std::size_t end) {
-      for (std::size_t i = begin; i < end; ++i) {
+      for (std::size_t i = begin; i < end && !settings.stop.stop_requested(); ++i) {
         const Bud& bud = due[i];
-        const auto plant = static_cast<std::size_t>(bud.plant);
-        const GrowthView view{world,        state.plants[plant], settings.sky,
-                              settings.sun, iteration,           settings.record_attempts};
+        const Growing& growing = state.plants[static_cast<std::size_t>(bud.plant)];
+        const GrowthView view{world, growing.plant, growing.children,        sky,
+                              sun,   iteration,     settings.record_attempts};
         const RandomKey key{settings.seed, static_cast<std::uint32_t>(bud.plant), agentOf(bud),
                             static_cast<std::uint32_t>(iteration)};
-        proposals[i] = state.rules[plant]->propose(view, bud, key);
+        proposals[i] = growing.rule->propose(view, bud, key);
       }
     });
+
+    if (settings.stop.stop_requested()) throw Stopped();
 
     std::vector<TiledVoxel> edit;
     for (std::size_t i = 0; i < due.size(); ++i) {
       const Bud& bud = due[i];
       Proposal& proposal = proposals[i];
-      Plant& plant = state.plants[static_cast<std::size_t>(bud.plant)];
-      const Voxel start = voxelAt(plant.skeleton.position_vx[static_cast<std::size_t>(bud.node)]);
+      Growing& growing = state.plants[static_cast<std::size_t>(bud.plant)];
+      const Skeleton& skeleton = growing.plant.skeleton;
+      const Voxel start = voxelAt(skeleton.position_vx[static_cast<std::size_t>(bud.node)]);
       if (proposal.outcome == Outcome::grown && !claims.allow(proposal.voxels, bud, start)) {
         proposal.outcome = Outcome::claimed;
         proposal.retire = false;
       }
       if (proposal.outcome == Outcome::grown) {
-        accept(plant, bud, proposal, iteration, claims, edit);
+        accept(growing, bud, proposal, iteration, claims, edit);
         ++segments;
         for (const Sprout& sprout : proposal.sprouts) {
-          next.push_back({bud.plant, plant.skeleton.size() - 1, sprout.side, iteration + sprout.wait});
+          next.push_back({bud.plant, skeleton.size() - 1, sprout.side, iteration + sprout.wait});
         }
       } else if (!proposal.retire) {
         next.push_back({bud.plant, bud.node, bud.side, iteration + 1});
@@ -198,7 +211,7 @@ Growth grow(World& world, const std::vector<Planting>& plantings, const GrowthSe
     if (settings.progress)
       settings.progress({iteration + 1, settings.iterations, segments, state.buds.size()});
   }
-  growth.plants = std::move(state.plants);
+  for (Growing& growing : state.plants) growth.plants.push_back(std::move(growing.plant));
   return growth;
 }
 

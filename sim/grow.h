@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "sim/directions.h"
 #include "sim/rule.h"
 
 namespace espalier::sim {
@@ -48,7 +49,7 @@ struct Growth {
 /// against the voxels that earlier ones claimed in the same iteration. So nothing depends on the number of
 /// threads.
 ///
-/// Throws Stopped when stop is requested, between two iterations; InputError if a seed lies outside the world
+/// Throws Stopped when stop is requested; InputError if a seed lies outside the world
 /// or inside something.
 Growth grow(World& world, const std::vector<Planting>& plantings, const GrowthSettings& settings);
 

@@ -9,12 +9,12 @@
 // are worked out in parallel; their leaves are put into the grids in the order of the slabs. Cost follows the
 // rows that see a surface, times the window.
 #include <fmt/format.h>
-#include <oneapi/tbb/parallel_for.h>
 
 #include <bit>
 #include <cmath>
 
 #include "sim/error.h"
+#include "sim/parallel.h"
 #include "sim/world_grids.h"
 
 namespace espalier::sim {
@@ -230,7 +230,7 @@ class Slab {
 template <typename Key>
 std::vector<std::vector<Block>> allSlabs(const World& world, const BitVolume& scene, Reach reach) {
   std::vector<std::vector<Block>> slabs(static_cast<std::size_t>((scene.size().x + kLanes - 1) / kLanes));
-  tbb::parallel_for(std::size_t{0}, slabs.size(), [&](std::size_t i) {
+  parallelForEach(slabs.size(), [&](std::size_t i) {
     slabs[i] = Slab<Key>(world, scene, reach, static_cast<int>(i) * kLanes).blocks();
   });
   return slabs;

@@ -13,6 +13,9 @@ void parallelFor(std::size_t count, const std::function<void(std::size_t begin, 
 void parallelFor(std::size_t count, std::size_t grain,
                  const std::function<void(std::size_t begin, std::size_t end)>& body);
 
+/// Calls body(i) for each i below count, each as a task of its own.
+void parallelForEach(std::size_t count, const std::function<void(std::size_t i)>& body);
+
 /// Runs both at the same time.
 void parallelInvoke(const std::function<void()>& a, const std::function<void()>& b);
 

@@ -55,7 +55,7 @@ struct Plant {
   std::vector<ElementShape> shapes;
   std::vector<PlacedElement> elements;
   Colour stem_colour{0.16f, 0.10f, 0.05f};
-  double stem_radius_vx = 0.11;  ///< of a twig that does not fork
+  double stem_radius_vx = 0.08;  ///< of a twig that does not fork
   PartId stem_part = kFree;
   std::vector<PartId> element_parts;  ///< a part for each shape
 };

@@ -5,9 +5,9 @@
 #include <string_view>
 #include <vector>
 
-#include "sim/directions.h"
 #include "sim/plant.h"
 #include "sim/random.h"
+#include "sim/sense/exposure.h"
 #include "sim/world.h"
 
 namespace espalier::sim {
@@ -43,8 +43,9 @@ struct Bud {
 struct GrowthView {
   const World& world;
   const Plant& plant;
-  const DirectionSet& sky;
-  const DirectionSet& sun;
+  const std::vector<std::vector<NodeId>>& children;  ///< of each of the plant's nodes
+  const Lookout& sky;
+  const Lookout& sun;
   int iteration = 0;
   bool record_attempts = false;
 };

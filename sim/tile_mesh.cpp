@@ -3,7 +3,6 @@
 // have in common, so that every sum below runs in the same order on any number of threads.
 #include "sim/tile_mesh.h"
 
-#include <oneapi/tbb/parallel_for.h>
 #include <oneapi/tbb/parallel_sort.h>
 
 #include <algorithm>
@@ -11,6 +10,7 @@
 #include <tuple>
 
 #include "sim/clip.h"
+#include "sim/parallel.h"
 #include "sim/triangle_rows.h"
 
 namespace espalier::sim {
@@ -128,7 +128,7 @@ class Tiler {
 std::vector<Share> sharesOf(const Mesh& mesh, const std::vector<Vec3>& vertices_vx, Voxel size) {
   constexpr std::size_t kChunk = 512;
   std::vector<std::vector<Share>> chunks((mesh.triangles.size() + kChunk - 1) / kChunk);
-  tbb::parallel_for(std::size_t{0}, chunks.size(), [&](std::size_t c) {
+  parallelForEach(chunks.size(), [&](std::size_t c) {
     Tiler tiler(size);
     const std::size_t last = std::min((c + 1) * kChunk, mesh.triangles.size());
     for (std::size_t i = c * kChunk; i < last; ++i) {
@@ -140,7 +140,7 @@ std::vector<Share> sharesOf(const Mesh& mesh, const std::vector<Vec3>& vertices_
   std::vector<std::size_t> start(chunks.size() + 1, 0);
   for (std::size_t c = 0; c < chunks.size(); ++c) start[c + 1] = start[c] + chunks[c].size();
   std::vector<Share> shares(start.back());
-  tbb::parallel_for(std::size_t{0}, chunks.size(), [&](std::size_t c) {
+  parallelForEach(chunks.size(), [&](std::size_t c) {
     std::copy(chunks[c].begin(), chunks[c].end(), shares.begin() + static_cast<std::ptrdiff_t>(start[c]));
     chunks[c] = {};
   });
@@ -197,7 +197,7 @@ std::vector<TiledVoxel> tileMesh(const Mesh& mesh, const std::vector<Vec3>& vert
   }
   std::vector<TiledVoxel> voxels(groups.size());
   groups.push_back(shares.size());
-  tbb::parallel_for(std::size_t{0}, voxels.size(), [&](std::size_t g) {
+  parallelForEach(voxels.size(), [&](std::size_t g) {
     const std::span<const Share> mine(shares.data() + groups[g], groups[g + 1] - groups[g]);
     const std::uint64_t row = mine[0].voxel / static_cast<std::uint64_t>(size.x);
     const Voxel v(static_cast<int>(mine[0].voxel % static_cast<std::uint64_t>(size.x)),

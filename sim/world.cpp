@@ -40,14 +40,17 @@ openvdb::Index offsetInLeaf(Voxel v) {
   return openvdb::Int32Tree::LeafNodeType::coordToOffset(coordOf(v));
 }
 
-/// How large a share of the rays through a voxel its contents stop: their mean projected area over the cube's, each
-/// a quarter of its surface (Cauchy 1850). A leaf of one-sided area A shows A / 2, a limb of silhouette A about
-/// 0.8 A, and the cube 3 / 2 faces.
+/// How large a share of the rays through a voxel its contents stop: their mean projected area over the
+/// cube's, each a quarter of its surface (Cauchy 1850). A leaf of one-sided area A shows A / 2, a limb of
+/// silhouette A about 0.8 A, and the cube 3 / 2 faces.
 float opacity(const Surface& surface, PartKind kind) {
   switch (kind) {
-    case PartKind::scene: return 1.0f;  // a wall has no holes where a triangle only clips a voxel's corner
-    case PartKind::stem: return surface.coverage / 2.0f;
-    case PartKind::element: return surface.coverage / 3.0f;
+    case PartKind::scene:
+      return 1.0f;  // a wall has no holes where a triangle only clips a voxel's corner
+    case PartKind::stem:
+      return surface.coverage / 2.0f;
+    case PartKind::element:
+      return surface.coverage / 3.0f;
   }
   return 1.0f;
 }
@@ -67,7 +70,8 @@ glm::vec3 fromVdb(const openvdb::Vec3f& v) {
 
 }  // namespace
 
-World::World(const Frame& frame) : frame_(frame), occupied_(frame.size), opaque_(frame.size), grids_(makeGrids(frame)) {}
+World::World(const Frame& frame)
+    : frame_(frame), occupied_(frame.size), opaque_(frame.size), grids_(makeGrids(frame)) {}
 World::World(World&&) noexcept = default;
 World& World::operator=(World&&) noexcept = default;
 World::~World() = default;

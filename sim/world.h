@@ -61,9 +61,9 @@ class World {
   const Frame& frame() const { return frame_; }
   /// What obstructs.
   const BitVolume& occupied() const { return occupied_; }
-  /// What takes light: all of the scene, and of the plants' voxels a share. A leaf takes up a whole voxel but stops
-  /// few of the rays through it; so as many of the voxels stop all light as the leaves in them would stop rays.
-  /// Which ones follows from their place alone.
+  /// What takes light: all of the scene, and of the plants' voxels a share. A leaf takes up a whole voxel but
+  /// stops few of the rays through it; so as many of the voxels stop all light as the leaves in them would
+  /// stop rays. Which ones follows from their place alone.
   const BitVolume& opaque() const { return opaque_; }
   const std::vector<Part>& parts() const { return parts_; }
   const Part& part(PartId id) const { return parts_[static_cast<std::size_t>(id - 1)]; }

@@ -25,6 +25,63 @@ Outlook lookOut(const BitVolume& occupied, Voxel p, const DirectionSet& directio
   return outlook;
 }
 
+Lookout::Lookout(const BitVolume& shape, const DirectionSet& directions) {
+  const auto bitStep = [&](Voxel o) {
+    return (static_cast<std::ptrdiff_t>(o.y) * shape.size().z + o.z) * shape.rowWords() *
+               BitVolume::kWordBits +
+           o.x;
+  };
+  for (const LatticeDirection& direction : directions) {
+    const std::size_t first = crossed_.size();
+    for (const Voxel o : direction.crossed) {
+      crossed_.push_back(o);
+      steps_.push_back(bitStep(o));
+    }
+    rays_.push_back(
+        {direction.v, direction.weight, glm::normalize(Vec3(direction.v)), first, crossed_.size()});
+  }
+}
+
+namespace {
+
+/// How many whole periods of v fit between p and the edge of the world.
+int periodsInside(Voxel size, Voxel p, Voxel v) {
+  int periods = (size.y - 1 - p.y) / v.y;
+  if (v.x != 0) periods = std::min(periods, v.x > 0 ? (size.x - 1 - p.x) / v.x : p.x / -v.x);
+  if (v.z != 0) periods = std::min(periods, v.z > 0 ? (size.z - 1 - p.z) / v.z : p.z / -v.z);
+  return periods;
+}
+
+}  // namespace
+
+Outlook Lookout::from(const BitVolume& occupied, Voxel p) const {
+  const std::uint64_t* const words = occupied.words().data();
+  const std::ptrdiff_t start = (occupied.row(p.y, p.z) - words) * BitVolume::kWordBits + p.x;
+  Outlook outlook;
+  for (const Ray& ray : rays_) {
+    const auto reaches = [&] {
+      const int periods = periodsInside(occupied.size(), p, ray.v);
+      std::ptrdiff_t bit = start;
+      for (int k = 0; k < periods; ++k) {  // all of it lies inside, so nothing needs to be asked but the bits
+        for (std::size_t i = ray.first; i < ray.last; ++i) {
+          const std::ptrdiff_t at = bit + steps_[i];
+          if (((words[at >> 6] >> (at & 63)) & 1u) != 0) return false;
+        }
+        bit += steps_[ray.last - 1];
+      }
+      const Voxel last = p + periods * ray.v;
+      for (std::size_t i = ray.first; i < ray.last && contains(occupied.size(), last + crossed_[i]); ++i) {
+        if (occupied.at(last + crossed_[i])) return false;
+      }
+      return true;
+    };
+    if (!reaches()) continue;
+    outlook.sum = static_cast<std::uint16_t>(outlook.sum + ray.weight);
+    outlook.toward += static_cast<double>(ray.weight) * ray.unit;
+  }
+  return outlook;
+}
+
 float surfaceExposure(const BitVolume& occupied, const ExposureField& field, Voxel surface, Vec3f normal) {
   float sum = 0.0f, weights = 0.0f;
   for (int dy = -1; dy <= 1; ++dy) {

@@ -1,5 +1,7 @@
 #pragma once
+#include <cstddef>
 #include <cstdint>
+#include <vector>
 
 #include "sim/bits.h"
 #include "sim/directions.h"
@@ -21,6 +23,26 @@ struct Outlook {
 
 /// Casts every ray of the set: the same sum as sweepExposure gives, for a few places.
 Outlook lookOut(const BitVolume& occupied, Voxel p, const DirectionSet& directions);
+
+/// Directions made ready for many looks into worlds of one shape: the same answers as lookOut, several times
+/// as fast.
+class Lookout {
+ public:
+  Lookout(const BitVolume& shape, const DirectionSet& directions);
+  /// `occupied` must have the shape that was given.
+  Outlook from(const BitVolume& occupied, Voxel p) const;
+
+ private:
+  struct Ray {
+    Voxel v;
+    std::uint16_t weight;
+    Vec3 unit;
+    std::size_t first, last;  ///< of its crossed voxels
+  };
+  std::vector<Ray> rays_;
+  std::vector<Voxel> crossed_;
+  std::vector<std::ptrdiff_t> steps_;  ///< to each of crossed_, in bits of the volume
+};
 
 /// The exposure of a surface: what the free space in front of it sees, not the inside of the surface. The
 /// mean of the field over the free voxels among the 26 around `surface`, weighted by how squarely they lie in

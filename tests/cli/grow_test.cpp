@@ -1,15 +1,15 @@
 // The program as a user runs it: what it writes, what it says, and how it ends.
 #include <gtest/gtest.h>
 
+#include <sys/wait.h>
+#include <unistd.h>
 #include <csignal>
 #include <filesystem>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <set>
 #include <string>
-#include <sys/wait.h>
 #include <thread>
-#include <unistd.h>
 
 #include "tests/support/process.h"
 #include "tests/support/scratch.h"
@@ -77,8 +77,8 @@ class Plot : public testing::Test {
   }
 
   tests::Ran grow(const std::string& more = "", const std::string& folder = "out") {
-    return tests::espalier("grow " + scratch_.path("scene.yaml").string() + " -o " + scratch_.path(folder).string() +
-                           " " + more);
+    return tests::espalier("grow " + scratch_.path("scene.yaml").string() + " -o " +
+                           scratch_.path(folder).string() + " " + more);
   }
   json report(const std::string& folder = "out") {
     return json::parse(tests::fileText(scratch_.path(folder) / "report.json"));
@@ -100,7 +100,8 @@ class Plot : public testing::Test {
     if (at == std::string::npos) return text;
     const auto end = text.find("\n", text.find("\n", at + 1));
     auto next = end;
-    while (next != std::string::npos && next + 1 < text.size() && (text[next + 1] == ' ' || text[next + 1] == '#')) {
+    while (next != std::string::npos && next + 1 < text.size() &&
+           (text[next + 1] == ' ' || text[next + 1] == '#')) {
       next = text.find('\n', next + 1);
     }
     return text.substr(0, at) + (next == std::string::npos ? "\n" : text.substr(next));
@@ -116,9 +117,10 @@ TEST_F(Plot, WritesTheModelTheWorldThePicturesAndTheReport) {
     EXPECT_GT(bytes.size(), 500u) << name;
     EXPECT_NE(ran.output.find(name), std::string::npos) << "the program does not name " << name;
   }
-  for (const char* name : {"plant.glb", "world.vdb", "report.json", "vines.png", "sun_exposure.png", "sun_exposure.exr",
-                           "sky_exposure.png", "sky_exposure.exr", "threshold.png", "shadow_matte.png",
-                           "surface_colour.png", "first_pass.png", "section.png", "contact_sheet.png"}) {
+  for (const char* name :
+       {"plant.glb", "world.vdb", "report.json", "vines.png", "sun_exposure.png", "sun_exposure.exr",
+        "sky_exposure.png", "sky_exposure.exr", "threshold.png", "shadow_matte.png", "surface_colour.png",
+        "first_pass.png", "section.png", "contact_sheet.png"}) {
     EXPECT_TRUE(names.contains(name)) << name;
   }
   const json r = report();
@@ -171,7 +173,9 @@ TEST_F(Plot, JsonPrintsTheReportAndNothingElse) {
   EXPECT_EQ(json::parse(ran.output), report());
 }
 
-TEST_F(Plot, QuietSaysNothing) { EXPECT_EQ(grow("--quiet --no-pictures").output, ""); }
+TEST_F(Plot, QuietSaysNothing) {
+  EXPECT_EQ(grow("--quiet --no-pictures").output, "");
+}
 
 TEST_F(Plot, BadInputIsNamedWithItsPlaceAndNothingIsWritten) {
   std::string scene = kScene;
@@ -226,7 +230,8 @@ TEST_F(Plot, AFullDiskIsAnErrorAndLeavesNoHalfFiles) {
 int growAndSignal(const std::string& scene, const std::string& folder, int signal, int after_ms) {
   const pid_t child = ::fork();
   if (child == 0) {
-    ::execl(ESPALIER_PROGRAM, ESPALIER_PROGRAM, "grow", scene.c_str(), "-o", folder.c_str(), "--quiet", nullptr);
+    ::execl(ESPALIER_PROGRAM, ESPALIER_PROGRAM, "grow", scene.c_str(), "-o", folder.c_str(), "--quiet",
+            nullptr);
     ::_exit(127);
   }
   std::this_thread::sleep_for(std::chrono::milliseconds(after_ms));

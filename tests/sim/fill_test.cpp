@@ -90,8 +90,8 @@ TEST(Fill, TwoSpheresThatOverlapAreOneSolid) {
 }
 
 TEST(Fill, ACavityStaysHollow) {
-  const Mesh bubble =
-      tests::together(tests::sphereMesh(kMiddle, 14, 24), tests::insideOut(tests::sphereMesh(kMiddle, 8, 20)));
+  const Mesh bubble = tests::together(tests::sphereMesh(kMiddle, 14, 24),
+                                      tests::insideOut(tests::sphereMesh(kMiddle, 8, 20)));
   const Filled f = filled(bubble, Voxel(40));
   EXPECT_EQ(f.report.doubtful, 0u);
   expectFilled(f, [](Vec3 p) { return inSphere(p) && glm::distance(p, kMiddle) > 8; });

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <random>
 
-#include "sim/parallel.h"
 #include "sim/error.h"
+#include "sim/parallel.h"
 #include "sim/world.h"
 #include "tests/support/worlds.h"
 

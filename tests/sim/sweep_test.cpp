@@ -29,12 +29,17 @@ sim::DirectionSet randomDirections(int count, int longest, unsigned seed) {
 
 void expectSameAsRays(const sim::BitVolume& bits, const sim::DirectionSet& set) {
   const sim::ExposureField field = sim::sweepExposure(bits, set);
+  const sim::Lookout lookout(bits, set);
   const Voxel size = bits.size();
   for (int y = 0; y < size.y; ++y) {
     for (int z = 0; z < size.z; ++z) {
       for (int x = 0; x < size.x; ++x) {
         const Voxel p(x, y, z);
-        ASSERT_EQ(field.sums[field.index(p)], sim::lookOut(bits, p, set).sum) << x << ' ' << y << ' ' << z;
+        const sim::Outlook plain = sim::lookOut(bits, p, set);
+        ASSERT_EQ(field.sums[field.index(p)], plain.sum) << x << ' ' << y << ' ' << z;
+        const sim::Outlook prepared = lookout.from(bits, p);
+        ASSERT_EQ(prepared.sum, plain.sum) << x << ' ' << y << ' ' << z;
+        ASSERT_EQ(prepared.toward, plain.toward);
       }
     }
   }

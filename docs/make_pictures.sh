@@ -35,7 +35,7 @@ small() {  # small PICTURE NAME WIDTH: docs/images/NAME.png, at most WIDTH pixel
 }
 
 grow scenes/library/courtyard.yaml
-small $work/courtyard/vines.png vines 800
+small $work/courtyard/vines.png vines 780
 small $work/courtyard/contact_sheet.png contact_sheet 960
 for kind in sky_exposure sun_exposure threshold; do small $work/courtyard/$kind.png $kind 800; done
 

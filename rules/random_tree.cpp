@@ -20,6 +20,10 @@ namespace {
 
 using sim::Outcome;
 
+// What a random key tells apart: trials of one rule set, and rule sets tried one after another.
+constexpr std::uint32_t kTrialsOfOneSet = 10'000;
+constexpr int kMostSets = 6;
+
 // Single-precision: the same on every processor, unlike glibc's double functions.
 double cosineOfDegrees(double degrees) {
   return std::cos(static_cast<float>(degrees * std::numbers::pi / 180.0));
@@ -162,7 +166,9 @@ std::optional<Candidate> RandomTreeRule::bestTrial(const sim::GrowthView& view, 
   std::optional<Candidate> best;
   double best_score = std::numeric_limits<double>::infinity();
   Candidate trial;
-  for (int i = 0; i < tree.trials_max && !(best && i >= tree.trials_min); ++i) {
+  const int enough =
+      rules.prefer.has_proximity ? tree.trials_min : 1;  // without a preference any good one will do
+  for (int i = 0; i < tree.trials_max && !(best && i >= enough); ++i) {
     sim::Draws draws(key, bud.side ? sim::Purpose::branch : sim::Purpose::tip,
                      first_trial + static_cast<std::uint32_t>(i));
     // A tip that has not found a way among its first trials looks farther afield.
@@ -205,13 +211,12 @@ sim::Proposal RandomTreeRule::propose(const sim::GrowthView& view, const sim::Bu
   proposal.sun_exposure = static_cast<float>(senses.sun_exposure);
   if (senses.exposure < rules->require.exposure_min) return stop(Outcome::too_dark, true);
   if (senses.exposure > rules->require.exposure_max) return stop(Outcome::too_bright, true);
-  if (sim::Draws(key, sim::Purpose::rate).uniform() * rules->light.boost >= senses.vigour) {
+  if (sim::Draws(key, sim::Purpose::rate).uniform() * std::max(1.0, rules->light.boost) >= senses.vigour) {
     return stop(Outcome::resting, false);
   }
 
   std::optional<Candidate> best = bestTrial(view, *rules, senses, bud, key, 0, proposal);
-  constexpr std::uint32_t kTrialsOfOneSet = 10'000;  // the registry's upper limit of trials.max
-  for (std::uint32_t set = 1; !best && rules->otherwise && set < 6; ++set) {
+  for (std::uint32_t set = 1; !best && rules->otherwise; ++set) {
     rules = rules->otherwise.get();
     best = bestTrial(view, *rules, senses, bud, key, set * kTrialsOfOneSet, proposal);
   }
@@ -235,7 +240,12 @@ sim::Proposal RandomTreeRule::propose(const sim::GrowthView& view, const sim::Bu
 }  // namespace
 
 std::unique_ptr<sim::Rule> makeRandomTree(std::shared_ptr<const RuleSet> rules, double voxel_m) {
+  int sets = 0;
   for (const RuleSet* set = rules.get(); set != nullptr; set = set->otherwise.get()) {
+    if (++sets > kMostSets) {
+      throw sim::InputError(fmt::format(
+          "rule set '{}': more than {} rule sets follow each other by 'otherwise'", rules->name, kMostSets));
+    }
     const double unit = set->random_tree.length.metres ? voxel_m : 1.0;
     const double shortest = lowest(set->random_tree.length.value) / unit;
     const double longest = highest(set->random_tree.length.value) / unit;

@@ -8,30 +8,29 @@ namespace {
 
 constexpr Limits kWeight{0.0, 1.0};
 constexpr Limits kAngle{0.0, 180.0};
-constexpr Limits kTrials{1.0, 100'000.0};
+constexpr Limits kTrials{1.0, 10'000.0};  // as many as a random key tells apart
 constexpr Limits kDistance{0.0, 1000.0};
 const char* const kVoxels = "voxel widths";
 const char* const kDegrees = "degrees";
 
 std::shared_ptr<const Table> randomTreeKeys() {
-  const auto trials =
-      TableOf<RandomTree>()
-          .whole("min", &RandomTree::trials_min,
-                 {.unit = "trials",
-                  .limits = kTrials,
-                  .meaning = "Trials that are made before the best one is taken.",
-                  .greene = "no_of_trials_min"})
-          .whole("max", &RandomTree::trials_max,
-                 {.unit = "trials",
-                  .limits = kTrials,
-                  .meaning = "Trials after which a tip that found no place gives up for this iteration.",
-                  .greene = "no_of_trials_max"})
-          .shared();
+  const auto trials = TableOf<RandomTree>()
+                          .whole("min", &RandomTree::trials_min,
+                                 {.unit = "trials",
+                                  .limits = kTrials,
+                                  .meaning = "Trials that are made before the best one is taken.",
+                                  .greene = "no_of_trials_min"})
+                          .whole("max", &RandomTree::trials_max,
+                                 {.unit = "trials",
+                                  .limits = kTrials,
+                                  .meaning = "Trials after which a tip that found no place retires.",
+                                  .greene = "no_of_trials_max"})
+                          .shared();
   return TableOf<RandomTree>()
       .length("length", &RandomTree::length,
               {.unit = kVoxels,
                .limits = {0.0, 1000.0, true},
-               .meaning = "Length of a segment at the least exposure; light.boost lengthens it.",
+               .meaning = "Length of a segment.",
                .greene = "length"})
       .wholeRange("branch_age_range", &RandomTree::branch_age_min, &RandomTree::branch_age_max,
                   {.unit = "iterations",
@@ -61,11 +60,13 @@ std::shared_ptr<const Table> biasKeys() {
       TableOf<Bias>()
           .value(
               "amount", &Bias::twist,
-              weight(
-                  "To one side of the plane through the last segment and the local centre of mass: a helix."))
+              {.unit = "weight",
+               .limits = {-1.0, 1.0},
+               .meaning = "To one side of the plane through the last segment and the local centre of mass: a "
+                          "helix; below 0 to the other side."})
           .number("radius", &Bias::twist_radius_vx,
                   {.unit = kVoxels,
-                   .limits = {0.0, 1000.0, true},
+                   .limits = {0.0, 64.0, true},
                    .meaning = "How far around a tip the centre of mass is taken."})
           .shared();
   return TableOf<Bias>()
@@ -76,7 +77,7 @@ std::shared_ptr<const Table> biasKeys() {
       .value("away", &Bias::away, weight("From the nearest scene object."))
       .value("toward", &Bias::toward, weight("To the nearest scene object."))
       .section("twist", std::identity{}, twist,
-               {.meaning = "Winds limbs around what has grown; a number stands for its amount."}, "amount")
+               {.meaning = "Winds limbs around what stands near; a number stands for its amount."}, "amount")
       .shared();
 }
 
@@ -90,7 +91,8 @@ std::shared_ptr<const Table> requireKeys() {
           .number("max", &Require::proximity_max_vx,
                   {.unit = kVoxels,
                    .limits = {0.0, 1000.0, true},
-                   .meaning = "Greatest mean distance; only known within the scene's boundary layers.",
+                   .meaning = "Greatest mean distance. A voxel beyond the scene's last boundary layer counts "
+                              "as one farther than that.",
                    .greene = "maxprox"})
           .shared();
   const auto exposure = TableOf<Require>()
@@ -127,7 +129,7 @@ std::shared_ptr<const Table> preferKeys() {
           {.unit = kVoxels,
            .limits = kDistance,
            .meaning = "The trial whose mean distance from the scene is nearest to this wins; without it the "
-                      "first trial does.",
+                      "first that is good does.",
            .greene = "seekprox"})
       .shared();
 }
@@ -181,7 +183,7 @@ std::shared_ptr<const Table> elementKeys() {
               .greene = "expected_frequency"})
       .value("size", &Element::size,
              {.unit = "factor",
-              .limits = {0.0, 1000.0, true},
+              .limits = {0.0, 100.0, true},
               .meaning = "Scale of the polygons at the least exposure."})
       .value("face", &Element::face,
              {.unit = "weight",

@@ -1,0 +1,69 @@
+#!/usr/bin/env bash
+# Grows the library's scenes and makes the pictures of docs/images from what the program drew: reduced by oiiotool
+# (Debian: openimageio-tools) and brought to 256 colours by pngquant. Nothing else is done to them.
+#
+#   docs/make_pictures.sh                                  with the program that ./run builds
+#   ESPALIER=build/release/espalier docs/make_pictures.sh  with one that is built already
+set -euo pipefail
+cd "$(dirname "${BASH_SOURCE[0]}")/.."
+for tool in oiiotool pngquant; do
+  command -v $tool >/dev/null || { echo "please install $tool: apt-get install openimageio-tools pngquant" >&2; exit 1; }
+done
+work=out/pictures
+images=docs/images
+mkdir -p $work $images
+
+grow() {  # grow SCENE: into a folder of the scene's name
+  local folder
+  folder=$work/$(basename "$1" .yaml)
+  echo "growing $1"
+  if [ -n "${ESPALIER:-}" ]; then
+    "$ESPALIER" grow "$1" -o "$folder" --quiet
+  else
+    ./run espalier grow "$1" -o "$folder" --quiet
+  fi
+}
+
+small() {  # small PICTURE NAME WIDTH: docs/images/NAME.png, at most WIDTH pixels wide
+  local width
+  width=$(oiiotool "$1" --echo '{TOP.width}' | tail -n 1)
+  [ "$width" -le "$3" ] && width=0 || width=$3
+  oiiotool "$1" $([ "$width" = 0 ] || echo "--resize ${width}x0") -d uint8 -o "$work/reduced.png"
+  pngquant 256 --speed 1 --strip --force "$work/reduced.png" -o "$images/$2.png"
+  rm "$work/reduced.png"
+  ls -l "$images/$2.png" | awk '{print "  " $NF ": " $5 " bytes"}'
+}
+
+grow scenes/library/courtyard.yaml
+small $work/courtyard/vines.png vines 780
+small $work/courtyard/contact_sheet.png contact_sheet 960
+for kind in sky_exposure sun_exposure threshold; do small $work/courtyard/$kind.png $kind 800; done
+
+grow scenes/library/figure_2.yaml
+small $work/figure_2/figure_2.png flat_walk 960
+grow scenes/library/figure_3.yaml
+small $work/figure_3/figure_3.png figure_3 960
+grow scenes/library/figure_3a.yaml
+small $work/figure_3a/column_layers.png column_layers 640
+grow scenes/library/ruin.yaml
+if [ -f $work/ruin/vines.png ]; then small $work/ruin/vines.png ruin 720; else echo "  no ruin: its mesh is missing"; fi
+
+# The README's first rule file, as it stands and with the three changes that it proposes.
+changed() {  # changed NAME FROM TO [FROM TO ...]
+  local name=$1 rules=$work/first_$1.yaml
+  shift
+  cp docs/first/vine.yaml "$rules"
+  while [ $# -gt 0 ]; do
+    grep -qF -- "$1" "$rules" || { echo "docs/first/vine.yaml no longer says '$1'" >&2; exit 1; }
+    sed -i "s/$1/$2/" "$rules"
+    shift 2
+  done
+  sed "s#rules: vine.yaml#rules: first_$name.yaml#" docs/first/scene.yaml >"$work/try_$name.yaml"
+  grow "$work/try_$name.yaml"
+}
+changed as_is
+changed up 'up: 0.08' 'up: 0.4'
+changed far 'max: 3}' 'max: 12}'
+changed autumn 'size: 1.2' 'size: 2' '#4f7a2c' '#b3412a'
+oiiotool $work/try_{as_is,up,far,autumn}/vines.png --mosaic:pad=8 2x2 -o $work/first_vines.png
+small $work/first_vines.png first_vines 760

@@ -25,7 +25,11 @@ int main(int argc, char** argv) {
     cli::addGrow(app, exit_status);
     cli::addCheck(app, exit_status);
     cli::addSchema(app, exit_status);
-    CLI11_PARSE(app, argc, argv);
+    try {
+      app.parse(argc, argv);
+    } catch (const CLI::ParseError& error) {
+      return app.exit(error) == 0 ? 0 : cli::kInputError;  // --help and --version end here too
+    }
   } catch (const sim::Stopped&) {
     fmt::print(stderr, "espalier: stopped\n");
     return cli::kStopped;

@@ -69,7 +69,7 @@ std::string encodeExr(const Image& measured, const std::vector<std::string>& cha
     throw sim::InputError(
         fmt::format("{} names for the {} channels of an EXR", channel_names.size(), measured.channels));
   }
-  const bool colour = measured.channels >= 3;
+  const bool colour = !channel_names.empty() && channel_names.front() == "R";
   OIIO::ImageSpec spec(measured.width, measured.height, measured.channels,
                        colour ? OIIO::TypeDesc::HALF : OIIO::TypeDesc::FLOAT);
   spec.channelnames = channel_names;

@@ -17,8 +17,8 @@ using Metadata = std::vector<std::pair<std::string, std::string>>;
 /// fourth, is not premultiplied.
 std::string encodePng(const Image& display, const Metadata& metadata = {});
 
-/// EXR of linear or measured values; one name a channel ("R", "G", "B" for colour). One or two channels are
-/// quantities and kept exactly, as 32-bit floats; three and more are colours and stored as half floats.
+/// EXR of linear or measured values; one name a channel. Quantities are kept exactly, as 32-bit floats; colours,
+/// whose first channel is "R", are stored as half floats.
 std::string encodeExr(const Image& measured, const std::vector<std::string>& channel_names,
                       const Metadata& metadata = {});
 

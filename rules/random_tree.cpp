@@ -152,6 +152,11 @@ Outcome RandomTreeRule::judge(const sim::GrowthView& view, const RuleSet& rules,
   } else if (!sim::contains(view.world.frame().size, sim::voxelAt(trial.to_vx))) {
     return Outcome::out_of_world;
   }
+  // One that folds back into its own limb would take nothing of the world, and so could grow for ever.
+  const sim::BitVolume& occupied = view.world.occupied();
+  if (std::all_of(trial.voxels.begin(), trial.voxels.end(), [&](sim::Voxel v) { return occupied.at(v); })) {
+    return Outcome::blocked;
+  }
   trial.proximity_vx = sim::averageProximity(view.world, trial.voxels);
   if (trial.proximity_vx > rules.require.proximity_max_vx) return Outcome::too_far;
   if (trial.proximity_vx < rules.require.proximity_min_vx) return Outcome::too_near;

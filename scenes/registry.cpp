@@ -87,10 +87,10 @@ std::shared_ptr<const Table> skyKeys() {
       .choice<SkyWeighting>("weighting", &SkySpec::weighting,
                             {{"uniform", SkyWeighting::uniform}, {"cosine", SkyWeighting::cosine}},
                             {.meaning = "Each direction counts by its solid angle (Greene's way), or also by "
-                                        "its cosine to the surface (the architects' view factor)."})
+                                        "the cosine with the vertical, as a level surface receives it."})
       .whole("directions", &SkySpec::directions,
              {.unit = "directions",
-              .limits = {1.0, 65'536.0},
+              .limits = {1.0, 4096.0},
               .meaning = "Directions over the sky's hemisphere."})
       .shared();
 }
@@ -99,7 +99,7 @@ std::shared_ptr<const Table> sunKeys() {
   return TableOf<SunSpec>()
       .number("tilt", &SunSpec::tilt_deg,
               {.unit = kDegrees,
-               .limits = {0.0, 90.0},
+               .limits = {0.0, 85.0},
                .meaning = "How far the sun's half circle leans from the vertical."})
       .number("toward", &SunSpec::toward_deg,
               {.unit = kDegrees,

@@ -70,7 +70,7 @@ const std::vector<BadFile> kBadScenes = {
      {"3:18: sky.weighting is 'cosin'; expected one of uniform, cosine; did you mean 'cosine'?"}},
     {"a sun that leans too far",
      "sun: {tilt: 120}\n",
-     {"3:13: sun.tilt is '120', which is out of range; expected a number from 0 to 90 (degrees)"}},
+     {"3:13: sun.tilt is '120', which is out of range; expected a number from 0 to 85 (degrees)"}},
     {"a shadow at night",
      "sun: {shadow_hour: 20}\n",
      {"3:20: sun.shadow_hour is '20', which is out of range; expected a number from 6 to 18 (hours)"}},

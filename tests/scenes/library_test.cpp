@@ -37,6 +37,11 @@ TEST(Reference, StandsInTheDocs) {
   }
 }
 
+TEST(Readme, ShowsTheFirstRuleFileAsItIs) {
+  const std::string readme = tests::fileText(tests::sourceFolder() / "README.md");
+  EXPECT_NE(readme.find(tests::fileText(tests::sourceFolder() / "docs/first/vine.yaml")), std::string::npos);
+}
+
 /// Asks Python's jsonschema about YAML texts: true where a text is valid.
 class Validator {
  public:

@@ -19,8 +19,9 @@ void addCheck(CLI::App& app, int& exit_status) {
   command->callback([files, &exit_status] {
     for (const std::string& file : *files) {
       const auto problems = scenes::checkFile(file);
-      fmt::print(stderr, "{}", scenes::format(problems));
-      if (!problems.empty()) exit_status = kInputError;
+      if (problems.empty()) continue;
+      fmt::print(stderr, "{}\n", scenes::format(problems));
+      exit_status = kInputError;
     }
   });
 }

@@ -29,7 +29,7 @@ int grow(const GrowArguments& arguments) {
   const Interrupt interrupt;
   auto scene = scenes::readScene(arguments.scene);
   if (!scene) {
-    fmt::print(stderr, "{}", scenes::format(scene.problems()));
+    fmt::print(stderr, "{}\n", scenes::format(scene.problems()));
     return kInputError;
   }
   if (arguments.seed) scene->seed = *arguments.seed;

@@ -52,7 +52,7 @@ class GlbWriter {
   int positions(std::span<const sim::Vec3f> data);
   int material(const std::string& name, sim::Colour colour, bool double_sided, double roughness);
   int node(const std::string& name, int mesh);
-  int surface(const ModelMesh& mesh, bool double_sided);
+  int surface(const ModelMesh& mesh, const std::string& material_name, bool double_sided);
 
   tinygltf::Model model_;
   std::map<std::tuple<std::string, float, float, float, bool>, int> materials_;
@@ -155,7 +155,7 @@ void GlbWriter::addMesh(const sim::Mesh& mesh) {
   model_.scenes[0].nodes.push_back(node(mesh.name, sizeOf(model_.meshes) - 1));
 }
 
-int GlbWriter::surface(const ModelMesh& mesh, bool double_sided) {
+int GlbWriter::surface(const ModelMesh& mesh, const std::string& material_name, bool double_sided) {
   std::vector<Colour4> greys;
   greys.reserve(mesh.exposures.size());
   for (const float exposure : mesh.exposures) {
@@ -179,8 +179,8 @@ int GlbWriter::surface(const ModelMesh& mesh, bool double_sided) {
       accessor<std::array<std::uint32_t, 3>>(mesh.triangles, TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT,
                                              TINYGLTF_TYPE_SCALAR, TINYGLTF_TARGET_ELEMENT_ARRAY_BUFFER);
   model_.accessors.back().count = 3 * mesh.triangles.size();
-  primitive.material =
-      material(mesh.name, mesh.base_colour, double_sided, double_sided ? kLeafRoughness : kStoneRoughness);
+  primitive.material = material(material_name, mesh.base_colour, double_sided,
+                                double_sided ? kLeafRoughness : kStoneRoughness);
   tinygltf::Mesh result;
   result.name = validUtf8(mesh.name);
   result.primitives.push_back(std::move(primitive));
@@ -188,11 +188,17 @@ int GlbWriter::surface(const ModelMesh& mesh, bool double_sided) {
   return node(mesh.name, sizeOf(model_.meshes) - 1);
 }
 
+/// A plant's meshes are named after it; their materials, which plants share, after the shape alone.
+std::string kindOf(const PlantModel& plant, const ModelMesh& element) {
+  const std::string prefix = plant.name + " ";
+  return element.name.starts_with(prefix) ? element.name.substr(prefix.size()) : element.name;
+}
+
 void GlbWriter::addPlant(const PlantModel& plant) {
   std::vector<int> children;
-  if (!plant.stems.empty()) children.push_back(surface(plant.stems, false));
+  if (!plant.stems.empty()) children.push_back(surface(plant.stems, "stems", false));
   for (const ModelMesh& element : plant.elements) {
-    if (!element.empty()) children.push_back(surface(element, true));
+    if (!element.empty()) children.push_back(surface(element, kindOf(plant, element), true));
   }
   if (children.empty()) return;
   const int parent = node(plant.name, -1);

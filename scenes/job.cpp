@@ -9,6 +9,7 @@
 
 #include "rules/random_tree.h"
 #include "scenes/mesh_import.h"
+#include "scenes/problem.h"
 #include "sim/error.h"
 #include "sim/parallel.h"
 #include "sim/random.h"
@@ -101,8 +102,18 @@ void requireRegion(const sim::World& world, const std::string& region) {
     if (part.region == region) return;
     known.push_back(part.region);
   }
-  throw sim::InputError(
-      fmt::format("there is no region '{}'; the meshes have: {}", region, fmt::join(known, ", ")));
+  throw sim::InputError(fmt::format("there is no region '{}'; the meshes have: {}{}", region,
+                                    fmt::join(known, ", "), didYouMean(region, known)));
+}
+
+void requireCamerasInTheOpen(const Job& job) {
+  for (const NamedCamera& camera : job.scene.cameras) {
+    const sim::PartId part =
+        job.world.partAt(sim::voxelAt(sim::voxelFromWorld(job.world.frame(), camera.camera.eye_m)));
+    if (part == sim::kFree) continue;
+    throw sim::InputError(fmt::format("camera '{}' stands inside '{}' ({}); move its eye into the open",
+                                      camera.name, job.world.part(part).object, job.world.part(part).region));
+  }
 }
 
 sim::Planting plant(Job& job, const PlantSpec& spec, std::size_t number) {
@@ -149,6 +160,7 @@ Job prepareJob(Scene scene) {
     for (std::size_t i = 0; i < job.scene.plants.size(); ++i) {
       job.plantings.push_back(plant(job, job.scene.plants[i], i));
     }
+    requireCamerasInTheOpen(job);
     return job;
   } catch (const sim::InputError& error) {
     if (std::string_view(error.what()).starts_with(where)) throw;

@@ -125,6 +125,16 @@ void Studio::label(Image& picture, Panel panel) const {
           picture, render::BarLegend{"sky exposure", "fraction of the sky in sight, " + weightingOf(scene_)},
           render::ColourMap(look_.sky_map));
       break;
+    case Panel::threshold: {
+      const auto [above, below] = render::thresholdColours();
+      render::drawLegend(
+          picture,
+          render::SwatchLegend{"exposure of the vine",
+                               fmt::format("{:.2g} sun + {:.2g} sky", look_.blend_sun, look_.blend_sky),
+                               {{above, fmt::format("{:.2g} and more: it grows", look_.threshold)},
+                                {below, "less: too dark"}}});
+      break;
+    }
     default:
       break;
   }
@@ -234,7 +244,7 @@ Image contactSheet(const Scene& scene, const ImageSpec& sheet,
 
 }  // namespace
 
-std::vector<OutputFile> drawPictures(const Finished& finished) {
+std::vector<OutputFile> drawPictures(const Finished& finished, const std::stop_token& stop) {
   const Scene& scene = finished.job.scene;
   Studio studio(finished);
   std::vector<OutputFile> files;
@@ -248,6 +258,7 @@ std::vector<OutputFile> drawPictures(const Finished& finished) {
     return render::Metadata{{"Title", scene.name + ": " + image.name}, {"espalier:sky", weightingOf(scene)}};
   };
   for (const ImageSpec& image : scene.images) {
+    if (stop.stop_requested()) throw sim::Stopped();
     if (const auto panel = panelOf(image.kind)) {
       render::PanelPicture painted = studio.paint(image, *panel);
       auto display = std::make_shared<Image>(painted.display);

@@ -1,5 +1,6 @@
 #pragma once
 #include <functional>
+#include <stop_token>
 #include <string>
 #include <vector>
 
@@ -26,7 +27,8 @@ struct OutputFile {
 };
 
 /// Draws the images that a scene asks for, in its order: PNG files for the eye, and EXR files with the pure
-/// values of the exposure and colour panels. Throws sim::InputError.
-std::vector<OutputFile> drawPictures(const Finished& finished);
+/// values of the exposure and colour panels. Throws sim::InputError; sim::Stopped when stopped between two
+/// pictures.
+std::vector<OutputFile> drawPictures(const Finished& finished, const std::stop_token& stop = {});
 
 }  // namespace espalier::scenes

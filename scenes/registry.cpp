@@ -88,10 +88,9 @@ std::shared_ptr<const Table> skyKeys() {
                             {{"uniform", SkyWeighting::uniform}, {"cosine", SkyWeighting::cosine}},
                             {.meaning = "Each direction counts by its solid angle (Greene's way), or also by "
                                         "the cosine with the vertical, as a level surface receives it."})
-      .whole("directions", &SkySpec::directions,
-             {.unit = "directions",
-              .limits = {1.0, 4096.0},
-              .meaning = "Directions over the sky's hemisphere."})
+      .whole(
+          "directions", &SkySpec::directions,
+          {.unit = "directions", .limits = {1.0, 4096.0}, .meaning = "Directions over the sky's hemisphere."})
       .shared();
 }
 

@@ -125,7 +125,9 @@ Report runScene(Scene scene, const RunOptions& options) {
   files.push_back({"world.vdb", [&] { return render::vdbBytes(job.world, {&sun, &sky}); }});
   if (options.pictures) {
     stages.run("drawing", [&] {
-      for (OutputFile& file : drawPictures({job, growth, sun, sky, models})) files.push_back(std::move(file));
+      for (OutputFile& file : drawPictures({job, growth, sun, sky, models}, options.stop)) {
+        files.push_back(std::move(file));
+      }
     });
   }
   stages.run("writing", [&] { writeAll(options.folder, files); });
@@ -136,6 +138,28 @@ Report runScene(Scene scene, const RunOptions& options) {
   sim::writeWhole(options.folder / "report.json", toJson(report));
   return report;
 }
+
+namespace {
+
+/// Why buds ended, and which seeds never grew: what somebody who wonders about a thin plant wants to know.
+std::string fates(const Report& report) {
+  const auto of = [&](sim::Outcome outcome) { return report.buds[static_cast<std::size_t>(outcome)]; };
+  std::string text =
+      fmt::format("buds that ended: {} found no way, {} too dark, {} too bright, {} in forbidden regions\n",
+                  of(sim::Outcome::no_trial), of(sim::Outcome::too_dark), of(sim::Outcome::too_bright),
+                  of(sim::Outcome::forbidden));
+  std::vector<std::string> dead;
+  for (const auto& [name, counts] : report.plants) {
+    if (counts[0] == 0) dead.push_back(name);
+  }
+  if (!dead.empty()) {
+    text += fmt::format("note: {} of {} seeds did not grow: {}\n", dead.size(), report.plants.size(),
+                        fmt::join(dead, ", "));
+  }
+  return text;
+}
+
+}  // namespace
 
 std::string summary(const Report& report, const std::filesystem::path& folder) {
   std::size_t segments = 0, elements = 0;
@@ -148,6 +172,7 @@ std::string summary(const Report& report, const std::filesystem::path& folder) {
       fmt::format("{}: {} x {} x {} voxels of {:.4g} m; {} plants, {} segments, {} leaves in {} iterations\n",
                   report.scene, size.x, size.y, size.z, report.frame.voxel_m, report.plants.size(), segments,
                   elements, report.iterations);
+  text += fates(report);
   for (const auto& fill : report.fills) {
     if (fill.doubtful > 0) {
       text += fmt::format("note: '{}' leaks; {} of {} voxels inside are doubtful\n", fill.object,

@@ -92,7 +92,11 @@ TEST_F(Glb, TheSceneKeepsItsMaterials) {
 }
 
 TEST_F(Glb, PlantsOfOneKindShareTheirMaterials) {
-  const auto model = readBack(glbBytes({{}, {&vine_, &vine_}}));
+  render::PlantModel other = vine_;
+  other.name = "another";
+  other.stems.name = "another stems";
+  for (auto& element : other.elements) element.name = "another" + element.name.substr(vine_.name.size());
+  const auto model = readBack(glbBytes({{}, {&vine_, &other}}));
   EXPECT_EQ(model.materials.size(), 2u);
   EXPECT_EQ(model.meshes.size(), 4u);
 }

@@ -25,7 +25,6 @@ constexpr float kSunRadius =
     0.011f;  // of the disc, radians: a little wider than the real one, for softer edges
 constexpr float kSmoothEnough =
     0.045f;  // spread of display values within a pixel that needs no further samples
-constexpr float kRough = 0.25f;
 constexpr double kHazeReach = 9.0;  // haze and floor, in diagonals of the world
 
 struct SamplePoint {
@@ -37,7 +36,7 @@ struct SamplePoint {
 std::array<SamplePoint, kRays> samplePoints(std::uint32_t round) {
   constexpr std::array<glm::vec2, kRays> kGrid{
       glm::vec2(0.04f, 0.29f), {0.54f, 0.04f}, {0.29f, 0.79f}, {0.79f, 0.54f}};
-  const auto moved = static_cast<float>(round) / 12.0f;
+  const auto moved = static_cast<float>(round) / 8.0f;
   std::array<SamplePoint, kRays> result;
   for (std::size_t i = 0; i < kRays; ++i) {
     result[i].pixel = glm::fract(kGrid[i] + glm::vec2(moved, 2.0f * moved));
@@ -230,7 +229,7 @@ Colour Painter::pixel(int x, int y) const {
   };
   add(round(x, y, 0));
   const float spread = brightest - darkest;
-  const std::uint32_t rounds = spread < kSmoothEnough ? 1 : spread < kRough ? 2 : 3;
+  const std::uint32_t rounds = spread < kSmoothEnough ? 1 : 2;
   for (std::uint32_t r = 1; r < rounds; ++r) add(round(x, y, r));
   return sum / static_cast<float>(rounds * kRays);
 }

@@ -57,7 +57,7 @@ std::string encodePng(const Image& display, const Metadata& metadata) {
   spec.attribute("oiio:ColorSpace", "sRGB");
   spec.attribute("oiio:UnassociatedAlpha", 1);
   // Measured on pictures of 1280 x 960: half the time of the defaults for files a tenth larger.
-  spec.attribute("png:compressionLevel", 4);
+  spec.attribute("png:compressionLevel", 3);
   spec.attribute("png:filter", 0x10);  // each byte less its left neighbour
   return encode("png", spec, display, metadata);
 }
@@ -73,7 +73,7 @@ std::string encodeExr(const Image& measured, const std::vector<std::string>& cha
   OIIO::ImageSpec spec(measured.width, measured.height, measured.channels,
                        colour ? OIIO::TypeDesc::HALF : OIIO::TypeDesc::FLOAT);
   spec.channelnames = channel_names;
-  spec.attribute("compression", "zip");
+  spec.attribute("compression", "zip:2");  // the level that is fastest for its size here
   // Left alone, the writer stamps the time of day.
   spec.attribute("DateTime", "1970:01:01 00:00:00");
   return encode("exr", spec, measured, metadata);

@@ -16,6 +16,7 @@
 #include "render/section.h"
 #include "render/visibility.h"
 #include "sim/error.h"
+#include "sim/parallel.h"
 #include "sim/ray.h"
 
 namespace espalier::scenes {
@@ -59,7 +60,8 @@ class Studio {
  public:
   explicit Studio(const Finished& finished);
   render::PanelPicture paint(const ImageSpec& image, Panel panel);
-  void label(Image& picture, Panel panel) const;
+  /// Draws a panel's legend onto its picture.
+  std::function<void(Image&)> legend(Panel panel) const;
   Image vines(const ImageSpec& image) const;
 
  private:
@@ -114,29 +116,27 @@ render::PanelPicture Studio::paint(const ImageSpec& image, Panel panel) {
   return view->painter.paint(panel);
 }
 
-void Studio::label(Image& picture, Panel panel) const {
+std::function<void(Image&)> Studio::legend(Panel panel) const {
+  const auto bar = [](const std::string& title, const std::string& note, const std::string& map) {
+    return [=](Image& picture) {
+      render::drawLegend(picture, render::BarLegend{title, note}, render::ColourMap(map));
+    };
+  };
   switch (panel) {
     case Panel::sun_exposure:
-      render::drawLegend(picture, render::BarLegend{"sun exposure", "fraction of the sun's arc in sight"},
-                         render::ColourMap(look_.sun_map));
-      break;
+      return bar("sun exposure", "fraction of the sun's arc in sight", look_.sun_map);
     case Panel::sky_exposure:
-      render::drawLegend(
-          picture, render::BarLegend{"sky exposure", "fraction of the sky in sight, " + weightingOf(scene_)},
-          render::ColourMap(look_.sky_map));
-      break;
+      return bar("sky exposure", "fraction of the sky in sight, " + weightingOf(scene_), look_.sky_map);
     case Panel::threshold: {
       const auto [above, below] = render::thresholdColours();
-      render::drawLegend(
-          picture,
-          render::SwatchLegend{"exposure of the vine",
-                               fmt::format("{:.2g} sun + {:.2g} sky", look_.blend_sun, look_.blend_sky),
-                               {{above, fmt::format("{:.2g} and more: it grows", look_.threshold)},
-                                {below, "less: too dark"}}});
-      break;
+      const render::SwatchLegend swatches{
+          "exposure of the vine",
+          fmt::format("{:.2g} sun + {:.2g} sky", look_.blend_sun, look_.blend_sky),
+          {{above, fmt::format("{:.2g} and more: it grows", look_.threshold)}, {below, "less: too dark"}}};
+      return [swatches](Image& picture) { render::drawLegend(picture, swatches); };
     }
     default:
-      break;
+      return [](Image&) {};
   }
 }
 
@@ -257,21 +257,42 @@ std::vector<OutputFile> drawPictures(const Finished& finished, const std::stop_t
   const auto metadata = [&](const ImageSpec& image) {
     return render::Metadata{{"Title", scene.name + ": " + image.name}, {"espalier:sky", weightingOf(scene)}};
   };
+  // The two that take time, side by side: each has stretches that keep one core alone busy.
+  std::map<std::string, render::PanelPicture> panels;
+  std::map<std::string, Image> vines;
+  const auto forEach = [&](const auto& wanted, const auto& draw) {
+    for (const ImageSpec& image : scene.images) {
+      if (stop.stop_requested()) throw sim::Stopped();
+      if (wanted(image)) draw(image);
+    }
+  };
+  sim::parallelInvoke(
+      [&] {
+        forEach(
+            [](const ImageSpec& image) { return panelOf(image.kind).has_value(); },
+            [&](const ImageSpec& image) { panels[image.name] = studio.paint(image, *panelOf(image.kind)); });
+      },
+      [&] {
+        forEach([](const ImageSpec& image) { return image.kind == ImageKind::vines; },
+                [&](const ImageSpec& image) { vines[image.name] = studio.vines(image); });
+      });
   for (const ImageSpec& image : scene.images) {
-    if (stop.stop_requested()) throw sim::Stopped();
     if (const auto panel = panelOf(image.kind)) {
-      render::PanelPicture painted = studio.paint(image, *panel);
-      auto display = std::make_shared<Image>(painted.display);
-      studio.label(*display, *panel);
-      keep(image, std::move(painted.display));
-      files.push_back(png(image.name, display, metadata(image)));
+      render::PanelPicture& painted = panels.at(image.name);
+      const auto display = keep(image, std::move(painted.display));
+      files.push_back(
+          {image.name + ".png", [display, legend = studio.legend(*panel), about = metadata(image)] {
+             Image labelled = *display;
+             legend(labelled);
+             return render::encodePng(labelled, about);
+           }});
       const auto measured = std::make_shared<const Image>(std::move(painted.measured));
       files.push_back(
           {image.name + ".exr", [measured, channels = painted.channel_names, about = metadata(image)] {
              return render::encodeExr(*measured, channels, about);
            }});
     } else if (image.kind == ImageKind::vines) {
-      files.push_back(png(image.name, keep(image, studio.vines(image)), metadata(image)));
+      files.push_back(png(image.name, keep(image, std::move(vines.at(image.name))), metadata(image)));
     } else if (image.kind == ImageKind::section) {
       files.push_back(png(image.name, keep(image, section(finished.job.world, image)), metadata(image)));
     } else if (image.kind == ImageKind::attempts) {
@@ -280,8 +301,9 @@ std::vector<OutputFile> drawPictures(const Finished& finished, const std::stop_t
   }
   for (const ImageSpec& image : scene.images) {
     if (image.kind != ImageKind::contact_sheet) continue;
-    const auto sheet = std::make_shared<const Image>(contactSheet(scene, image, pictures));
-    files.push_back(png(image.name, sheet, metadata(image)));
+    files.push_back({image.name + ".png", [&scene, image, pictures, about = metadata(image)] {
+                       return render::encodePng(contactSheet(scene, image, pictures), about);
+                     }});
   }
   return files;
 }

@@ -23,7 +23,7 @@ struct Finished {
 /// A file to be written, once its bytes have been made.
 struct OutputFile {
   std::string name;
-  std::function<std::string()> bytes;  ///< may run on any thread
+  std::function<std::string()> bytes;  ///< may run on any thread, as long as what it was made from lives
 };
 
 /// Draws the images that a scene asks for, in its order: PNG files for the eye, and EXR files with the pure

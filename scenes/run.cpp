@@ -68,14 +68,16 @@ std::string glb(const Job& job, const std::vector<render::PlantModel>& models) {
 }
 
 void writeAll(const std::filesystem::path& folder, const std::vector<OutputFile>& files) {
+  // All bytes first: nothing is written where a picture cannot be made.
+  std::vector<std::string> bytes(files.size());
+  sim::parallelForEach(files.size(), [&](std::size_t i) { bytes[i] = files[i].bytes(); });
   std::error_code error;
   std::filesystem::create_directories(folder, error);
   if (error)
     throw sim::InputError(fmt::format("{}: cannot make the folder: {}", folder.string(), error.message()));
   sim::removeLeftovers(folder);
-  sim::parallelFor(files.size(), 1, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) sim::writeWhole(folder / files[i].name, files[i].bytes());
-  });
+  sim::parallelForEach(files.size(),
+                       [&](std::size_t i) { sim::writeWhole(folder / files[i].name, bytes[i]); });
 }
 
 void countPlants(Report& report, const sim::Growth& growth) {

@@ -9,6 +9,7 @@
 #include "sim/parallel.h"
 #include "sim/tiling.h"
 #include "tests/support/meshes.h"
+#include "tests/support/messages.h"
 #include "tests/support/worlds.h"
 
 namespace espalier::sim {
@@ -18,15 +19,6 @@ double totalCoverage(const World& world) {
   double sum = 0.0;
   for (const TiledVoxel& t : world.surfaces()) sum += t.surface.coverage;
   return sum;
-}
-
-std::string messageOf(const std::function<void()>& work) {
-  try {
-    work();
-  } catch (const InputError& e) {
-    return e.what();
-  }
-  return "no error";
 }
 
 TEST(BuildWorld, ABoxBetweenVoxelsCountsExactly) {
@@ -210,7 +202,7 @@ TEST(BuildWorld, IsTheSameOnAnyNumberOfThreads) {
 
 TEST(BuildWorld, RefusesMeshesThatAreNotSound) {
   const auto build = [](const Mesh& mesh) {
-    return messageOf([&] { buildWorld(tests::unitFrame(Voxel(4)), {{mesh, false}}, 0); });
+    return tests::messageOf([&] { buildWorld(tests::unitFrame(Voxel(4)), {{mesh, false}}, 0); });
   };
   Mesh mesh = tests::boxMesh(Vec3(0.0), Vec3(1.0));
   mesh.vertices_m[3].y = std::numeric_limits<double>::quiet_NaN();

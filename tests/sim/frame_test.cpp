@@ -3,18 +3,10 @@
 #include "sim/build_world.h"
 #include "sim/error.h"
 #include "tests/support/meshes.h"
+#include "tests/support/messages.h"
 
 namespace espalier::sim {
 namespace {
-
-std::string messageOf(const std::function<void()>& work) {
-  try {
-    work();
-  } catch (const InputError& e) {
-    return e.what();
-  }
-  return "no error";
-}
 
 TEST(FrameAround, HoldsTheMeshesAndTheirMargin) {
   const std::vector<TiledMesh> meshes{{tests::boxMesh({-1, 0, 2}, {1, 3, 2.5}), false}};
@@ -51,7 +43,7 @@ TEST(FrameAround, AsksForSomethingToHold) {
 TEST(RequireFits, NamesAVoxelSizeThatWouldFit) {
   const std::vector<TiledMesh> meshes{{tests::boxMesh(Vec3(0.0), Vec3(10, 7, 9)), false}};
   for (const double voxel : {0.001, 1e-5, 1e-9, 1e-300}) {
-    const std::string message = messageOf([&] { frameAround(meshes, voxel, 0.1); });
+    const std::string message = tests::messageOf([&] { frameAround(meshes, voxel, 0.1); });
     const std::string before = "a voxel size of ";
     const std::size_t at = message.find(before);
     ASSERT_NE(at, std::string::npos) << message;
@@ -63,7 +55,7 @@ TEST(RequireFits, NamesAVoxelSizeThatWouldFit) {
 }
 
 TEST(RequireFits, SaysWhatIsNeeded) {
-  const std::string message = messageOf([] {
+  const std::string message = tests::messageOf([] {
     requireFits({.origin_m = Vec3(0.0), .voxel_m = 0.01, .size = {16000, 16000, 16000}});
   });
   EXPECT_TRUE(message.starts_with("a world of 16000 x 16000 x 16000 voxels of 0.01 m needs 2")) << message;

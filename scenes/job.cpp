@@ -142,7 +142,8 @@ Job prepareJob(Scene scene) {
   const std::string where = scene.file.string() + ": ";
   try {
     std::vector<sim::FillReport> fills;
-    sim::DirectionSet sky, sun;
+    sim::Sky sky;
+    sim::Sun sun;
     std::optional<sim::World> world;
     sim::parallelInvoke(
         [&] {
@@ -150,10 +151,8 @@ Job prepareJob(Scene scene) {
           world.emplace(sim::buildWorld(frame, meshes, scene.world.layers, &fills));
         },
         [&] {
-          sky = sim::skyDirections(scene.sky.directions, scene.sky.weighting == SkyWeighting::cosine
-                                                             ? sim::Weighting::cosine
-                                                             : sim::Weighting::uniform);
-          sun = sim::sunDirections(sunArc(scene.sun));
+          sky = sim::makeSky({scene.sky.weighting, 0.005, scene.sky.directions});
+          sun = sim::makeSun(sunArc(scene.sun));
         });
     Job job{std::move(scene), std::move(meshes), std::move(fills), std::move(*world), {}, {},
             std::move(sky),   std::move(sun)};
@@ -172,8 +171,8 @@ sim::GrowthSettings growthSettings(const Job& job) {
   sim::GrowthSettings settings;
   settings.iterations = job.scene.iterations;
   settings.seed = job.scene.seed;
-  settings.sky = job.sky;
-  settings.sun = job.sun;
+  settings.sky = sim::receivedBy(job.sky);
+  settings.sun = job.sun.directions;
   for (const ImageSpec& image : job.scene.images) {
     settings.record_attempts = settings.record_attempts || image.kind == ImageKind::attempts;
   }

@@ -5,9 +5,10 @@
 
 #include "scenes/scene.h"
 #include "sim/build_world.h"
-#include "sim/directions.h"
 #include "sim/grow.h"
 #include "sim/rule.h"
+#include "sim/sky.h"
+#include "sim/sun.h"
 #include "sim/world.h"
 
 namespace espalier::scenes {
@@ -26,7 +27,8 @@ struct Job {
   sim::World world;
   std::vector<std::unique_ptr<const sim::Rule>> rules;
   std::vector<sim::Planting> plantings;
-  sim::DirectionSet sky, sun;
+  sim::Sky sky;
+  sim::Sun sun;
 };
 
 /// Throws sim::InputError, naming the scene's file where the fault is the scene's; MeshMissing.

@@ -45,7 +45,7 @@ std::optional<Panel> panelOf(ImageKind kind) {
 }
 
 std::string weightingOf(const Scene& scene) {
-  return scene.sky.weighting == SkyWeighting::cosine ? "cosine-weighted" : "solid-angle weighted";
+  return scene.sky.weighting == sim::Weighting::cosine ? "cosine-weighted" : "solid-angle weighted";
 }
 
 const render::Camera& cameraOf(const Scene& scene, const ImageSpec& image) {

@@ -84,10 +84,11 @@ std::shared_ptr<const Table> worldKeys() {
 
 std::shared_ptr<const Table> skyKeys() {
   return TableOf<SkySpec>()
-      .choice<SkyWeighting>("weighting", &SkySpec::weighting,
-                            {{"uniform", SkyWeighting::uniform}, {"cosine", SkyWeighting::cosine}},
-                            {.meaning = "Each direction counts by its solid angle (Greene's way), or also by "
-                                        "the cosine with the vertical, as a level surface receives it."})
+      .choice<sim::Weighting>(
+          "weighting", &SkySpec::weighting,
+          {{"uniform", sim::Weighting::uniform}, {"cosine", sim::Weighting::cosine}},
+          {.meaning = "Each direction counts by its solid angle (Greene's way), or also by "
+                      "the cosine with the vertical, as a level surface receives it."})
       .whole(
           "directions", &SkySpec::directions,
           {.unit = "directions", .limits = {1.0, 4096.0}, .meaning = "Directions over the sky's hemisphere."})

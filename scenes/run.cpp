@@ -118,8 +118,8 @@ Report runScene(Scene scene, const RunOptions& options) {
 
   sim::ExposureField sun, sky;
   stages.run("lighting", [&] {
-    sun = sim::sweepExposure(job.world.opaque(), job.sun);
-    sky = sim::sweepExposure(job.world.opaque(), job.sky);
+    sun = sim::sweepExposure(job.world.opaque(), job.sun.directions);
+    sky = sim::sweepExposure(job.world.opaque(), sim::receivedBy(job.sky));
   });
   const auto models = stages.run("modelling", [&] { return modelPlants(job, growth.plants); });
   std::vector<OutputFile> files;

@@ -10,6 +10,7 @@
 
 #include "render/camera.h"
 #include "rules/rule_set.h"
+#include "sim/sky.h"
 #include "sim/vec.h"
 
 /// A scene as plain structs: what was asked for, with nothing yet read but the rule files it names.
@@ -39,10 +40,8 @@ struct WorldSpec {
   int layers = 4;
 };
 
-enum class SkyWeighting { uniform, cosine };
-
 struct SkySpec {
-  SkyWeighting weighting = SkyWeighting::uniform;
+  sim::Weighting weighting = sim::Weighting::uniform;
   int directions = 128;
 };
 

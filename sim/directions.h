@@ -18,31 +18,9 @@ struct LatticeDirection {
 
 inline constexpr int kLongestComponent = 63;  ///< a sweep reads at most a word to either side
 
-/// Directions whose weights add up to ExposureField::kWhole. Empty where there is nothing to see (a sun that
-/// never rises), and then every exposure is 0.
+/// Directions whose weights add up to at most ExposureField::kWhole. Empty where there is nothing to see (a
+/// sun that never rises), and then every exposure is 0.
 using DirectionSet = std::vector<LatticeDirection>;
-
-enum class Weighting {
-  uniform,  ///< by solid angle: every part of the sky counts alike (Greene's own)
-  cosine    ///< times the cosine with the normal: the view factor
-};
-
-/// About `count` directions spread evenly over the hemisphere y > 0, each weighted by its share of the sky
-/// (the part that is nearer to it than to any other). With cosine weighting, the share of what a surface with
-/// this unit normal receives; directions behind it have no part.
-DirectionSet skyDirections(int count, Weighting weighting = Weighting::uniform, Vec3 normal = Vec3(0, 1, 0));
-
-/// Greene's sun: a half circle from horizon to horizon through a point `tilt_deg` from the zenith (0 <= tilt
-/// < 90), leaning to the compass way `toward_deg` (0 = -z, 90 = +x, 180 = +z, 270 = -x); evenly sampled.
-struct SunArc {
-  double tilt_deg = 20.0;
-  double toward_deg = 180.0;
-  int samples = 48;
-};
-
-/// Unit direction to the sun at an hour of the day: 6 sunrise, 12 the top of the arc, 18 sunset.
-Vec3 sunDirection(const SunArc& arc, double hour);
-DirectionSet sunDirections(const SunArc& arc);
 
 /// One direction with all the weight: a shadow matte.
 DirectionSet singleDirection(Vec3 unit);
@@ -50,6 +28,11 @@ DirectionSet singleDirection(Vec3 unit);
 /// The primitive vector with v.y >= 1 and components up to `longest` whose direction is nearest to a unit
 /// vector.
 Voxel nearestLatticeVector(Vec3 unit, int longest);
+
+/// A set of these directions with whole-number weights in proportion to the shares, adding up to `total`:
+/// what rounding leaves over goes to the largest remainders. Shares must not be negative; directions whose
+/// weight comes to 0 stay in the set.
+DirectionSet directionSet(const std::vector<Voxel>& vectors, const std::vector<double>& shares, int total);
 
 /// Voxels crossed on one period of v: LatticeDirection::crossed.
 std::vector<Voxel> crossedVoxels(Voxel v);

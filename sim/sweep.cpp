@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <array>
 #include <cstring>
+#include <functional>
 #include <span>
 
 #include "sim/parallel.h"
+#include "sim/sense/exposure.h"
 
 namespace espalier::sim {
 namespace {
@@ -152,6 +154,38 @@ ExposureField sweepExposure(const BitVolume& occupied, const DirectionSet& direc
       field.sums[i] = static_cast<std::uint16_t>(total - field.sums[i]);
   });
   return field;
+}
+
+namespace {
+
+/// Calls work(number, voxel) for each voxel of a set.
+void forEachPlace(const VoxelSet& where, const std::function<void(std::size_t, Voxel)>& work) {
+  const auto voxels = where.voxels();
+  parallelFor(voxels.size(), [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) work(i, voxels[i]);
+  });
+}
+
+}  // namespace
+
+ExposureField sweepExposure(const BitVolume& occupied, const DirectionSet& directions,
+                            std::shared_ptr<const VoxelSet> where) {
+  ExposureField field{occupied.size(), std::vector<std::uint16_t>(where->count()), where};
+  forEachPlace(*where, [&](std::size_t i, Voxel p) { field.sums[i] = lookOut(occupied, p, directions).sum; });
+  return field;
+}
+
+OpenTable sweepOpen(const BitVolume& occupied, const DirectionSet& directions,
+                    std::shared_ptr<const VoxelSet> where) {
+  OpenTable table{where, directions.size(), {}};
+  table.bits.resize(where->count() * table.words());
+  forEachPlace(*where, [&](std::size_t i, Voxel p) {
+    for (std::size_t d = 0; d < directions.size(); ++d) {
+      if (reachesEdge(occupied, p, directions[d]))
+        table.bits[i * table.words() + d / 64] |= std::uint64_t{1} << (d % 64);
+    }
+  });
+  return table;
 }
 
 }  // namespace espalier::sim

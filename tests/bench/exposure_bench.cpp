@@ -1,8 +1,8 @@
 // What exposure costs: the sweep against casting the same rays one by one, in the same run.
 #include <benchmark/benchmark.h>
 
-#include "sim/directions.h"
 #include "sim/sense/exposure.h"
+#include "sim/sky.h"
 #include "sim/sweep.h"
 #include "tests/support/bit_worlds.h"
 
@@ -20,7 +20,7 @@ sim::BitVolume yard() {
 
 void sweepWholeWorld(benchmark::State& state) {
   const auto bits = yard();
-  const auto sky = sim::skyDirections(static_cast<int>(state.range(0)));
+  const auto sky = sim::makeSky({.directions = static_cast<int>(state.range(0))}).directions;
   for (auto _ : state) benchmark::DoNotOptimize(sim::sweepExposure(bits, sky).sums.data());
   const double rays = 165.0 * 150.0 * 195.0 * static_cast<double>(sky.size());
   state.counters["rays/s"] = benchmark::Counter(rays, benchmark::Counter::kIsIterationInvariantRate);
@@ -29,7 +29,7 @@ BENCHMARK(sweepWholeWorld)->Arg(128)->Arg(256)->Unit(benchmark::kMillisecond)->U
 
 void castRayByRay(benchmark::State& state) {
   const auto bits = yard();
-  const auto sky = sim::skyDirections(static_cast<int>(state.range(0)));
+  const auto sky = sim::makeSky({.directions = static_cast<int>(state.range(0))}).directions;
   int step = 0;
   for (auto _ : state) {
     step = (step + 7919) % (165 * 150 * 195);  // visits the whole world in a scattered order

@@ -9,9 +9,9 @@
 #include "render/ground.h"
 #include "render/ray_scene.h"
 #include "render/tone.h"
-#include "sim/directions.h"
 #include "sim/error.h"
 #include "sim/parallel.h"
+#include "sim/sky.h"
 #include "sim/sweep.h"
 #include "tests/support/golden.h"
 #include "tests/support/small_vine.h"
@@ -40,7 +40,7 @@ class FinishedPicture : public testing::Test {
   sim::Mesh wall_ = tests::wallMesh();
   render::PlantModel vine_ = render::modelPlant(tests::smallVine(), tests::kVineFrame);
   sim::BitVolume voxels_ = tests::wallVoxels();
-  sim::ExposureField sky_ = sim::sweepExposure(voxels_, sim::skyDirections(64));
+  sim::ExposureField sky_ = sim::sweepExposure(voxels_, sim::makeSky({.directions = 64}).directions);
   render::FinishedScene scene_;
   render::Camera camera_{{0.9, 0.9, 2.1}, {0.0, 0.48, 0.0}, 36};
 };

@@ -7,10 +7,11 @@
 #include <map>
 #include <sstream>
 
-#include "sim/directions.h"
 #include "sim/error.h"
 #include "sim/parallel.h"
 #include "sim/sense/exposure.h"
+#include "sim/sky.h"
+#include "sim/sun.h"
 #include "sim/sweep.h"
 #include "tests/support/plots.h"
 
@@ -42,8 +43,9 @@ ReadBack readBack(const std::string& bytes) {
 class Vdb : public testing::Test {
  protected:
   sim::World world_ = tests::wallPlot({30, 24, 20}, 3);
-  sim::ExposureField sky_ = sim::sweepExposure(world_.occupied(), sim::skyDirections(32));
-  sim::ExposureField sun_ = sim::sweepExposure(world_.occupied(), sim::sunDirections({}));
+  sim::ExposureField sky_ =
+      sim::sweepExposure(world_.occupied(), sim::makeSky({.directions = 32}).directions);
+  sim::ExposureField sun_ = sim::sweepExposure(world_.occupied(), sim::makeSun(sim::SunArc{}).directions);
 
   template <class Check>
   void forEachVoxel(Check check) const {

@@ -12,6 +12,8 @@
 #include "sim/grow.h"
 #include "sim/parallel.h"
 #include "sim/sense/proximity.h"
+#include "sim/sky.h"
+#include "sim/sun.h"
 #include "sim/tiling.h"
 #include "tests/support/plots.h"
 
@@ -45,8 +47,8 @@ RuleSet vine() {
 sim::GrowthSettings settings(int iterations) {
   sim::GrowthSettings s;
   s.iterations = iterations;
-  s.sky = sim::skyDirections(64);
-  s.sun = sim::sunDirections({20.0, 180.0, 24});
+  s.sky = sim::makeSky({.directions = 64}).directions;
+  s.sun = sim::makeSun({20.0, 180.0, 24}).directions;
   return s;
 }
 

@@ -82,7 +82,7 @@ images:
   EXPECT_FALSE(scene.world.voxel_m || scene.world.bounds_m);
   EXPECT_EQ(scene.world.margin_m, 0.5);
   EXPECT_EQ(scene.world.layers, 6);
-  EXPECT_EQ(scene.sky.weighting, SkyWeighting::cosine);
+  EXPECT_EQ(scene.sky.weighting, sim::Weighting::cosine);
   EXPECT_EQ(scene.sky.directions, 500);
   EXPECT_EQ(scene.sun.toward_deg, 90);
   EXPECT_EQ(scene.sun.shadow_hour, 9.5);

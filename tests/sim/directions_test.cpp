@@ -7,6 +7,8 @@
 #include <numeric>
 
 #include "sim/field.h"
+#include "sim/sky.h"
+#include "sim/sun.h"
 
 namespace espalier {
 namespace {
@@ -27,13 +29,13 @@ Vec3 moment(const sim::DirectionSet& set) {
 
 TEST(Directions, WeightsAddUpToTheWhole) {
   for (const int count : {1, 16, 100, 128, 500}) {
-    EXPECT_EQ(total(sim::skyDirections(count)), sim::ExposureField::kWhole) << count;
-    EXPECT_EQ(total(sim::sunDirections({20.0, 135.0, count})), sim::ExposureField::kWhole) << count;
+    EXPECT_EQ(total(sim::makeSky({.directions = count}).directions), sim::ExposureField::kWhole) << count;
+    EXPECT_EQ(total(sim::makeSun({20.0, 135.0, count}).directions), sim::ExposureField::kWhole) << count;
   }
 }
 
 TEST(Directions, ArePrimitiveAndLookUp) {
-  for (const auto& d : sim::skyDirections(300)) {
+  for (const auto& d : sim::makeSky({.directions = 300}).directions) {
     EXPECT_GE(d.v.y, 1);
     EXPECT_EQ(std::gcd(std::gcd(d.v.x, d.v.y), d.v.z), 1);
     EXPECT_EQ(d.crossed.back(), d.v);
@@ -42,19 +44,21 @@ TEST(Directions, ArePrimitiveAndLookUp) {
 
 // The mean of the height over a uniform hemisphere is 1/2, and over one weighted by the cosine 2/3.
 TEST(Directions, IntegrateTheHeightOfTheSky) {
-  const Vec3 uniform = moment(sim::skyDirections(128));
+  const Vec3 uniform = moment(sim::makeSky({.directions = 128}).directions);
   EXPECT_NEAR(uniform.y, 0.5, 0.004);
   EXPECT_NEAR(uniform.x, 0.0, 0.004);
   EXPECT_NEAR(uniform.z, 0.0, 0.004);
-  EXPECT_NEAR(moment(sim::skyDirections(128, sim::Weighting::cosine)).y, 2.0 / 3.0, 0.004);
+  EXPECT_NEAR(moment(sim::receivedBy(sim::makeSky({sim::Weighting::cosine, 0.005, 128}))).y, 2.0 / 3.0,
+              0.004);
 }
 
 TEST(Directions, CosineWeightingLeavesOutWhatLiesBehindTheSurface) {
-  for (const auto& d : sim::skyDirections(200, sim::Weighting::cosine, Vec3(1, 0, 0))) EXPECT_GT(d.v.x, -2);
+  for (const auto& d : sim::receivedBy(sim::makeSky({sim::Weighting::cosine, 0.005, 200}), Vec3(1, 0, 0)))
+    EXPECT_EQ(d.weight == 0, d.v.x <= 0);
 }
 
 TEST(Directions, CrossAsManyVoxelsAsThereAreStepsBetweenNeighbours) {
-  for (const auto& d : sim::skyDirections(128)) {
+  for (const auto& d : sim::makeSky({.directions = 128}).directions) {
     // One voxel is entered through one face at a time.
     EXPECT_EQ(static_cast<int>(d.crossed.size()), std::abs(d.v.x) + std::abs(d.v.y) + std::abs(d.v.z));
     Voxel last(0);
@@ -86,14 +90,14 @@ TEST(Sun, RisesInTheEastAndLeansTheWayItIsTold) {
   EXPECT_NEAR(rise.x, 1.0, 1e-6);
   EXPECT_NEAR(noon.y, std::cos(20.0 * std::numbers::pi / 180.0), 1e-6);
   EXPECT_GT(noon.z, 0.3);
-  for (const auto& d : sim::sunDirections(south)) EXPECT_GE(d.v.z, 0);
+  for (const auto& d : sim::makeSun(south).directions) EXPECT_GE(d.v.z, 0);
   EXPECT_GT(sim::sunDirection({20.0, 90.0, 1}, 12.0).x, 0.3);
 }
 
 TEST(Sun, LatticeDirectionsLieWithinADegreeAndAHalfOfTheArc) {
   const Vec3 pole = glm::normalize(
       glm::cross(sim::sunDirection({20.0, 150.0, 48}, 6.0), sim::sunDirection({20.0, 150.0, 48}, 12.0)));
-  for (const auto& d : sim::sunDirections({20.0, 150.0, 48})) {
+  for (const auto& d : sim::makeSun({20.0, 150.0, 48}).directions) {
     const double off =
         std::asin(std::abs(glm::dot(glm::normalize(Vec3(d.v)), pole))) * 180.0 / std::numbers::pi;
     EXPECT_LT(off, 1.5);

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "sim/sky.h"
+#include "sim/sun.h"
 #include "sim/sweep.h"
 #include "tests/support/bit_worlds.h"
 
@@ -21,7 +23,7 @@ constexpr int kDirections = 1000;  // so that what is left is the voxels' error
 TEST(SkyExposure, OpenGroundSeesAll) {
   sim::BitVolume ground({31, 12, 29});
   tests::addBox(ground, {0, 0, 0}, {30, 0, 28});
-  const auto field = sim::sweepExposure(ground, sim::skyDirections(128));
+  const auto field = sim::sweepExposure(ground, sim::makeSky({.directions = 128}).directions);
   for (int x = 0; x < 31; ++x) EXPECT_EQ(field.at({x, 1, 14}), 1.0f);
 }
 
@@ -29,7 +31,8 @@ TEST(SkyExposure, TheFootOfAnEndlessWallSeesHalf) {
   sim::BitVolume wall({60, 400, 401});
   tests::addBox(wall, {0, 0, 0}, {0, 399, 400});
   for (const auto weighting : {sim::Weighting::uniform, sim::Weighting::cosine}) {
-    const auto outlook = sim::lookOut(wall, {1, 1, 200}, sim::skyDirections(kDirections, weighting));
+    const auto outlook =
+        sim::lookOut(wall, {1, 1, 200}, sim::receivedBy(sim::makeSky({weighting, 0.005, kDirections})));
     EXPECT_NEAR(outlook.fraction(), 0.5, 0.02);
   }
 }
@@ -44,7 +47,8 @@ double canyon(int width, double h, sim::Weighting weighting) {
   tests::addBox(street, {0, 0, 0}, {width + 1, 0, length - 1});
   tests::addBox(street, {0, 1, 0}, {0, height, length - 1});
   tests::addBox(street, {width + 1, 1, 0}, {width + 1, height, length - 1});
-  return sim::lookOut(street, {(width + 1) / 2, 1, length / 2}, sim::skyDirections(kDirections, weighting))
+  return sim::lookOut(street, {(width + 1) / 2, 1, length / 2},
+                      sim::receivedBy(sim::makeSky({weighting, 0.005, kDirections})))
       .fraction();
 }
 
@@ -69,7 +73,7 @@ TEST(SkyExposure, ErrorShrinksWithTheVoxel) {
 TEST(SunExposure, ASunThatLeansAwayIsHiddenByTheWall) {
   sim::BitVolume wall({81, 60, 41});
   tests::addBox(wall, {0, 0, 20}, {80, 59, 20});
-  const auto leaning_south = sim::sunDirections({20.0, 180.0, 48});
+  const auto leaning_south = sim::makeSun({20.0, 180.0, 48}).directions;
   EXPECT_EQ(sim::lookOut(wall, {40, 1, 21}, leaning_south).fraction(), 1.0);   // the bright side
   EXPECT_LT(sim::lookOut(wall, {40, 1, 19}, leaning_south).fraction(), 0.35);  // behind it
 }
@@ -78,7 +82,8 @@ TEST(Outlook, TheBrightestWayLeadsOutOfACornerUpwards) {
   sim::BitVolume corner({40, 40, 40});
   tests::addBox(corner, {0, 0, 0}, {0, 39, 39});
   tests::addBox(corner, {0, 0, 0}, {39, 39, 0});
-  const Vec3 toward = glm::normalize(sim::lookOut(corner, {1, 1, 1}, sim::skyDirections(200)).toward);
+  const Vec3 toward =
+      glm::normalize(sim::lookOut(corner, {1, 1, 1}, sim::makeSky({.directions = 200}).directions).toward);
   EXPECT_GT(toward.x, 0.3);
   EXPECT_GT(toward.y, 0.3);
   EXPECT_NEAR(toward.x, toward.z, 0.05);
@@ -87,7 +92,7 @@ TEST(Outlook, TheBrightestWayLeadsOutOfACornerUpwards) {
 TEST(SurfaceExposure, IsThatOfTheFreeSpaceInFront) {
   sim::BitVolume wall({21, 20, 21});
   tests::addBox(wall, {0, 0, 10}, {20, 19, 10});
-  const auto field = sim::sweepExposure(wall, sim::skyDirections(128));
+  const auto field = sim::sweepExposure(wall, sim::makeSky({.directions = 128}).directions);
   const float front = sim::surfaceExposure(wall, field, {10, 10, 10}, {0, 0, 1});
   EXPECT_NEAR(front, field.at({10, 10, 11}), 0.05f);
   EXPECT_GT(front, 0.4f);

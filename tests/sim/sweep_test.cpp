@@ -7,6 +7,7 @@
 
 #include "sim/parallel.h"
 #include "sim/sense/exposure.h"
+#include "sim/sky.h"
 #include "tests/support/bit_worlds.h"
 
 namespace espalier {
@@ -67,7 +68,7 @@ TEST(Sweep, EqualsRaysForTheLongestDirections) {
 
 TEST(Sweep, DoesNotDependOnTheNumberOfThreads) {
   const auto bits = tests::randomBits({70, 33, 41}, 0.03, 9);
-  const auto set = sim::skyDirections(100);
+  const auto set = sim::makeSky({.directions = 100}).directions;
   std::vector<std::vector<std::uint16_t>> answers;
   for (const int threads : {1, 2, 5}) {
     sim::onThreads(threads, [&] { answers.push_back(sim::sweepExposure(bits, set).sums); });

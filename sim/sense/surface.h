@@ -1,0 +1,45 @@
+#pragma once
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "sim/open_table.h"
+#include "sim/sky.h"
+#include "sim/sun.h"
+#include "sim/world.h"
+
+/// The light that surfaces receive. A surface is judged from the free space in front of it: a ray from inside
+/// a floor's voxel would run into the floor's next voxel.
+namespace espalier::sim {
+
+/// Surface voxels that can be lit, and the free places from which each is judged.
+struct SurfaceSensors {
+  struct Tap {
+    std::uint32_t place;  ///< number in `places`
+    float weight;  ///< those of one surface add up to 1; may be negative (extrapolation to the surface)
+  };
+  std::vector<TiledVoxel> surfaces;        ///< with a free place in front; (y, z, x) order
+  std::shared_ptr<const VoxelSet> places;  ///< that taps read
+  std::vector<Tap> taps;
+  std::vector<std::size_t> first;  ///< surface i has taps first[i] .. first[i + 1] - 1
+
+  std::span<const Tap> of(std::size_t surface) const {
+    return std::span(taps).subspan(first[surface], first[surface + 1] - first[surface]);
+  }
+};
+
+SurfaceSensors surfaceSensors(const World& world);
+
+/// For each surface what it receives of the sky (sim/sky.h) by its own normal, 0..1. `open` must be of the
+/// sensors' places and the sky's directions.
+std::vector<float> surfaceSky(const SurfaceSensors& sensors, const OpenTable& open, const Sky& sky);
+
+/// The same of the sun: the weighted fraction of its way that the surface sees, 0..1; a surface does not see
+/// what lies behind it.
+std::vector<float> surfaceSun(const SurfaceSensors& sensors, const OpenTable& open, const Sun& sun);
+
+/// Hours of direct sun.
+std::vector<float> surfaceSunHours(const SurfaceSensors& sensors, const OpenTable& open, const Sun& sun);
+
+}  // namespace espalier::sim

@@ -1,0 +1,71 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+
+#include "sim/sweep.h"
+#include "tests/bench/machine.h"
+#include "tests/bench/rows.h"
+#include "tests/bench/town.h"
+
+namespace espalier::bench {
+namespace {
+
+constexpr const char* kRow = "3 large worlds";
+
+/// Bits that one direction's sweep and its counting read and write for each voxel: an occupied bit for each
+/// voxel crossed in a period, the blocked bit of the next period, its own blocked bit written, and that read
+/// again to be counted.
+double bitsPerDirection(const sim::DirectionSet& directions) {
+  double crossed = 0.0;
+  for (const auto& direction : directions) crossed += static_cast<double>(direction.crossed.size());
+  return crossed / static_cast<double>(directions.size()) + 3.0;
+}
+
+}  // namespace
+
+void benchLargeWorlds(double most_voxels, Report& report) {
+  const auto sky = skyOf(64);
+  const auto directions = static_cast<double>(sky.size());
+  const double bits = bitsPerDirection(sky);
+  const double copy = copyBandwidth();
+  report.title(
+      fmt::format("3. Sky exposure of every voxel of large worlds: towns, {} directions", sky.size()));
+  report.note(fmt::format(
+      "Moved, for each voxel and direction: {:.1f} bits ({:.1f} occupied bits read, one blocked bit", bits,
+      bits - 3.0));
+  report.note("read, written and read again to be counted); for each voxel: two bytes of its sum written.");
+  report.note("Must come from memory: each occupied bit once, each sum once.");
+  report.add({kRow, "copying, bytes read and written", copy / 1e9, "GB/s", 0});
+
+  constexpr std::array<sim::Voxel, 6> kSizes = {sim::Voxel(256, 80, 256), sim::Voxel(512, 160, 512),
+                                                sim::Voxel(1024, 280, 1024), sim::Voxel(1024, 1024, 1024),
+                                                sim::Voxel(2048, 1024, 2048)};
+  double cheapest = 0.0, dearest = 0.0, moved_share = 0.0, must_share = 0.0;
+  std::uint64_t state = 0;
+  for (const sim::Voxel size : kSizes) {
+    const double voxels = static_cast<double>(size.x) * size.y * size.z;
+    if (voxels > most_voxels || voxels == 0.0) continue;
+    const sim::BitVolume world = town(size);
+    const double seconds = medianSeconds([&] { state = hashOf(sim::sweepExposure(world, sky).sums); });
+    const double picoseconds = seconds / voxels / directions * 1e12;
+    const double moved = voxels * (directions * bits / 8.0 + 2.0) / seconds;
+    const double must = voxels * (1.0 / 8.0 + 2.0) / seconds;
+    report.add({kRow, fmt::format("{} x {} x {}: a voxel and direction", size.x, size.y, size.z), picoseconds,
+                "ps", state});
+    report.add({kRow, "  moved", moved / 1e9, "GB/s", state});
+    report.add({kRow, "  must come from memory", must / 1e9, "GB/s", state});
+    cheapest = cheapest == 0.0 ? picoseconds : std::min(cheapest, picoseconds);
+    dearest = std::max(dearest, picoseconds);
+    moved_share = moved / copy;
+    must_share = must / copy;
+  }
+  report.add({kRow, "the dearest voxel and direction over the cheapest", dearest / cheapest, "times", state,
+              Target{1.5, false}});
+  report.add({kRow, "largest world: bytes moved over copying", moved_share, "times", state, Target{0.5}});
+  report.add({kRow, "largest world: what must come from memory over copying", must_share, "times", state});
+  report.note(must_share > 0.5 ? "Memory is the bound."
+                               : "Computing in the caches is the bound, not memory.");
+}
+
+}  // namespace espalier::bench

@@ -1,0 +1,15 @@
+#pragma once
+#include <string>
+
+namespace espalier::bench {
+
+/// The machine and what was built with what, for whoever reads a figure later.
+std::string machineText();
+
+/// The instruction set that Highway picks here.
+std::string simdLevel();
+
+/// Bytes read and written a second by copying arrays that no cache holds, on all threads: the median of five.
+double copyBandwidth();
+
+}  // namespace espalier::bench

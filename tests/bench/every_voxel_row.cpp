@@ -33,36 +33,36 @@ void benchEveryVoxel(const scenes::Job& job, Report& report) {
   report.title(fmt::format("2. Sky exposure of every voxel: {}, {} x {} x {} voxels, {} directions",
                            job.scene.name, size.x, size.y, size.z, sky.size()));
 
-  sim::ExposureField field;
-  const double sweep = medianSeconds([&] { field = sim::sweepExposure(occupied, sky); });
-  const std::uint64_t state = hashOf(field.sums);
-  report.add({kRow, "sweep", sweep * 1e3, "ms", state});
-  report.add({kRow, "sweep", rays / sweep / 1e6, "Mray/s", state});
-
   const auto places = scattered(size);
-  std::vector<std::uint16_t> sums(places.size());
   const double sample_rays = static_cast<double>(places.size()) * static_cast<double>(sky.size());
-  const auto cast = [&](const std::string& what, const std::function<std::uint16_t(sim::Voxel)>& look) {
-    const double seconds = medianSeconds([&] {
-      sim::parallelFor(places.size(), 64, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t i = begin; i < end; ++i) sums[i] = look(places[i]);
-      });
-    });
-    std::size_t other = 0;
-    for (std::size_t i = 0; i < places.size(); ++i) other += sums[i] != field.sums[field.index(places[i])];
-    const double rate = sample_rays / seconds;
-    report.add({kRow, what, rate / 1e6, "Mray/s", hashOf(sums)});
-    report.note(fmt::format("{} of {} places differ from the sweep", other, places.size()));
-    return rays / sweep / rate;
-  };
-  const double plain = cast("the plain traversal, ray by ray",
-                            [&](sim::Voxel p) { return sim::lookOut(occupied, p, sky).sum; });
   const sim::Lookout lookout(occupied, sky);
-  const double prepared =
-      cast("the prepared traversal of growth", [&](sim::Voxel p) { return lookout.from(occupied, p).sum; });
-  report.add(
-      {kRow, "the sweep's rays a second over the plain traversal's", plain, "times", state, Target{3000.0}});
-  report.add({kRow, "over the prepared traversal's", prepared, "times", state});
+  sim::ExposureField field;
+  std::vector<std::uint16_t> plain(places.size()), prepared(places.size());
+  const auto cast = [&](std::vector<std::uint16_t>& sums, const auto& look) {
+    sim::parallelFor(places.size(), 64, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t i = begin; i < end; ++i) sums[i] = look(places[i]).sum;
+    });
+  };
+  const std::vector<double> seconds =
+      medianSeconds({[&] { field = sim::sweepExposure(occupied, sky); },
+                     [&] { cast(plain, [&](sim::Voxel p) { return sim::lookOut(occupied, p, sky); }); },
+                     [&] { cast(prepared, [&](sim::Voxel p) { return lookout.from(occupied, p); }); }});
+  const std::uint64_t state = hashOf(field.sums);
+  const double rate = rays / seconds[0];
+  report.add({kRow, "the sweep", seconds[0] * 1e3, "ms", state});
+  report.add({kRow, "  rays", rate / 1e6, "Mray/s", state});
+  const auto compare = [&](const std::string& what, double time, const std::vector<std::uint16_t>& sums) {
+    std::size_t other = 0;
+    for (std::size_t i = 0; i < places.size(); ++i)
+      other += sums[i] != field.sums[field.index(places[i])] ? 1u : 0u;
+    report.add({kRow, what, sample_rays / time / 1e6, "Mray/s", hashOf(sums)});
+    report.note(fmt::format("  {} of {} places differ from the sweep", other, places.size()));
+  };
+  compare("the plain traversal, ray by ray", seconds[1], plain);
+  compare("the prepared traversal of growth, ray by ray", seconds[2], prepared);
+  report.add({kRow, "the sweep's rays a second over the plain traversal's", rate * seconds[1] / sample_rays,
+              "times", state, Target{3000.0}});
+  report.add({kRow, "over the prepared traversal's", rate * seconds[2] / sample_rays, "times", state});
 }
 
 }  // namespace espalier::bench

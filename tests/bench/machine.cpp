@@ -5,6 +5,7 @@
 #include <oneapi/tbb/version.h>
 #include <unistd.h>
 
+#include <cstdlib>
 #include <cstring>
 #include <fstream>
 #include <memory>
@@ -39,6 +40,12 @@ std::string machineText() {
       "GCC " __VERSION__,
 #endif
       vdbVersions(), RTC_VERSION_STRING, ESPALIER_HIGHWAY_VERSION, TBB_VERSION_STRING);
+}
+
+std::string loadText() {
+  double load = 0.0;
+  if (getloadavg(&load, 1) != 1) return "load before the run unknown";
+  return fmt::format("load before the run {:.2f}", load);
 }
 
 double copyBandwidth() {

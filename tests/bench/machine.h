@@ -6,6 +6,9 @@ namespace espalier::bench {
 /// The machine and what was built with what, for whoever reads a figure later.
 std::string machineText();
 
+/// How busy the machine was when the run began.
+std::string loadText();
+
 /// The instruction set that Highway picks here.
 std::string simdLevel();
 

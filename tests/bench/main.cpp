@@ -36,6 +36,7 @@ int main(int argc, char** argv) {
   const auto wanted = [&](int row) { return rows.empty() || rows.contains(row); };
   try {
     bench::Report report(bench::machineText());
+    report.note(bench::loadText());
     scenes::Job job = courtyard();
     if (wanted(1)) bench::benchSurfaces(job, report);
     if (wanted(2)) bench::benchEveryVoxel(job, report);

@@ -34,17 +34,28 @@ std::string number(double value) {
 
 }  // namespace
 
-double medianSeconds(const std::function<void()>& work) {
+std::vector<double> medianSeconds(const std::vector<Work>& works) {
   using Clock = std::chrono::steady_clock;
-  work();
-  std::array<double, 5> seconds{};
-  for (double& s : seconds) {
-    const auto began = Clock::now();
-    work();
-    s = std::chrono::duration<double>(Clock::now() - began).count();
+  constexpr std::size_t kRounds = 5;
+  std::vector<std::array<double, kRounds>> seconds(works.size());
+  for (const Work& work : works) work();
+  for (std::size_t round = 0; round < kRounds; ++round) {
+    for (std::size_t i = 0; i < works.size(); ++i) {
+      const auto began = Clock::now();
+      works[i]();
+      seconds[i][round] = std::chrono::duration<double>(Clock::now() - began).count();
+    }
   }
-  std::nth_element(seconds.begin(), seconds.begin() + 2, seconds.end());
-  return seconds[2];
+  std::vector<double> medians;
+  for (auto& five : seconds) {
+    std::nth_element(five.begin(), five.begin() + kRounds / 2, five.end());
+    medians.push_back(five[kRounds / 2]);
+  }
+  return medians;
+}
+
+double medianSeconds(const Work& work) {
+  return medianSeconds(std::vector<Work>{work})[0];
 }
 
 std::uint64_t hashOf(std::span<const std::uint16_t> sums) {

@@ -5,12 +5,18 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <vector>
 
 /// What a benchmark found, on paper and as a table.
 namespace espalier::bench {
 
+using Work = std::function<void()>;
+
 /// The median of five timings, seconds, after one run that warms caches and memory.
-double medianSeconds(const std::function<void()>& work);
+double medianSeconds(const Work& work);
+/// The same for several that are to be compared: they take turns, so that what else the machine does falls on
+/// all of them.
+std::vector<double> medianSeconds(const std::vector<Work>& works);
 
 /// XXH3 of an answer: says what a figure was measured on.
 std::uint64_t hashOf(std::span<const std::uint16_t> sums);

@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include "sim/lanes.h"
 #include "sim/parallel.h"
 #include "sim/sense/exposure.h"
 #include "sim/sweep.h"
@@ -21,6 +22,18 @@ std::vector<sim::Voxel> scattered(sim::Voxel size) {
     places.emplace_back(n % nx, n / nx % ny, n / (nx * ny));
   }
   return places;
+}
+
+/// The sweep with each of the vector instructions that this processor has.
+void benchLevels(const sim::BitVolume& occupied, const sim::DirectionSet& sky, double rays, Report& report) {
+  const std::string best = sim::lanes::level();
+  for (const std::string& level : sim::lanes::levels()) {
+    sim::lanes::useLevel(level);
+    sim::ExposureField field;
+    const double seconds = medianSeconds([&] { field = sim::sweepExposure(occupied, sky); });
+    report.add({kRow, "the sweep's rays by " + level, rays / seconds / 1e6, "Mray/s", hashOf(field.sums)});
+  }
+  sim::lanes::useLevel(best);
 }
 
 }  // namespace
@@ -63,6 +76,7 @@ void benchEveryVoxel(const scenes::Job& job, Report& report) {
   report.add({kRow, "the sweep's rays a second over the plain traversal's", rate * seconds[1] / sample_rays,
               "times", state, Target{3000.0}});
   report.add({kRow, "over the prepared traversal's", rate * seconds[2] / sample_rays, "times", state});
+  benchLevels(occupied, sky, rays, report);
 }
 
 }  // namespace espalier::bench

@@ -10,6 +10,7 @@
 #include <fstream>
 #include <memory>
 
+#include "sim/lanes.h"
 #include "sim/parallel.h"
 #include "tests/bench/peers.h"
 #include "tests/bench/report.h"
@@ -33,7 +34,7 @@ std::string machineText() {
   return fmt::format(
       "{}, {} threads, {}, {:.0f} GB of memory\n"
       "{}, {}, Embree {}, Highway {}, oneTBB {}",
-      processor(), sim::threadCount(), simdLevel(), memory / 1e9,
+      processor(), sim::threadCount(), sim::lanes::level(), memory / 1e9,
 #if defined(__clang__)
       "Clang " __clang_version__,
 #else

@@ -9,9 +9,6 @@ std::string machineText();
 /// How busy the machine was when the run began.
 std::string loadText();
 
-/// The instruction set that Highway picks here.
-std::string simdLevel();
-
 /// Bytes read and written a second by copying arrays that no cache holds, on all threads: the median of five.
 double copyBandwidth();
 

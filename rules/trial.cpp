@@ -54,7 +54,9 @@ Senses sense(const sim::GrowthView& view, const sim::Bud& bud, const RuleSet& ru
   addSiblings(view, bud.node, senses);
   const sim::Outlook sky = view.sky.from(view.world.opaque(), senses.voxel);
   const sim::Outlook sun = view.sun.from(view.world.opaque(), senses.voxel);
-  senses.light = unitOrZero(sky.toward);
+  senses.light = rules.bias.brightest == Brightest::table
+                     ? sim::brightest(view.sky_table, view.world.opaque(), senses.voxel)
+                     : unitOrZero(sky.toward);
   senses.sky_exposure = sky.fraction();
   senses.sun_exposure = sun.fraction();
   senses.exposure = blended(rules.light, senses.sun_exposure, senses.sky_exposure);

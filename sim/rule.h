@@ -7,6 +7,7 @@
 
 #include "sim/plant.h"
 #include "sim/random.h"
+#include "sim/sense/brightest.h"
 #include "sim/sense/exposure.h"
 #include "sim/world.h"
 
@@ -46,6 +47,7 @@ struct GrowthView {
   const std::vector<std::vector<NodeId>>& children;  ///< of each of the plant's nodes
   const Lookout& sky;
   const Lookout& sun;
+  const SkyTable& sky_table;  ///< for those who look for the brightest spot
   int iteration = 0;
   bool record_attempts = false;
 };

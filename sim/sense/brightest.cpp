@@ -106,7 +106,7 @@ Vec3 brightest(const SkyTable& table, std::span<const std::uint64_t> open) {
   constexpr double kArrived = 1.0 - 1e-12;
   const std::vector<float> filtered = illumination(table, open);
   const auto best = std::max_element(filtered.begin(), filtered.end());
-  if (*best <= 0.0f) return Vec3(0.0);
+  if (best == filtered.end() || *best <= 0.0f) return Vec3(0.0);
   // What a surface receives is a convex function of its normal, and homogeneous: facing the light in front of
   // it never loses any.
   Vec3 way = glm::normalize(Vec3(table.cells[static_cast<std::size_t>(best - filtered.begin())].centre));

@@ -56,15 +56,13 @@ std::shared_ptr<const Table> biasKeys() {
     return About{
         .unit = "weight", .limits = kWeight, .meaning = std::move(meaning), .greene = std::move(greene)};
   };
-  const auto light =
-      TableOf<Bias>()
-          .value("amount", &Bias::light, weight("How far it bends.", "seeksun_bias"))
-          .choice<Brightest>(
-              "brightest", &Bias::brightest, {{"moment", Brightest::moment}, {"table", Brightest::table}},
-              {.meaning =
-                   "How it is found: moment, the mean of all that is in sight, is quick; table, Greene's "
-                   "own way, picks the brighter one of several openings."})
-          .shared();
+  const auto light = TableOf<Bias>()
+                         .value("amount", &Bias::light, weight("How far it bends.", "seeksun_bias"))
+                         .choice<Brightest>("brightest", &Bias::brightest,
+                                            {{"moment", Brightest::moment}, {"table", Brightest::table}},
+                                            {.meaning = "moment: the mean of what is in sight, quick; table: "
+                                                        "Greene's own way, one of several openings."})
+                         .shared();
   const auto twist =
       TableOf<Bias>()
           .value(

@@ -135,13 +135,4 @@ std::vector<Vec3f> brightest(const SkyTable& table, const OpenTable& open) {
   return ways;
 }
 
-Vec3 firstMoment(const DirectionSet& directions, std::span<const std::uint64_t> open) {
-  Vec3 sum(0.0);
-  for (std::size_t i = 0; i < directions.size(); ++i) {
-    if (isOpen(open, i))
-      sum += static_cast<double>(directions[i].weight) * glm::normalize(Vec3(directions[i].v));
-  }
-  return sum;
-}
-
 }  // namespace espalier::sim

@@ -9,6 +9,10 @@
 #include "sim/sky.h"
 
 /// Where light comes from: the way that a plant turns to.
+///
+/// Its fast estimate is the first moment, Outlook::toward (sim/sense/exposure.h), the weighted sum of the
+/// open directions. Where no two of them are more than a right angle apart it is the maximum itself; it is
+/// off where light comes from opposite sides: it then points between them.
 namespace espalier::sim {
 
 /// Radiance of the open sky towards a unit direction with y > 0, in any unit; not below 0.
@@ -49,10 +53,5 @@ Vec3 brightest(const SkyTable& table, std::span<const std::uint64_t> open);
 Vec3 brightest(const SkyTable& table, const BitVolume& occupied, Voxel p);
 /// For each of the places of `open`, which must be of the table's rays.
 std::vector<Vec3f> brightest(const SkyTable& table, const OpenTable& open);
-
-/// The fast estimate: the weighted sum of the open directions, as Outlook::toward, from one place's row of an
-/// OpenTable. Where no two open directions are more than a right angle apart it is the maximum itself; it is
-/// off where light comes from opposite sides: it then points between them.
-Vec3 firstMoment(const DirectionSet& directions, std::span<const std::uint64_t> open);
 
 }  // namespace espalier::sim

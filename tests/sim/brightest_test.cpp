@@ -168,20 +168,6 @@ TEST(Brightest, ForManyPlacesIsWhatEachSees) {
     EXPECT_EQ(ways[i], sim::Vec3f(brightest(table, bits, voxels[i])));
 }
 
-TEST(FirstMoment, IsThatOfAnOutlook) {
-  const auto bits = tests::randomBits({40, 12, 20}, 0.03, 4);
-  sim::BitVolume wanted(bits.size());
-  wanted.set({20, 2, 9});
-  wanted.set({1, 0, 1});
-  const auto where = std::make_shared<const sim::VoxelSet>(wanted);
-  const auto open = sim::sweepOpen(bits, uniformSky(), where);
-  const auto voxels = where->voxels();
-  for (std::size_t i = 0; i < voxels.size(); ++i) {
-    EXPECT_EQ(sim::firstMoment(uniformSky(), open.row(i)),
-              sim::lookOut(bits, voxels[i], uniformSky()).toward);
-  }
-}
-
 /// Angle between Greene's table and the fast estimate.
 double disagreement(const sim::BitVolume& world, Voxel p) {
   return degreesBetween(brightest(uniformTable(), world, p), sim::lookOut(world, p, uniformSky()).toward);

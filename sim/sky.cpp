@@ -70,6 +70,18 @@ std::string_view nameOf(Weighting weighting) {
   return "";
 }
 
+std::string_view describe(Weighting weighting) {
+  switch (weighting) {
+    case Weighting::uniform:
+      return "uniform by solid angle";
+    case Weighting::cosine:
+      return "cosine-weighted view factor";
+    case Weighting::cie_overcast:
+      return "CIE overcast sky";
+  }
+  return "";
+}
+
 double received(Weighting weighting, Vec3 direction, Vec3 normal) {
   if (weighting == Weighting::uniform) return 1.0;
   const double cosine = std::max(0.0, glm::dot(direction, normal));
@@ -100,6 +112,11 @@ DirectionSet receivedBy(const Sky& sky, Vec3 normal) {
   }
   const int total = static_cast<int>(std::min<long>(std::lround(sum), ExposureField::kWhole));
   return directionSet(vectors, amounts, total);
+}
+
+std::string describe(const Sky& sky) {
+  return fmt::format("{}, {} directions, standard error {:.1g}", describe(sky.weighting),
+                     sky.directions.size(), sky.standard_error);
 }
 
 }  // namespace espalier::sim

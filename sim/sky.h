@@ -1,5 +1,6 @@
 #pragma once
 #include <optional>
+#include <string>
 #include <string_view>
 
 #include "sim/directions.h"
@@ -14,6 +15,8 @@ enum class Weighting {
   cie_overcast  ///< times the luminance (1 + 2 sin elevation) / 3 too; 1 for open level ground
 };
 std::string_view nameOf(Weighting weighting);
+/// "uniform by solid angle", "cosine-weighted view factor", "CIE overcast sky".
+std::string_view describe(Weighting weighting);
 
 /// What a direction gives to a receiver with this unit normal for each share of the hemisphere that it stands
 /// for: 1 for uniform; 2 n.d for cosine; 6/7 n.d (1 + 2 d.y) for the overcast sky. 0 from behind the
@@ -39,5 +42,8 @@ Sky makeSky(const SkySettings& settings);
 /// The sky's directions weighted by what a receiver with this normal gets from each of them; for free space,
 /// which has no normal, as level ground receives it. The weights of open ground add up to kWhole.
 DirectionSet receivedBy(const Sky& sky, Vec3 normal = Vec3(0, 1, 0));
+
+/// For legends, reports and metadata: "cosine-weighted view factor, 256 directions, standard error 0.004".
+std::string describe(const Sky& sky);
 
 }  // namespace espalier::sim

@@ -1,5 +1,7 @@
 #include "sim/sun.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -49,6 +51,8 @@ Sun makeSun(const SunArc& arc) {
   std::sort(vectors.begin(), vectors.end(), before);
   std::vector<Voxel> distinct;
   Sun sun;
+  sun.about = fmt::format("inclined arc, {:.4g} degrees from the zenith towards {:.4g}", arc.tilt_deg,
+                          arc.toward_deg);
   for (const Voxel v : vectors) {
     if (distinct.empty() || distinct.back() != v) {
       distinct.push_back(v);
@@ -58,6 +62,11 @@ Sun makeSun(const SunArc& arc) {
   }
   sun.directions = directionSet(distinct, sun.hours, ExposureField::kWhole);
   return sun;
+}
+
+std::string describe(const Sun& sun) {
+  return fmt::format("{}, {:.3g} h a day, {} directions within {:.2g} degrees", sun.about, sun.totalHours(),
+                     sun.directions.size(), sun.worst_angle_deg);
 }
 
 }  // namespace espalier::sim

@@ -1,5 +1,6 @@
 #pragma once
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 #include "sim/vec.h"
@@ -9,7 +10,7 @@
 namespace espalier::sim {
 
 struct LatticeDirection {
-  Voxel v{0, 1, 0};  ///< primitive, v.y >= 1, |component| <= kLongestComponent
+  Voxel v{0, 1, 0};  ///< primitive, v.y >= 0 (of a sky >= 1), |component| <= kLongestComponent
   std::vector<Voxel>
       crossed;  ///< the voxels that a ray from the centre of voxel 0 crosses on its way to the centre
                 ///< of voxel v, without the first and with the last (ties as in sim/tiling.h)
@@ -29,9 +30,20 @@ DirectionSet singleDirection(Vec3 unit);
 /// vector.
 Voxel nearestLatticeVector(Vec3 unit, int longest);
 
+/// Calls visit for primitive vectors that lie around a unit vector, their longest component growing from 1 to
+/// kLongestComponent, until it returns false: among the vectors of one size, those on every side of the unit
+/// vector. v.y >= lowest, which is 0 or 1; some come more than once.
+void forEachLatticeVector(Vec3 unit, int lowest, const std::function<bool(int longest, Voxel v)>& visit);
+
+/// The sine of the angle between a vector and a unit vector; 1 from a right angle on.
+double sineBetween(Voxel v, Vec3 unit);
+
+/// How many voxels a ray crosses in one period of v: what a sweep along it costs.
+int crossedCount(Voxel v);
+
 /// A set of these directions with whole-number weights in proportion to the shares, adding up to `total`:
 /// what rounding leaves over goes to the largest remainders. Shares must not be negative; directions whose
-/// weight comes to 0 stay in the set.
+/// weight comes to 0 stay in the set. Shares of nothing but 0 give weights of 0.
 DirectionSet directionSet(const std::vector<Voxel>& vectors, const std::vector<double>& shares, int total);
 
 /// Voxels crossed on one period of v: LatticeDirection::crossed.

@@ -19,8 +19,7 @@ struct LatticeDirection {
 
 inline constexpr int kLongestComponent = 63;  ///< a sweep reads at most a word to either side
 
-/// Directions whose weights add up to at most ExposureField::kWhole. Empty where there is nothing to see (a
-/// sun that never rises), and then every exposure is 0.
+/// Directions whose weights add up to at most ExposureField::kWhole. With none of them every exposure is 0.
 using DirectionSet = std::vector<LatticeDirection>;
 
 /// One direction with all the weight: a shadow matte.

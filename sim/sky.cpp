@@ -63,18 +63,6 @@ double errorConstant(Weighting weighting) {
   return weighting == Weighting::uniform ? 0.48 : weighting == Weighting::cosine ? 0.52 : 0.58;
 }
 
-/// The fewest that keep the error; whole half words of 32, as tables of directions hold a bit for each.
-int countFor(Weighting weighting, double standard_error) {
-  constexpr int kStep = 32;
-  for (int count = kStep; count <= kMostSkyDirections; count += kStep) {
-    if (skyError(weighting, count) <= standard_error) return count;
-  }
-  throw InputError(fmt::format(
-      "a standard error of {:g} for a {} sky would need more than {} directions; expected at least {:.1g}",
-      standard_error, nameOf(weighting), kMostSkyDirections,
-      std::ceil(1e4 * skyError(weighting, kMostSkyDirections)) / 1e4));
-}
-
 }  // namespace
 
 std::string_view nameOf(Weighting weighting) {
@@ -121,9 +109,20 @@ double skyError(Weighting weighting, int directions) {
   return errorConstant(weighting) * std::pow(directions, -0.75);
 }
 
+int directionsFor(Weighting weighting, double standard_error) {
+  constexpr int kStep = 32;  // tables of directions hold a bit for each
+  for (int count = kStep; count <= kMostSkyDirections; count += kStep) {
+    if (skyError(weighting, count) <= standard_error) return count;
+  }
+  throw InputError(fmt::format(
+      "a standard error of {:g} for a {} sky would need more than {} directions; expected at least {:g}",
+      standard_error, nameOf(weighting), kMostSkyDirections,
+      std::ceil(1e4 * skyError(weighting, kMostSkyDirections)) / 1e4));
+}
+
 Sky makeSky(const SkySettings& settings) {
   const int count =
-      settings.directions ? *settings.directions : countFor(settings.weighting, settings.standard_error);
+      settings.directions ? *settings.directions : directionsFor(settings.weighting, settings.standard_error);
   if (count < 1 || count > kMostSkyDirections) {
     throw InputError(fmt::format("a sky of {} directions; expected 1 to {}", count, kMostSkyDirections));
   }

@@ -51,6 +51,10 @@ struct Sky {
 /// and towns of boxes (tests/sim/sky_law_test.cpp).
 double skyError(Weighting weighting, int directions);
 
+/// The fewest directions that keep a standard error, rounded up to 32. Throws InputError for one that would
+/// need more than kMostSkyDirections.
+int directionsFor(Weighting weighting, double standard_error);
+
 /// Throws InputError for settings that make no sky.
 Sky makeSky(const SkySettings& settings);
 

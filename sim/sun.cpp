@@ -87,11 +87,6 @@ class SunDay {
   Position begin_, end_;
 };
 
-std::string written(year_month_day date) {
-  return fmt::format("{:04}-{:02}-{:02}", static_cast<int>(date.year()), static_cast<unsigned>(date.month()),
-                     static_cast<unsigned>(date.day()));
-}
-
 std::string whereAndWhen(const RealSun& sun) {
   std::string text = fmt::format("sun at {:g} {} {:g} {}, {}", std::abs(sun.latitude_deg),
                                  sun.latitude_deg < 0.0 ? 'S' : 'N', std::abs(sun.longitude_deg),
@@ -140,6 +135,11 @@ void forEachStep(double from_h, double to_h, double step_h,
 }
 
 }  // namespace
+
+std::string written(year_month_day date) {
+  return fmt::format("{:04}-{:02}-{:02}", static_cast<int>(date.year()), static_cast<unsigned>(date.month()),
+                     static_cast<unsigned>(date.day()));
+}
 
 double Sun::totalHours() const {
   return std::accumulate(hours.begin(), hours.end(), 0.0);

@@ -9,6 +9,12 @@
 /// y is up, and -z lies to the north unless `north_deg` says otherwise.
 namespace espalier::sim {
 
+/// The year of a day that is named without one: that of the tables which NOAA's and Ladybug's users compare.
+inline constexpr std::chrono::year kUsualYear{2017};
+
+/// "2026-06-21".
+std::string written(std::chrono::year_month_day date);
+
 /// The sun's way as a set of directions.
 struct Sun {
   DirectionSet directions;       ///< weighted as was asked; add up to kWhole

@@ -32,16 +32,6 @@ float widestLine(const std::string& title, const std::string& note, const Layout
   return width;
 }
 
-/// About four steps to a bar, each 1, 2, 2.5 or 5 times a power of ten.
-float tickStep(float most) {
-  const float rough = most / 4.0f;
-  const float power = powf(10.0f, std::floor(log10f(rough) + 1e-4f));
-  for (const float step : {1.0f, 2.0f, 2.5f, 5.0f}) {
-    if (step * power > 0.999f * rough) return step * power;
-  }
-  return 10.0f * power;
-}
-
 /// Draws the plate, the title and the note; gives back where the content's upper left corner is.
 glm::vec2 drawPlate(Image& image, const Layout& is, glm::vec2 content, const std::string& title,
                     const std::string& note) {
@@ -84,9 +74,8 @@ void drawLegend(Image& image, const BarLegend& legend, const ColourMap& colours)
     const sim::Colour colour = srgbFromLinear(colours((x + 0.5f) / bar_width));
     fillBox(image, low + glm::vec2(x, 0.0f), low + glm::vec2(x + 1.0f, bar_height), {colour, 1.0f});
   }
-  const float step = tickStep(legend.most);
-  for (int i = 0; static_cast<float>(i) * step < 1.0005f * legend.most; ++i) {
-    const float value = static_cast<float>(i) * step;
+  for (int i = 0; static_cast<float>(i) * legend.step < 1.0005f * legend.most; ++i) {
+    const float value = static_cast<float>(i) * legend.step;
     const float x = low.x + value / legend.most * bar_width;
     const float top = low.y + bar_height + 1.0f;
     drawSegment(image, {x, top}, {x, top + tick}, std::max(1.0f, 0.07f * is.text), kQuiet);

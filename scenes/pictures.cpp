@@ -151,9 +151,9 @@ render::PanelPicture Studio::paint(const ImageSpec& image, Panel panel) {
 
 std::function<void(Image&)> Studio::legend(Panel panel) const {
   const auto bar = [](const std::string& title, const std::string& note, const std::string& map,
-                      float most = 1.0f) {
+                      float most = 1.0f, float step = 0.25f) {
     return [=](Image& picture) {
-      render::drawLegend(picture, render::BarLegend{title, note, most}, render::ColourMap(map));
+      render::drawLegend(picture, render::BarLegend{title, note, most, step}, render::ColourMap(map));
     };
   };
   const std::string sky = wrapped(sim::describe(finished_.job.sky));
@@ -164,7 +164,10 @@ std::function<void(Image&)> Studio::legend(Panel panel) const {
     case Panel::sky_exposure:
       return bar("sky exposure", sky, look_.sky_map);
     case Panel::sun_hours:
-      return bar("hours of direct sun a day", sun, look_.hours_map, look_.most_hours);
+      return bar("hours of direct sun a day", sun, look_.hours_map, look_.most_hours,
+                 look_.most_hours > 8.0f   ? 2.0f
+                 : look_.most_hours > 3.0f ? 1.0f
+                                           : 0.5f);
     case Panel::threshold: {
       const auto [above, below] = render::thresholdColours();
       const render::SwatchLegend swatches{
@@ -278,7 +281,7 @@ Image contactSheet(const Job& job, const ImageSpec& sheet,
                          spec->caption.empty() ? name : spec->caption});
   }
   render::SheetLook look;
-  look.columns = captioned.size() <= 4 ? static_cast<int>(captioned.size()) : 3;
+  look.columns = captioned.size() <= 4 ? static_cast<int>(captioned.size()) : captioned.size() <= 6 ? 3 : 4;
   look.title = sheet.caption.empty() ? scene.name : sheet.caption;
   if (light) look.note = "sky: " + sim::describe(job.sky) + "\nsun: " + sim::describe(job.sun);
   return render::contactSheet(captioned, look);

@@ -9,7 +9,7 @@
 namespace espalier::sim {
 
 struct LatticeDirection {
-  Voxel v{0, 1, 0};  ///< primitive, v.y >= 1, |component| <= kLongestComponent
+  Voxel v{0, 1, 0};  ///< primitive; |component| <= kLongestComponent
   std::vector<Voxel>
       crossed;  ///< the voxels that a ray from the centre of voxel 0 crosses on its way to the centre
                 ///< of voxel v, without the first and with the last (ties as in sim/tiling.h)

@@ -1,6 +1,7 @@
 #include "sim/sense/exposure.h"
 
 #include <algorithm>
+#include <limits>
 
 namespace espalier::sim {
 
@@ -46,9 +47,11 @@ namespace {
 
 /// How many whole periods of v fit between p and the edge of the world.
 int periodsInside(Voxel size, Voxel p, Voxel v) {
-  int periods = (size.y - 1 - p.y) / v.y;
-  if (v.x != 0) periods = std::min(periods, v.x > 0 ? (size.x - 1 - p.x) / v.x : p.x / -v.x);
-  if (v.z != 0) periods = std::min(periods, v.z > 0 ? (size.z - 1 - p.z) / v.z : p.z / -v.z);
+  int periods = std::numeric_limits<int>::max();
+  for (int axis = 0; axis < 3; ++axis) {
+    if (v[axis] > 0) periods = std::min(periods, (size[axis] - 1 - p[axis]) / v[axis]);
+    if (v[axis] < 0) periods = std::min(periods, p[axis] / -v[axis]);
+  }
   return periods;
 }
 

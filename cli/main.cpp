@@ -24,6 +24,7 @@ int main(int argc, char** argv) {
     app.set_version_flag("--version", "espalier " ESPALIER_VERSION);
     cli::addGrow(app, exit_status);
     cli::addCheck(app, exit_status);
+    cli::addCertify(app, exit_status);
     cli::addSchema(app, exit_status);
     try {
       app.parse(argc, argv);

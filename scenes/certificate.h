@@ -14,13 +14,14 @@ namespace espalier::scenes {
 /// own size and seen by its own sky, and the scene's own triangles, seen by rays (Embree). Errors are value
 /// minus truth, in shares of the whole sky (0..1).
 struct Certificate {
-  /// One place in one shape.
+  /// One place in one shape (scenes/known_shapes.h).
   struct Line {
-    std::string shape;    ///< "street canyon, walls as high as it is wide"
+    std::string shape;    ///< "endless street, walls 1 times as high as it is wide"
     std::string place;    ///< "middle of the floor"
     double size_m = 0.0;  ///< width of the street or court, diameter of the pit; 0 where size does not matter
     int voxels = 0;       ///< the same in voxels
-    double truth = 0.0, value = 0.0;
+    double truth = 0.0, value = 0.0;  ///< means over the place's voxels
+    double rms = 0.0, worst = 0.0;    ///< of the single voxels' errors
 
     double error() const { return value - truth; }
   };
@@ -41,15 +42,16 @@ struct Certificate {
   std::size_t directions = 0;
   double voxel_m = 0.0;
   std::vector<Line> lines;
-  double bias = 0.0, rms = 0.0;    ///< over the lines
+  double bias = 0.0, rms = 0.0;    ///< mean of the lines' errors; root of the mean square of their rms
   std::optional<SpotCheck> spots;  ///< where the scene has triangles that light can reach
 };
 
-/// Of a scene: shapes from 8 voxels across, doubling as long as they are no larger than the scene's longest
-/// side and 64 voxels, plus the spot check.
+/// Of a scene: shapes whose width is 8, 16, 32 and 64 voxels of the scene, as far as they are no wider than
+/// the scene's longest side, and as high (the pit: as deep as its radius); and the spot check. The street,
+/// which must be very long, goes to 32.
 Certificate certify(const Job& job);
 
-/// Of a voxel size and a sky: the shapes alone, as wide as these numbers of voxels.
+/// Of a voxel size and a sky: the shapes alone.
 Certificate certifyShapes(const sim::Sky& sky, double voxel_m, const std::vector<int>& widths);
 
 /// A table to be read on a terminal or in a report. Names the weighting.

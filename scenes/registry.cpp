@@ -83,6 +83,21 @@ std::shared_ptr<const Table> worldKeys() {
       .shared();
 }
 
+std::shared_ptr<const Table> exposureKeys() {
+  return TableOf<ExposureSpec>()
+      .choice<ExposureWhere>("where", &ExposureSpec::where,
+                             {{"surfaces", ExposureWhere::surfaces},
+                              {"band", ExposureWhere::band},
+                              {"everything", ExposureWhere::everything}},
+                             {.meaning = "On surfaces alone, in the free space near them too, or in all of "
+                                         "the world's free space."})
+      .whole("band", &ExposureSpec::band_vx,
+             {.unit = "voxels",
+              .limits = {1.0, 64.0},
+              .meaning = "How far the free space near surfaces reaches, for where: band."})
+      .shared();
+}
+
 std::shared_ptr<const Table> plantKeys() {
   const auto scatter =
       TableOf<Scatter>()
@@ -127,8 +142,8 @@ std::shared_ptr<const Table> imageKeys() {
   std::vector<std::pair<std::string, ImageKind>> kinds;
   for (const auto kind :
        {ImageKind::sun_exposure, ImageKind::sky_exposure, ImageKind::threshold, ImageKind::shadow_matte,
-        ImageKind::surface_colour, ImageKind::first_pass, ImageKind::vines, ImageKind::section,
-        ImageKind::attempts, ImageKind::contact_sheet}) {
+        ImageKind::surface_colour, ImageKind::first_pass, ImageKind::sun_hours, ImageKind::vines,
+        ImageKind::section, ImageKind::attempts, ImageKind::contact_sheet}) {
     kinds.emplace_back(nameOf(kind), kind);
   }
   return TableOf<ImageSpec>()
@@ -171,6 +186,8 @@ Table makeTable() {
       .section("sky", &Scene::sky, skyKeys(), {.meaning = "How sky_exposure is found."})
       .section("sun", &Scene::sun, sunKeys(),
                {.meaning = "How sun_exposure is found: Greene's inclined arc, or with a place the real sun."})
+      .section("exposure", &Scene::exposure, exposureKeys(),
+               {.meaning = "What espalier expose finds beside the exposure of surfaces."})
       .list<PlantSpec>("plants", Kind::entries, &Scene::plants, plantKeys(),
                        {.meaning = "What grows.", .most = kMostEntries})
       .whole("iterations", &Scene::iterations,

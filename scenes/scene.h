@@ -90,6 +90,14 @@ struct SunSpec {
   }
 };
 
+/// Where exposure maps are wanted beside the surfaces.
+enum class ExposureWhere { surfaces, band, everything };
+
+struct ExposureSpec {
+  ExposureWhere where = ExposureWhere::surfaces;
+  int band_vx = 4;  ///< of ExposureWhere::band: free voxels up to so many from a surface
+};
+
 struct Scatter {
   std::string region;  ///< seeds stand on the voxels of this region that look up
   int count = 0;
@@ -115,6 +123,7 @@ enum class ImageKind {
   shadow_matte,
   surface_colour,
   first_pass,  // Greene's figure 6
+  sun_hours,   // of direct sun, a day
   vines,       // the plant itself, leaves and stems
   section,     // a cut through the world with its boundary layers
   attempts,    // every trial of a flat walk and the voxels taken, beside the skeleton
@@ -142,6 +151,7 @@ struct Scene {
   WorldSpec world;
   SkySpec sky;
   SunSpec sun;
+  ExposureSpec exposure;
   std::vector<PlantSpec> plants;
   int iterations = 50;
   std::uint64_t seed = 1;

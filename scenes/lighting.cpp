@@ -195,22 +195,38 @@ void findInSpace(Lighting& light, const sim::World& world, const sim::Sky& sky, 
   light.space_hours = sameWeights(hours, sun.directions) ? light.space_sun : field(hours);
 }
 
-std::vector<std::pair<std::string, std::string>> texts(const sim::Frame& frame, const sim::Sky& sky,
-                                                       const sim::Sun& sun) {
-  std::vector<std::pair<std::string, std::string>> about = {
-      {"sky", sim::describe(sky)},
-      {"weighting", std::string(sim::nameOf(sky.weighting))},
-      {"directions", std::to_string(sky.directions.size())},
-      {"standard_error", fmt::format("{:.2g}", sky.standard_error)}};
+}  // namespace
+
+LightAbout aboutLight(const sim::Frame& frame, const sim::Sky& sky, const sim::Sun& sun) {
+  LightAbout about;
+  about.sky = sim::describe(sky);
+  about.weighting = sim::nameOf(sky.weighting);
+  about.directions = sky.directions.size();
+  about.standard_error = sky.standard_error;
   if (!sun.directions.empty()) {
-    about.emplace_back("sun", sim::describe(sun));
-    about.emplace_back("sun_directions", std::to_string(sun.directions.size()));
+    about.sun = sim::describe(sun);
+    about.sun_directions = sun.directions.size();
+    about.sun_error_deg = sun.worst_angle_deg;
+    about.sun_hours = sun.totalHours();
   }
-  about.emplace_back("voxel", fmt::format("{:.6g} m", frame.voxel_m));
+  about.voxel_m = frame.voxel_m;
   return about;
 }
 
-}  // namespace
+std::vector<std::pair<std::string, std::string>> texts(const LightAbout& about) {
+  std::vector<std::pair<std::string, std::string>> texts = {
+      {"sky", about.sky},
+      {"weighting", about.weighting},
+      {"directions", std::to_string(about.directions)},
+      {"standard_error", fmt::format("{:.2g}", about.standard_error)}};
+  if (!about.sun.empty()) {
+    texts.emplace_back("sun", about.sun);
+    texts.emplace_back("sun_directions", std::to_string(about.sun_directions));
+    texts.emplace_back("sun_error_deg", fmt::format("{:.2g}", about.sun_error_deg));
+  }
+  texts.emplace_back("voxel_m", fmt::format("{:.6g}", about.voxel_m));
+  return texts;
+}
 
 std::uint64_t Lighting::faceKey(Voxel v, std::uint8_t face) const {
   const Voxel size = where->bits().size();
@@ -248,8 +264,7 @@ std::vector<float> Lighting::ofSideless(const Received& light) const {
 Lighting lightOf(const sim::World& world, const sim::Sky& sky, const sim::Sun& sun,
                  const LightWanted& wanted) {
   Lighting light;
-  light.about = texts(world.frame(), sky, sun);
-  light.hours_a_day = sun.totalHours();
+  light.about = aboutLight(world.frame(), sky, sun);
   sim::SurfaceSensors sensors = sim::surfaceSensors(world);
   const std::size_t count = sensors.surfaces.size();
   light.where = voxelsOf(sensors.surfaces, world.frame().size);

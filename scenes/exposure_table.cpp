@@ -140,7 +140,8 @@ ExposureTable exposureTable(const Job& job, const Lighting& light) {
 }
 
 std::string toCsv(const ExposureTable& table) {
-  std::vector<std::string> header = {"scene", "object", "region", "voxels", "area_m2", "quantity", "unit"};
+  std::vector<std::string> header = {"scene",  "voxel_m", "object",   "region",
+                                     "voxels", "area_m2", "quantity", "unit"};
   for (const auto& [name, value] : numbersOf({})) header.emplace_back(name);
   header.emplace_back("histogram_to");
   for (std::size_t bin = 1; bin <= Spread::kBins; ++bin) header.push_back(fmt::format("share_{}", bin));

@@ -224,7 +224,6 @@ std::vector<std::pair<std::string, std::string>> texts(const LightAbout& about) 
     texts.emplace_back("sun_directions", std::to_string(about.sun_directions));
     texts.emplace_back("sun_error_deg", fmt::format("{:.2g}", about.sun_error_deg));
   }
-  texts.emplace_back("voxel_m", fmt::format("{:.6g}", about.voxel_m));
   return texts;
 }
 

@@ -49,6 +49,7 @@ std::optional<Panel> panelOf(ImageKind kind) {
 /// What an image's numbers are, for its header.
 render::Metadata metadataOf(const Finished& finished, const ImageSpec& image) {
   render::Metadata metadata = {{"Title", finished.job.scene.name + ": " + image.name}};
+  metadata.emplace_back("espalier:voxel_m", fmt::format("{:.6g}", finished.light.about.voxel_m));
   for (const auto& [name, text] : texts(finished.light.about))
     metadata.emplace_back("espalier:" + name, text);
   return metadata;

@@ -15,6 +15,7 @@
 #include "render/panels.h"
 #include "render/section.h"
 #include "render/visibility.h"
+#include "scenes/lights.h"
 #include "sim/error.h"
 #include "sim/parallel.h"
 #include "sim/ray.h"
@@ -132,7 +133,7 @@ Studio::Studio(const Finished& finished)
     look_.blend_sky = static_cast<float>(rules.light.sky / sum);
     look_.threshold = static_cast<float>(rules.require.exposure_min);
   }
-  look_.to_sun = sim::sunDirection(sunArc(scene_.sun), scene_.sun.shadow_hour);
+  look_.to_sun = shadowDirection(scene_.sun);
 }
 
 render::PanelPicture Studio::paint(const ImageSpec& image, Panel panel) {

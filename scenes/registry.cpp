@@ -1,6 +1,7 @@
 #include "scenes/registry.h"
 
 #include "rules/key_builder.h"
+#include "scenes/light_keys.h"
 #include "scenes/scene.h"
 
 namespace espalier::scenes {
@@ -79,38 +80,6 @@ std::shared_ptr<const Table> worldKeys() {
              {.unit = "layers",
               .limits = {0.0, 64.0},
               .meaning = "Boundary layers around the scene's objects: as far as plants can feel."})
-      .shared();
-}
-
-std::shared_ptr<const Table> skyKeys() {
-  return TableOf<SkySpec>()
-      .choice<sim::Weighting>(
-          "weighting", &SkySpec::weighting,
-          {{"uniform", sim::Weighting::uniform}, {"cosine", sim::Weighting::cosine}},
-          {.meaning = "Each direction counts by its solid angle (Greene's way), or also by "
-                      "the cosine with the vertical, as a level surface receives it."})
-      .whole(
-          "directions", &SkySpec::directions,
-          {.unit = "directions", .limits = {1.0, 4096.0}, .meaning = "Directions over the sky's hemisphere."})
-      .shared();
-}
-
-std::shared_ptr<const Table> sunKeys() {
-  return TableOf<SunSpec>()
-      .number("tilt", &SunSpec::tilt_deg,
-              {.unit = kDegrees,
-               .limits = {0.0, 85.0},
-               .meaning = "How far the sun's half circle leans from the vertical."})
-      .number("toward", &SunSpec::toward_deg,
-              {.unit = kDegrees,
-               .limits = {-360.0, 360.0},
-               .meaning = "The compass way to which it leans: 0 is -z, 90 is +x, 180 is +z."})
-      .whole("samples", &SunSpec::samples,
-             {.unit = "directions", .limits = {1.0, 65'536.0}, .meaning = "Places of the sun along its way."})
-      .number("shadow_hour", &SunSpec::shadow_hour,
-              {.unit = "hours",
-               .limits = {6.0, 18.0},
-               .meaning = "Time of day of a shadow_matte: 6 sunrise, 12 the top of the way, 18 sunset."})
       .shared();
 }
 
@@ -216,7 +185,7 @@ Table makeTable() {
                {.meaning = "How the meshes become voxels.", .required = true})
       .section("sky", &Scene::sky, skyKeys(), {.meaning = "How sky_exposure is found."})
       .section("sun", &Scene::sun, sunKeys(),
-               {.meaning = "How sun_exposure is found: Greene's half circle from horizon to horizon."})
+               {.meaning = "How sun_exposure is found: Greene's inclined arc, or with a place the real sun."})
       .section("exposure", &Scene::exposure, exposureKeys(),
                {.meaning = "What espalier expose finds beside the exposure of surfaces."})
       .list<PlantSpec>("plants", Kind::entries, &Scene::plants, plantKeys(),

@@ -7,7 +7,7 @@
 
 #include "sim/plant.h"
 #include "sim/random.h"
-#include "sim/sense/exposure.h"
+#include "sim/sense/light.h"
 #include "sim/world.h"
 
 namespace espalier::sim {
@@ -44,8 +44,7 @@ struct GrowthView {
   const World& world;
   const Plant& plant;
   const std::vector<std::vector<NodeId>>& children;  ///< of each of the plant's nodes
-  const Lookout& sky;
-  const Lookout& sun;
+  const Light& light;  ///< at the bud
   int iteration = 0;
   bool record_attempts = false;
 };

@@ -49,6 +49,7 @@ ExposeResult exposeScene(Scene scene, const RunOptions& options) {
     wanted.brightest = true;
     wanted.space = space;
     wanted.space_hours = true;
+    wanted.random_sky = job.random_sky;
     return lightOf(job.world, job.sky, job.sun, wanted);
   });
   if (light.surfaces.empty() && !space) {

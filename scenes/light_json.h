@@ -8,10 +8,9 @@ namespace espalier::scenes {
 
 /// What the numbers of a light are, for reports and tables.
 inline nlohmann::ordered_json lightJson(const LightAbout& about) {
-  nlohmann::ordered_json json = {{"sky", about.sky},
-                                 {"weighting", about.weighting},
-                                 {"directions", about.directions},
-                                 {"standard_error", about.standard_error}};
+  nlohmann::ordered_json json = {
+      {"sky", about.sky}, {"weighting", about.weighting}, {"directions", about.directions}};
+  if (about.standard_error > 0.0) json["standard_error"] = about.standard_error;
   if (!about.sun.empty()) {
     json["sun"] = about.sun;
     json["sun_directions"] = about.sun_directions;

@@ -2,11 +2,13 @@
 #include <array>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "sim/field.h"
+#include "sim/sense/random_sky.h"
 #include "sim/sky.h"
 #include "sim/sun.h"
 #include "sim/world.h"
@@ -20,6 +22,9 @@ struct LightWanted {
   std::shared_ptr<const sim::VoxelSet> space = nullptr;
   bool dense = false;        ///< in every voxel of the world, whatever `space` says
   bool space_hours = false;  ///< hours of sun too, there
+  /// Greene's rays for sky_exposure instead of the sky's directions. They know no normals: surfaces then
+  /// receive what level ground would in front of them.
+  std::optional<sim::RandomSky> random_sky = std::nullopt;
 };
 
 /// What the numbers of a light are: named wherever they are shown.
@@ -27,14 +32,13 @@ struct LightAbout {
   std::string sky;        ///< in words
   std::string weighting;  ///< of the sky, as scene files name it
   std::size_t directions = 0;
-  double standard_error = 0.0;     ///< of sky_exposure
+  double standard_error = 0.0;     ///< of sky_exposure; 0: not known
   std::string sun;                 ///< in words; empty: there is none, and no more of the following
   std::size_t sun_directions = 0;  ///< within sun_error_deg of the sun's places
   double sun_error_deg = 0.0;
   double sun_hours = 0.0;  ///< a day, where nothing obstructs
   double voxel_m = 0.0;
 };
-LightAbout aboutLight(const sim::Frame& frame, const sim::Sky& sky, const sim::Sun& sun);
 /// The same as names and texts, for tables and headers.
 std::vector<std::pair<std::string, std::string>> texts(const LightAbout& about);
 

@@ -58,6 +58,7 @@ struct Made {
           .rules = {},
           .plantings = {},
           .sky = {},
+          .random_sky = {},
           .sun = {}};
   Lighting light;
 

@@ -137,6 +137,22 @@ TEST(Lighting, SpaceHoldsWhatTheSweepSaysAndNothingWhereNothingWasAsked) {
   EXPECT_EQ(light.space_hours, light.space_sun);  // an evenly weighted sun: the same shares
 }
 
+TEST(Lighting, GreenesRaysAgreeWithTheDirectionsAsFarAsTheyCan) {
+  const sim::World world = wallOnGround();
+  LightWanted wanted;
+  wanted.random_sky = sim::RandomSky{400, 3};
+  const Lighting random = lightOf(world, sky(Weighting::uniform), {}, wanted);
+  const Lighting even = lightOf(world, sky(Weighting::uniform, 400));
+  ASSERT_EQ(random.sky.values.size(), even.sky.values.size());
+  double off = 0.0;
+  for (std::size_t i = 0; i < even.surfaces.size(); ++i)
+    off += std::abs(random.sky.values[i] - even.sky.values[i]);
+  EXPECT_GT(off, 0.0);
+  EXPECT_LT(off / static_cast<double>(even.surfaces.size()), 0.02);
+  EXPECT_NE(random.about.sky.find("400 random rays"), std::string::npos) << random.about.sky;
+  EXPECT_EQ(random.about.standard_error, 0.0);
+}
+
 TEST(Lighting, IsTheSameOnAnyNumberOfThreads) {
   const sim::World world = wallOnGround();
   std::vector<Lighting> lights;

@@ -10,6 +10,7 @@ inline constexpr int kStopped = 130;   ///< exit status: Ctrl-C
 void addGrow(CLI::App& app, int& exit_status);
 void addExpose(CLI::App& app, int& exit_status);
 void addCheck(CLI::App& app, int& exit_status);
+void addCertify(CLI::App& app, int& exit_status);
 void addSchema(CLI::App& app, int& exit_status);
 
 }  // namespace espalier::cli

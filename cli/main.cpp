@@ -25,6 +25,7 @@ int main(int argc, char** argv) {
     cli::addGrow(app, exit_status);
     cli::addExpose(app, exit_status);
     cli::addCheck(app, exit_status);
+    cli::addCertify(app, exit_status);
     cli::addSchema(app, exit_status);
     try {
       app.parse(argc, argv);

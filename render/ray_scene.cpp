@@ -105,7 +105,7 @@ std::array<bool, kRays> RayScene::clear(const ShadowRays& wanted) const {
     rays.dir_x[i] = wanted.directions[i].x;
     rays.dir_y[i] = wanted.directions[i].y;
     rays.dir_z[i] = wanted.directions[i].z;
-    rays.tfar[i] = std::numeric_limits<float>::infinity();
+    rays.tfar[i] = wanted.reach_m[i];
     rays.mask[i] = ~0u;
   }
   RTCIntersectContext context;

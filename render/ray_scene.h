@@ -1,6 +1,7 @@
 #pragma once
 #include <array>
 #include <cstdint>
+#include <limits>
 #include <memory>
 
 #include "render/gltf.h"
@@ -47,6 +48,13 @@ class RayScene {
   struct ShadowRays {
     std::array<sim::Vec3f, kRays> origins_m, directions;
     std::array<bool, kRays> wanted{};
+    std::array<float, kRays> reach_m = everywhere();  ///< what lies farther does not stand in the way
+
+    static constexpr std::array<float, kRays> everywhere() {
+      std::array<float, kRays> reach{};
+      reach.fill(std::numeric_limits<float>::infinity());
+      return reach;
+    }
   };
   /// True where nothing stands in the way of a wanted ray.
   std::array<bool, kRays> clear(const ShadowRays& rays) const;

@@ -52,7 +52,9 @@ Senses sense(const sim::GrowthView& view, const sim::Bud& bud, const RuleSet& ru
     sim::tileSegment(from, senses.at_vx, senses.attachment);
   }
   addSiblings(view, bud.node, senses);
-  senses.light = unitOrZero(view.light.sky.toward);
+  senses.light = rules.bias.brightest == Brightest::table
+                     ? sim::brightest(view.sky_table, view.world.opaque(), senses.voxel)
+                     : unitOrZero(view.light.sky.toward);
   senses.sky_exposure = view.light.sky.fraction();
   senses.sun_exposure = view.light.sun.fraction();
   senses.exposure = blended(rules.light, senses.sun_exposure, senses.sky_exposure);

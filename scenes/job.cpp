@@ -171,6 +171,7 @@ sim::GrowthSettings growthSettings(const Job& job) {
   settings.seed = job.scene.seed;
   settings.sky = sim::receivedBy(job.sky);
   settings.sun = job.sun.directions;
+  settings.sky_table = sim::makeSkyTable(9, 36, sim::backgroundOf(job.sky.weighting));  // cells of 10 degrees
   for (const ImageSpec& image : job.scene.images) {
     settings.record_attempts = settings.record_attempts || image.kind == ImageKind::attempts;
   }

@@ -7,6 +7,7 @@
 #include <limits>
 #include <span>
 
+#include "sim/clip.h"
 #include "sim/error.h"
 #include "sim/fill.h"
 #include "sim/memory.h"
@@ -54,18 +55,29 @@ std::vector<Vec3> verticesIn(const Frame& frame, const Mesh& mesh) {
   return vertices_vx;
 }
 
-std::vector<std::array<Vec3, 3>> trianglesOf(const Mesh& mesh, const std::vector<Vec3>& vertices_vx) {
+/// Those that fixed point cannot hold are cut to the world, which would open a solid.
+Triangles trianglesOf(const TiledMesh& tiled, const std::vector<Vec3>& vertices_vx, Voxel size) {
   constexpr double kFarthest = 16000;
-  std::vector<std::array<Vec3, 3>> triangles;
-  triangles.reserve(mesh.triangles.size());
-  for (const auto& t : mesh.triangles) {
-    triangles.push_back({vertices_vx[t[0]], vertices_vx[t[1]], vertices_vx[t[2]]});
-    for (const Vec3& p : triangles.back()) {
-      if (std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)}) < kFarthest) continue;
+  Triangles triangles;
+  triangles.reserve(tiled.mesh.triangles.size());
+  for (const auto& t : tiled.mesh.triangles) {
+    const std::array<Vec3, 3> corners{vertices_vx[t[0]], vertices_vx[t[1]], vertices_vx[t[2]]};
+    const bool far = std::any_of(corners.begin(), corners.end(), [](const Vec3& p) {
+      return !(std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)}) < kFarthest);
+    });
+    if (!far) {
+      triangles.push_back(corners);
+    } else if (tiled.solid) {
       throw InputError(
           fmt::format("mesh '{}': too large to fill, it reaches {} voxels beyond the world; expected "
                       "larger voxels, a smaller mesh, or a surface that is not filled",
-                      mesh.name, kFarthest));
+                      tiled.mesh.name, kFarthest));
+    } else {
+      CutPolygon polygon;
+      for (const Vec3& p : corners) polygon.add(p);
+      for (int axis = 0; axis < 3; ++axis) polygon = cutToSlab(polygon, axis, -2.0, size[axis] + 1.0);
+      for (std::size_t i = 2; i < polygon.count; ++i)
+        triangles.push_back({polygon.corner[0], polygon.corner[i - 1], polygon.corner[i]});
     }
   }
   return triangles;
@@ -128,16 +140,33 @@ void keepFree(BitVolume& voxels, const BitVolume& occupied) {
   }
 }
 
-FillReport fill(World& world, const Mesh& mesh, const std::vector<Vec3>& vertices_vx,
-                std::span<const TiledVoxel> surface, PartId first_part) {
-  BitVolume tiled(world.frame().size);
-  for (const TiledVoxel& t : surface) tiled.set(t.voxel);
-  Inside inside = findInside(trianglesOf(mesh, vertices_vx), tiled);
-  keepFree(inside.voxels, world.occupied());
-  const std::size_t count = inside.voxels.count();
+/// Turns normals that point into the solid: real meshes are inside out, as a whole or in part.
+void faceOutwards(std::vector<TiledVoxel>& surface, const BitVolume& solid) {
+  for (auto& [voxel, s] : surface) {
+    const Voxel ahead = voxelAt(Vec3(s.normal * (s.offset_vx + 1.0f)));
+    const Voxel behind = voxelAt(Vec3(s.normal * (s.offset_vx - 1.0f)));
+    if (!solid.at(voxel + ahead) || solid.at(voxel + behind)) continue;
+    s.normal = -s.normal;
+    s.offset_vx = -s.offset_vx;
+  }
+}
+
+/// Puts a mesh into the world; what was found out where it is filled.
+FillReport add(World& world, const TiledMesh& tiled, PartId first_part) {
+  const Mesh& mesh = tiled.mesh;
+  const std::vector<Vec3> vertices_vx = verticesIn(world.frame(), mesh);
+  std::vector<TiledVoxel> surface = tileMesh(mesh, vertices_vx, world.frame().size, first_part);
+  BitVolume touched(world.frame().size);
+  for (const TiledVoxel& t : surface) touched.set(t.voxel);
+  Filled filled = fillMesh(trianglesOf(tiled, vertices_vx, world.frame().size), touched, tiled.solid);
+  if (tiled.solid) faceOutwards(surface, filled.opaque);
+  world.occupy(surface, filled.opaque);
+  if (!tiled.solid) return {};
+  keepFree(filled.inside, world.occupied());
+  const std::size_t count = filled.inside.count();
   requireFilledFits(count, mesh.name);
-  world.occupy(insideVoxels(inside.voxels, surface, largestRegion(mesh, first_part)));
-  return {mesh.name, count, inside.doubtful};
+  world.occupy(insideVoxels(filled.inside, surface, largestRegion(mesh, first_part)), filled.opaque);
+  return {mesh.name, count, filled.doubtful};
 }
 
 }  // namespace
@@ -147,15 +176,12 @@ World buildWorld(const Frame& frame, const std::vector<TiledMesh>& meshes, int l
   requireFits(frame);
   for (const TiledMesh& m : meshes) requireSound(m.mesh);
   World world(frame);
-  for (const auto& [mesh, solid] : meshes) {
+  for (const TiledMesh& m : meshes) {
     const auto first_part = static_cast<PartId>(world.parts().size() + 1);
-    for (const std::string& region : mesh.regions) world.addPart({.object = mesh.name, .region = region});
-    const std::vector<Vec3> vertices_vx = verticesIn(frame, mesh);
-    const std::vector<TiledVoxel> surface = tileMesh(mesh, vertices_vx, frame.size, first_part);
-    world.occupy(surface);
-    if (!solid || mesh.triangles.empty()) continue;
-    const FillReport report = fill(world, mesh, vertices_vx, surface, first_part);
-    if (fills != nullptr) fills->push_back(report);
+    for (const std::string& region : m.mesh.regions) world.addPart({.object = m.mesh.name, .region = region});
+    if (m.mesh.triangles.empty()) continue;
+    const FillReport report = add(world, m, first_part);
+    if (m.solid && fills != nullptr) fills->push_back(report);
   }
   world.setLayers(layers);
   return world;

@@ -1,7 +1,5 @@
 // Inside or outside by vote. Lines of voxel centres run through the mesh; what is inside follows from their
-// crossings with the triangles, found exactly in whole numbers. A crossing exactly through an edge or a
-// corner is settled by moving the line by (e, e^2), so that triangles which share an edge are crossed once
-// together.
+// crossings with the triangles (sim/lines.h).
 //
 // A voxel is judged from both ends of each line: looking to one end, it is inside when the triangles that
 // face it and those that turn away do not cancel (the winding number along the line). Solids that overlap
@@ -13,206 +11,87 @@
 // Lines along the three axes settle a voxel when all six ends say inside, or one at most does. The others are
 // doubtful: the majority of thirteen directions, diagonals included, decides on them, ties for outside.
 //
-// Voxels lie on one line of each direction, so lines run in parallel and only count into voxels of their own.
+// What takes light is thinner than what is tiled. Tiling takes every voxel that a triangle touches, which
+// swells a wall by half a voxel on either side and more; shadows would swell with it. Of a solid the voxels
+// take light whose centres are inside: as many are too much as too little. Light travels along lines of
+// voxels that share faces, so nothing leaks if of any two such neighbours with a triangle between their
+// centres one takes light. Where a solid leaves both outside (it is thinner than a voxel there), and
+// everywhere on an open surface, the one nearer to the triangle does.
+//
+// Voxels lie on one line of each direction, so lines run in parallel and only write to voxels of their own.
+// The box is worked through in slabs, so that its bytes never outgrow the world's bits.
 #include "sim/fill.h"
 
 #include <algorithm>
-#include <cmath>
-#include <glm/vector_relational.hpp>
-#include <limits>
-#include <span>
+#include <glm/common.hpp>
 
 #include "sim/parallel.h"
-#include "sim/triangle_rows.h"
+#include "sim/tiling.h"
 
 namespace espalier::sim {
 namespace {
 
-/// Lattice direction with 1 along `axis` and a, b along the two axes after it. The shear (u, v, w) =
-/// (p0, p1 - a p0, p2 - b p0) turns it into the direction u, and the lattice into itself.
-struct Direction {
-  int axis, a, b;
+constexpr std::array<LineDirection, 3> kAxes{{{0, 0, 0}, {1, 0, 0}, {2, 0, 0}}};
+constexpr std::array<LineDirection, 10> kDiagonals{{{0, 1, 0},
+                                                    {0, -1, 0},
+                                                    {0, 0, 1},
+                                                    {0, 0, -1},
+                                                    {1, 1, 0},
+                                                    {1, -1, 0},
+                                                    {0, 1, 1},
+                                                    {0, 1, -1},
+                                                    {0, -1, 1},
+                                                    {0, -1, -1}}};
 
-  template <typename V>
-  V sheared(V p) const {
-    const auto u = p[axis];
-    return {u, p[(axis + 1) % 3] - a * u, p[(axis + 2) % 3] - b * u};
-  }
-  Voxel voxel(int u, int v, int w) const {
-    Voxel p(0);
-    p[axis] = u;
-    p[(axis + 1) % 3] = v + a * u;
-    p[(axis + 2) % 3] = w + b * u;
-    return p;
-  }
-};
+/// A byte for each voxel of a box.
+using Bytes = std::vector<std::uint8_t>;
 
-constexpr std::array<Direction, 3> kAxes{{{0, 0, 0}, {1, 0, 0}, {2, 0, 0}}};
-constexpr std::array<Direction, 10> kDiagonals{{{0, 1, 0},
-                                                {0, -1, 0},
-                                                {0, 0, 1},
-                                                {0, 0, -1},
-                                                {1, 1, 0},
-                                                {1, -1, 0},
-                                                {0, 1, 1},
-                                                {0, 1, -1},
-                                                {0, -1, 1},
-                                                {0, -1, -1}}};
-
-/// The box in which votes are counted.
-struct Box {
-  Voxel first, last;
-
-  Voxel size() const { return last - first + 1; }
-  std::size_t count() const {
-    return static_cast<std::size_t>(size().x) * static_cast<std::size_t>(size().y) *
-           static_cast<std::size_t>(size().z);
-  }
-  std::size_t index(Voxel v) const {
-    const Voxel p = v - first;
-    return (static_cast<std::size_t>(p.y) * static_cast<std::size_t>(size().z) +
-            static_cast<std::size_t>(p.z)) *
-               static_cast<std::size_t>(size().x) +
-           static_cast<std::size_t>(p.x);
-  }
-};
-
-/// For each voxel of the box, how many ends of lines call it inside.
-using Votes = std::vector<std::uint8_t>;
-
-struct Crossing {
-  std::uint32_t line;
-  std::int32_t before;  ///< the first voxel centre at or after the crossing
-  std::int32_t turn;    ///< +1 or -1: which side of the triangle the line comes from
-};
-
-/// The lines of one direction that meet a box.
-class Lines {
- public:
-  Lines(Direction direction, const Box& box) : direction_(direction), box_(box) {
-    first_ = Voxel(std::numeric_limits<int>::max());
-    last_ = Voxel(std::numeric_limits<int>::min());
-    for (int corner = 0; corner < 8; ++corner) {
-      const Voxel p((corner & 1) != 0 ? box.last.x : box.first.x,
-                    (corner & 2) != 0 ? box.last.y : box.first.y,
-                    (corner & 4) != 0 ? box.last.z : box.first.z);
-      first_ = glm::min(first_, direction.sheared(p));
-      last_ = glm::max(last_, direction.sheared(p));
+/// Adds for each voxel of the box how many ends of its line call it inside.
+void vote(const VoxelBox& box, const Lines& lines, std::uint32_t line, std::span<const Crossing> crossings,
+          Bytes& votes) {
+  int turns_after = 0;
+  for (const Crossing& c : crossings) turns_after += c.turn;
+  int turns_before = 0;
+  int from = lines.first();
+  for (std::size_t i = 0; i <= crossings.size(); ++i) {
+    const int to = i < crossings.size() ? crossings[i].before() : lines.last() + 1;
+    const int inside = (turns_before != 0 ? 1 : 0) + (turns_after != 0 ? 1 : 0);
+    for (int u = from; inside != 0 && u < to; ++u) {
+      const Voxel v = lines.voxel(line, u);
+      if (!box.has(v)) continue;
+      std::uint8_t& count = votes[box.index(v)];
+      count = static_cast<std::uint8_t>(count + inside);
     }
+    if (i == crossings.size()) break;
+    turns_before += crossings[i].turn;
+    turns_after -= crossings[i].turn;
+    from = to;
   }
+}
 
-  std::size_t count() const {
-    return static_cast<std::size_t>(last_.y - first_.y + 1) *
-           static_cast<std::size_t>(last_.z - first_.z + 1);
-  }
-
-  void cross(const std::array<Vec3, 3>& triangle_vx, std::vector<Crossing>& crossings) const {
-    std::array<Fixed, 3> q;
-    for (std::size_t i = 0; i < 3; ++i) q[i] = direction_.sheared(fixedFromVoxel(triangle_vx[i]));
-    // The sheared coordinates reach 2^27 and their normal 2^57.
-    const glm::i64vec3 n = normalOf(q);
-    if (n.x == 0) return;
-    const auto edges = innerEdges({q[0].y, q[0].z}, {q[1].y, q[1].z}, {q[2].y, q[2].z}, n.x > 0);
-    const std::int64_t low = std::min({q[0].y, q[1].y, q[2].y});
-    const std::int64_t high = std::max({q[0].y, q[1].y, q[2].y});
-    const int last = std::min(cellOf(high), last_.y);
-    for (int v = std::max(cellOf(low), first_.y); v <= last; ++v) {
-      IntRange ws{first_.z, last_.z};
-      for (const HalfPlane& e : edges) keepAtMost<std::int64_t>(ws, e.b, e.limit - e.a * v);
-      for (int w = ws.first; w <= ws.last; ++w) {
-        // The plane is crossed at along / n.x; what counts is the first centre at or after it, rounded up
-        // twice.
-        const Int128 along = Int128{n.x} * q[0].x - Int128{n.y} * (v * kFixedOne - q[0].y) -
-                             Int128{n.z} * (w * kFixedOne - q[0].z);
-        const Int128 upwards = -floorDiv<Int128>(n.x > 0 ? -along : along, std::abs(n.x));
-        const Int128 before = -floorDiv<Int128>(-upwards, kFixedOne);
-        const Int128 clamped = std::clamp<Int128>(before, first_.x, last_.x + 1);
-        crossings.push_back({line(v, w), static_cast<std::int32_t>(clamped), n.x > 0 ? 1 : -1});
-      }
+/// Marks of each two neighbours with triangles between their centres the one that is nearer to their middle:
+/// bit 2 axis where the other lies before it, bit 2 axis + 1 where it lies after it.
+void markNearer(const VoxelBox& box, const Lines& lines, int axis, std::uint32_t line,
+                std::span<const Crossing> crossings, Bytes& nearer) {
+  for (std::size_t i = 0; i < crossings.size();) {
+    std::size_t next = i + 1;
+    while (next < crossings.size() && crossings[next].before() == crossings[i].before()) ++next;
+    const std::int64_t middle = (std::int64_t{crossings[i].at} + crossings[next - 1].at) / 2;
+    const int after = crossings[i].before();
+    // Halfway goes to the later one, as tiling has it.
+    const bool second = middle - (after - 1) * kFixedOne >= kFixedOne / 2;
+    const Voxel v = lines.voxel(line, second ? after : after - 1);
+    if (box.has(v)) {
+      std::uint8_t& marks = nearer[box.index(v)];
+      marks = static_cast<std::uint8_t>(marks | 1u << (2 * axis + (second ? 0 : 1)));
     }
+    i = next;
   }
-
-  /// Counts what both ends of a line say of its voxels.
-  void vote(std::uint32_t line, std::span<Crossing> crossings, Votes& votes) const {
-    std::sort(crossings.begin(), crossings.end(),
-              [](const Crossing& a, const Crossing& b) { return a.before < b.before; });
-    int turns_after = 0;
-    for (const Crossing& c : crossings) turns_after += c.turn;
-    int turns_before = 0;
-    int from = first_.x;
-    for (std::size_t i = 0; i <= crossings.size(); ++i) {
-      const int to = i < crossings.size() ? crossings[i].before : last_.x + 1;
-      const int inside = (turns_before != 0 ? 1 : 0) + (turns_after != 0 ? 1 : 0);
-      if (inside != 0) mark(line, from, to, static_cast<std::uint8_t>(inside), votes);
-      if (i == crossings.size()) break;
-      turns_before += crossings[i].turn;
-      turns_after -= crossings[i].turn;
-      from = to;
-    }
-  }
-
- private:
-  /// The lines that go through the projected triangle: outerEdges' counterpart for points instead of cubes.
-  static std::array<HalfPlane, 3> innerEdges(glm::i64vec2 p, glm::i64vec2 q, glm::i64vec2 r,
-                                             bool anticlockwise) {
-    if (!anticlockwise) std::swap(q, r);
-    const auto edge = [](glm::i64vec2 from, glm::i64vec2 to) {
-      const glm::i64vec2 out{to.y - from.y, from.x - to.x};
-      const bool moved_out = out.x > 0 || (out.x == 0 && out.y > 0);
-      return HalfPlane{out.x, out.y, (out.x * from.x + out.y * from.y - (moved_out ? 1 : 0)) >> 12};
-    };
-    return {edge(p, q), edge(q, r), edge(r, p)};
-  }
-
-  std::uint32_t line(int v, int w) const {
-    return static_cast<std::uint32_t>(v - first_.y) * static_cast<std::uint32_t>(last_.z - first_.z + 1) +
-           static_cast<std::uint32_t>(w - first_.z);
-  }
-
-  void mark(std::uint32_t line, int from, int to, std::uint8_t ends, Votes& votes) const {
-    const auto width = static_cast<std::uint32_t>(last_.z - first_.z + 1);
-    const int v = static_cast<int>(line / width) + first_.y;
-    const int w = static_cast<int>(line % width) + first_.z;
-    for (int u = from; u < to; ++u) {
-      const Voxel p = direction_.voxel(u, v, w);
-      if (!contains(box_.size(), p - box_.first)) continue;
-      std::uint8_t& count = votes[box_.index(p)];
-      count = static_cast<std::uint8_t>(count + ends);
-    }
-  }
-
-  Direction direction_;
-  Box box_;
-  Voxel first_, last_;  ///< in sheared coordinates
-};
-
-void countVotes(const std::vector<std::array<Vec3, 3>>& triangles_vx, const Lines& lines, Votes& votes) {
-  constexpr std::size_t kChunk = 1024;
-  std::vector<std::vector<Crossing>> chunks((triangles_vx.size() + kChunk - 1) / kChunk);
-  parallelForEach(chunks.size(), [&](std::size_t c) {
-    const std::size_t last = std::min((c + 1) * kChunk, triangles_vx.size());
-    for (std::size_t i = c * kChunk; i < last; ++i) lines.cross(triangles_vx[i], chunks[c]);
-  });
-  std::vector<std::size_t> end(lines.count() + 1,
-                               0);  // of each line's crossings, once they are sorted by line
-  for (const auto& chunk : chunks) {
-    for (const Crossing& c : chunk) ++end[c.line + 1];
-  }
-  for (std::size_t i = 1; i < end.size(); ++i) end[i] += end[i - 1];
-  std::vector<Crossing> crossings(end.back());
-  for (const auto& chunk : chunks) {
-    for (const Crossing& c : chunk) crossings[end[c.line]++] = c;
-  }
-  parallelForEach(lines.count(), [&](std::size_t line) {
-    const std::size_t from = line == 0 ? 0 : end[line - 1];
-    if (from == end[line]) return;
-    lines.vote(static_cast<std::uint32_t>(line), {crossings.data() + from, end[line] - from}, votes);
-  });
 }
 
 /// The voxels of the world that may be inside.
-Box boxOf(const std::vector<std::array<Vec3, 3>>& triangles_vx, Voxel size) {
-  Box box{size, Voxel(-1)};
+VoxelBox boxOf(const Triangles& triangles_vx, Voxel size) {
+  VoxelBox box{size, Voxel(-1)};
   for (const auto& t : triangles_vx) {
     for (const Vec3& p : t) {
       box.first = glm::min(box.first, tilePoint(p));
@@ -222,38 +101,125 @@ Box boxOf(const std::vector<std::array<Vec3, 3>>& triangles_vx, Voxel size) {
   return {glm::max(box.first, Voxel(0)), glm::min(box.last, size - 1)};
 }
 
-}  // namespace
+/// Part of a mesh's box, with a rim of neighbours that are judged but belong to others.
+class Slab {
+ public:
+  Slab(const Triangles& triangles_vx, const BitVolume& surface, const VoxelBox& box, bool solid)
+      : triangles_(triangles_vx), surface_(surface), box_(box), inside_(solid ? box.count() : 0) {
+    Bytes nearer(box.count());
+    for (std::size_t axis = 0; axis < kAxes.size(); ++axis) {
+      const Lines lines(kAxes[axis], box_);
+      lines.forEachCrossed(triangles_, [&](std::uint32_t line, std::span<const Crossing> crossings) {
+        if (solid) vote(box_, lines, line, crossings, inside_);
+        markNearer(box_, lines, static_cast<int>(axis), line, crossings, nearer);
+      });
+    }
+    nearer_ = std::move(nearer);
+    if (solid) settle();
+  }
 
-Inside findInside(const std::vector<std::array<Vec3, 3>>& triangles_vx, const BitVolume& surface) {
-  Inside result{BitVolume(surface.size()), 0};
-  const Box box = boxOf(triangles_vx, surface.size());
-  if (glm::any(glm::lessThan(box.size(), Voxel(1)))) return result;
-  Votes votes(box.count());
-  for (const Direction& d : kAxes) countVotes(triangles_vx, Lines(d, box), votes);
-
-  std::vector<Voxel> doubtful;
-  for (int y = box.first.y; y <= box.last.y; ++y) {
-    for (int z = box.first.z; z <= box.last.z; ++z) {
-      for (int x = box.first.x; x <= box.last.x; ++x) {
-        const Voxel v(x, y, z);
-        if (surface.at(v)) continue;
-        const int inside = votes[box.index(v)];
-        if (inside == 2 * static_cast<int>(kAxes.size())) {
-          result.voxels.set(v);
-        } else if (inside > 1) {
-          doubtful.push_back(v);
+  /// Writes the rows y_first .. y_last.
+  void write(int y_first, int y_last, Filled& filled) const {
+    const auto rows = static_cast<std::size_t>(y_last - y_first + 1);
+    std::vector<std::size_t> doubtful(rows);
+    parallelForEach(rows, [&](std::size_t row) {
+      const int y = y_first + static_cast<int>(row);
+      for (int z = box_.first.z; z <= box_.last.z; ++z) {
+        for (int x = box_.first.x; x <= box_.last.x; ++x) {
+          const Voxel v(x, y, z);
+          if (takesLight(v)) filled.opaque.set(v);
+          if (inside_.empty() || surface_.at(v)) continue;
+          const std::uint8_t state = inside_[box_.index(v)];
+          if ((state & kInside) != 0) filled.inside.set(v);
+          doubtful[row] += state >> 1;
         }
+      }
+    });
+    for (const std::size_t d : doubtful) filled.doubtful += d;
+  }
+
+ private:
+  static constexpr std::uint8_t kInside = 1, kDoubtful = 2;
+
+  /// Turns votes into kInside and kDoubtful.
+  void settle() {
+    constexpr int kAll = 2 * static_cast<int>(kAxes.size());
+    const auto doubtful = [](std::uint8_t votes) { return votes > 1 && votes < kAll; };
+    if (std::none_of(inside_.begin(), inside_.end(), doubtful)) {
+      for (std::uint8_t& v : inside_) v = v == kAll ? kInside : 0;
+      return;
+    }
+    Bytes votes = inside_;
+    for (const LineDirection& d : kDiagonals) {
+      const Lines lines(d, box_);
+      lines.forEachCrossed(triangles_, [&](std::uint32_t line, std::span<const Crossing> crossings) {
+        vote(box_, lines, line, crossings, votes);
+      });
+    }
+    constexpr int kHalf = static_cast<int>(kAxes.size() + kDiagonals.size());
+    for (std::size_t i = 0; i < inside_.size(); ++i) {
+      std::uint8_t& v = inside_[i];
+      if (doubtful(v)) {
+        v = votes[i] > kHalf ? kInside | kDoubtful : kDoubtful;
+      } else {
+        v = v == kAll ? kInside : 0;
       }
     }
   }
-  if (doubtful.empty()) return result;
-  for (const Direction& d : kDiagonals) countVotes(triangles_vx, Lines(d, box), votes);
-  constexpr int kHalf = static_cast<int>(kAxes.size() + kDiagonals.size());
-  for (const Voxel v : doubtful) {
-    if (votes[box.index(v)] > kHalf) result.voxels.set(v);
+
+  bool isInside(Voxel v) const {
+    return !inside_.empty() && box_.has(v) && (inside_[box_.index(v)] & kInside) != 0;
   }
-  result.doubtful = doubtful.size();
-  return result;
+  bool takesLight(Voxel v) const {
+    if (isInside(v)) return true;
+    const unsigned marks = nearer_[box_.index(v)];
+    for (int axis = 0; marks >> (2 * axis) != 0; ++axis) {
+      Voxel step(0);
+      step[axis] = 1;
+      if ((marks >> (2 * axis) & 1u) != 0 && !isInside(v - step)) return true;
+      if ((marks >> (2 * axis) & 2u) != 0 && !isInside(v + step)) return true;
+    }
+    return false;
+  }
+
+  const Triangles& triangles_;
+  const BitVolume& surface_;
+  VoxelBox box_;
+  Bytes inside_, nearer_;
+};
+
+/// Wires and points, whose triangles have no area, take the light of every voxel that they touch.
+void addWires(const Triangles& triangles_vx, BitVolume& opaque) {
+  std::vector<Voxel> voxels;
+  for (const auto& t : triangles_vx) {
+    const Fixed a = fixedFromVoxel(t[0]);
+    const Fixed u = fixedFromVoxel(t[1]) - a, v = fixedFromVoxel(t[2]) - a;
+    if (u.y * v.z != u.z * v.y || u.z * v.x != u.x * v.z || u.x * v.y != u.y * v.x) continue;
+    tileTriangle(t, voxels);
+  }
+  for (const Voxel v : voxels) {
+    if (contains(opaque.size(), v)) opaque.set(v);
+  }
+}
+
+}  // namespace
+
+Filled fillMesh(const Triangles& triangles_vx, const BitVolume& surface, bool solid) {
+  Filled filled{solid ? BitVolume(surface.size()) : BitVolume(), BitVolume(surface.size()), 0};
+  const VoxelBox box = boxOf(triangles_vx, surface.size());
+  if (box.empty()) return filled;
+  constexpr std::size_t kMostBytes = std::size_t{1} << 28;
+  const std::size_t slice = box.count() / static_cast<std::size_t>(box.size().y);
+  const int rows = static_cast<int>(std::clamp<std::size_t>(kMostBytes / slice, 1, 1 << 14));
+  for (int y = box.first.y; y <= box.last.y; y += rows) {
+    const int last = std::min(y + rows - 1, box.last.y);
+    VoxelBox slab = box;
+    slab.first.y = std::max(box.first.y, y - 1);
+    slab.last.y = std::min(box.last.y, last + 1);
+    Slab(triangles_vx, surface, slab, solid).write(y, last, filled);
+  }
+  addWires(triangles_vx, filled.opaque);
+  return filled;
 }
 
 }  // namespace espalier::sim

@@ -179,8 +179,9 @@ Growth grow(World& world, const std::vector<Planting>& plantings, const GrowthSe
       for (std::size_t i = begin; i < end && !settings.stop.stop_requested(); ++i) {
         const Bud& bud = due[i];
         const Growing& growing = state.plants[static_cast<std::size_t>(bud.plant)];
-        const GrowthView view{world,     growing.plant, growing.children,
-                              lights[i], iteration,     settings.record_attempts};
+        const GrowthView view{
+            world,     growing.plant,           growing.children, lights[i], settings.sky_table,
+            iteration, settings.record_attempts};
         const RandomKey key{settings.seed, static_cast<std::uint32_t>(bud.plant), agentOf(bud),
                             static_cast<std::uint32_t>(iteration)};
         proposals[i] = growing.rule->propose(view, bud, key);

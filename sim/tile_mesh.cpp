@@ -149,12 +149,13 @@ std::vector<Share> sharesOf(const Mesh& mesh, const std::vector<Vec3>& vertices_
 }
 
 /// What the triangles that share a voxel make of it together.
-Surface joined(const Mesh& mesh, const std::vector<Vec3>& vertices_vx, std::span<const Share> shares,
-               PartId first_part) {
+Surface joined(const Mesh& mesh, const std::vector<Vec3>& vertices_vx, Voxel voxel,
+               std::span<const Share> shares, PartId first_part) {
   double total = 0.0;
   for (const Share& s : shares) total += s.area;
   glm::dvec3 colour(0.0);
   Vec3 normal(0.0);
+  double offset = 0.0;  // of the planes, along their own normals
   double weights = 0.0;
   std::vector<std::pair<std::uint32_t, double>> regions;
   for (const Share& s : shares) {
@@ -165,7 +166,10 @@ Surface joined(const Mesh& mesh, const std::vector<Vec3>& vertices_vx, std::span
     const Vec3 across =
         glm::cross(vertices_vx[t[1]] - vertices_vx[t[0]], vertices_vx[t[2]] - vertices_vx[t[0]]);
     const double length = glm::length(across);
-    if (length > 0.0) normal += (weight / length) * across;
+    if (length > 0.0) {
+      normal += (weight / length) * across;
+      offset += (weight / length) * glm::dot(across, vertices_vx[t[0]] - Vec3(voxel));
+    }
     const std::uint32_t region = mesh.region[s.triangle];
     const auto known =
         std::find_if(regions.begin(), regions.end(), [&](const auto& r) { return r.first == region; });
@@ -179,11 +183,17 @@ Surface joined(const Mesh& mesh, const std::vector<Vec3>& vertices_vx, std::span
     return a.second != b.second ? a.second < b.second : a.first > b.first;
   });
   const double length = glm::length(normal);
+  Surface surface{.part = first_part + static_cast<PartId>(largest->first),
+                  .colour = Colour(colour / weights),
+                  .coverage = static_cast<float>(std::min(total, 1.0))};
   constexpr double kCancelled = 1e-6;  // of the weights: two sides of a thin wall leave no direction
-  return {.part = first_part + static_cast<PartId>(largest->first),
-          .colour = Colour(colour / weights),
-          .coverage = static_cast<float>(std::min(total, 1.0)),
-          .normal = length > kCancelled * weights ? Vec3f(normal / length) : Vec3f(0.0f)};
+  if (length > kCancelled * weights) {
+    // Where faces meet at an edge, the plane with the mean normal through that edge.
+    constexpr double kHalfDiagonal = 0.8660254;
+    surface.normal = Vec3f(normal / length);
+    surface.offset_vx = static_cast<float>(std::clamp(offset / length, -kHalfDiagonal, kHalfDiagonal));
+  }
+  return surface;
 }
 
 }  // namespace
@@ -203,7 +213,7 @@ std::vector<TiledVoxel> tileMesh(const Mesh& mesh, const std::vector<Vec3>& vert
     const Voxel v(static_cast<int>(mine[0].voxel % static_cast<std::uint64_t>(size.x)),
                   static_cast<int>(row / static_cast<std::uint64_t>(size.z)),
                   static_cast<int>(row % static_cast<std::uint64_t>(size.z)));
-    voxels[g] = {v, joined(mesh, vertices_vx, mine, first_part)};
+    voxels[g] = {v, joined(mesh, vertices_vx, v, mine, first_part)};
   });
   return voxels;
 }

@@ -28,6 +28,7 @@ std::unique_ptr<World::Grids> makeGrids(const Frame& frame) {
       .colour = makeGrid<openvdb::Vec3SGrid>("colour", none, transform),
       .coverage = makeGrid<openvdb::FloatGrid>("coverage", 0.0f, transform),
       .normal = makeGrid<openvdb::Vec3SGrid>("normal", none, transform),
+      .offset_vx = makeGrid<openvdb::FloatGrid>("offset_vx", 0.0f, transform),
       .layer = makeGrid<openvdb::Int32Grid>("layer", -1, transform),
       .nearest = makeGrid<openvdb::Int32Grid>("nearest", kFree, transform),
       .distance_vx = makeGrid<openvdb::FloatGrid>("distance_vx", kFar, transform),
@@ -81,24 +82,44 @@ PartId World::addPart(Part part) {
   return static_cast<PartId>(parts_.size());
 }
 
+void World::keep(const TiledVoxel& tiled) {
+  const auto& [voxel, surface] = tiled;
+  assert(contains(frame_.size, voxel));
+  assert(surface.part > kFree && static_cast<std::size_t>(surface.part) <= parts_.size());
+  occupied_.set(voxel);
+  Grids::SurfaceLeaves& leaves = grids_->surface.make(voxel);
+  if (leaves.part == nullptr) {
+    const openvdb::Coord at = coordOf(voxel);
+    leaves = {grids_->part->tree().touchLeaf(at), grids_->colour->tree().touchLeaf(at),
+              grids_->coverage->tree().touchLeaf(at), grids_->normal->tree().touchLeaf(at),
+              grids_->offset_vx->tree().touchLeaf(at)};
+  }
+  const openvdb::Index n = offsetInLeaf(voxel);
+  leaves.part->setValueOn(n, surface.part);
+  leaves.colour->setValueOn(n, toVdb(surface.colour));
+  leaves.coverage->setValueOn(n, surface.coverage);
+  leaves.normal->setValueOn(n, toVdb(surface.normal));
+  leaves.offset_vx->setValueOn(n, surface.offset_vx);
+}
+
 void World::occupy(std::span<const TiledVoxel> voxels) {
-  for (const auto& [voxel, surface] : voxels) {
-    assert(contains(frame_.size, voxel));
-    assert(surface.part > kFree && static_cast<std::size_t>(surface.part) <= parts_.size());
-    if (occupied_.at(voxel)) continue;
-    occupied_.set(voxel);
-    if (stopsLight(voxel, opacity(surface, part(surface.part).kind))) opaque_.set(voxel);
-    Grids::SurfaceLeaves& leaves = grids_->surface.make(voxel);
-    if (leaves.part == nullptr) {
-      const openvdb::Coord at = coordOf(voxel);
-      leaves = {grids_->part->tree().touchLeaf(at), grids_->colour->tree().touchLeaf(at),
-                grids_->coverage->tree().touchLeaf(at), grids_->normal->tree().touchLeaf(at)};
+  for (const TiledVoxel& tiled : voxels) {
+    if (occupied_.at(tiled.voxel)) continue;
+    keep(tiled);
+    if (stopsLight(tiled.voxel, opacity(tiled.surface, part(tiled.surface.part).kind)))
+      opaque_.set(tiled.voxel);
+  }
+  ++version_;
+}
+
+void World::occupy(std::span<const TiledVoxel> voxels, const BitVolume& opaque) {
+  for (const TiledVoxel& tiled : voxels) {
+    if (!occupied_.at(tiled.voxel)) keep(tiled);
+  }
+  for (int y = 0; y < frame_.size.y; ++y) {
+    for (int z = 0; z < frame_.size.z; ++z) {
+      for (int i = 0; i < opaque_.rowWords(); ++i) opaque_.row(y, z)[i] |= opaque.row(y, z)[i];
     }
-    const openvdb::Index n = offsetInLeaf(voxel);
-    leaves.part->setValueOn(n, surface.part);
-    leaves.colour->setValueOn(n, toVdb(surface.colour));
-    leaves.coverage->setValueOn(n, surface.coverage);
-    leaves.normal->setValueOn(n, toVdb(surface.normal));
   }
   ++version_;
 }
@@ -112,7 +133,7 @@ std::optional<Surface> World::surfaceAt(Voxel v) const {
   const Grids::SurfaceLeaves& leaves = grids_->surface.of(v);
   const openvdb::Index n = offsetInLeaf(v);
   return Surface{leaves.part->getValue(n), fromVdb(leaves.colour->getValue(n)), leaves.coverage->getValue(n),
-                 fromVdb(leaves.normal->getValue(n))};
+                 fromVdb(leaves.normal->getValue(n)), leaves.offset_vx->getValue(n)};
 }
 
 std::optional<Nearness> World::nearnessAt(Voxel v) const {

@@ -34,6 +34,7 @@ struct Surface {
       0.0f;  ///< occupied fraction: area inside the voxel over a face's area, at most 1; 1 inside a solid
   Vec3f normal{
       0.0f};  ///< unit, area-weighted, as the triangles are wound; zero where there is none (lines, solids)
+  float offset_vx = 0.0f;  ///< how far the surface lies from the voxel's centre along the normal
 };
 
 /// What a free or occupied voxel within the boundary layers knows of the nearest scene object.
@@ -61,9 +62,9 @@ class World {
   const Frame& frame() const { return frame_; }
   /// What obstructs.
   const BitVolume& occupied() const { return occupied_; }
-  /// What takes light: all of the scene, and of the plants' voxels a share. A leaf takes up a whole voxel but
-  /// stops few of the rays through it; so as many of the voxels stop all light as the leaves in them would
-  /// stop rays. Which ones follows from their place alone.
+  /// What takes light: of the scene what was said when it was added, and of the plants' voxels a share. A
+  /// leaf takes up a whole voxel but stops few of the rays through it; so as many of the voxels stop all
+  /// light as the leaves in them would stop rays. Which ones follows from their place alone.
   const BitVolume& opaque() const { return opaque_; }
   const std::vector<Part>& parts() const { return parts_; }
   const Part& part(PartId id) const { return parts_[static_cast<std::size_t>(id - 1)]; }
@@ -73,8 +74,10 @@ class World {
 
   PartId addPart(Part part);
   /// Occupies voxels. One that is occupied already keeps what it has. Voxels outside the world are an error
-  /// of the caller (assert).
+  /// of the caller (assert). Scene voxels take all light.
   void occupy(std::span<const TiledVoxel> voxels);
+  /// The same, with `opaque` added to what takes light, and no others.
+  void occupy(std::span<const TiledVoxel> voxels, const BitVolume& opaque);
   /// Finds for every voxel within `layers` of an occupied voxel its Nearness; replaces what was known before.
   void setLayers(int layers);
 
@@ -89,6 +92,8 @@ class World {
   const Grids& grids() const { return *grids_; }
 
  private:
+  void keep(const TiledVoxel& tiled);
+
   Frame frame_;
   BitVolume occupied_, opaque_;
   std::vector<Part> parts_;

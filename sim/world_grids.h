@@ -56,6 +56,7 @@ struct World::Grids {
   openvdb::Vec3SGrid::Ptr colour;    ///< active where occupied
   openvdb::FloatGrid::Ptr coverage;  ///< active where occupied
   openvdb::Vec3SGrid::Ptr normal;    ///< active where occupied
+  openvdb::FloatGrid::Ptr offset_vx;  ///< active where occupied
   openvdb::Int32Grid::Ptr layer;     ///< active within the boundary layers, 0 on the objects; background -1
   openvdb::Int32Grid::Ptr nearest;   ///< part of the nearest scene object, same topology as layer
   openvdb::FloatGrid::Ptr distance_vx;  ///< distance to it, same topology as layer; background infinity
@@ -66,6 +67,7 @@ struct World::Grids {
     openvdb::Vec3STree::LeafNodeType* colour = nullptr;
     openvdb::FloatTree::LeafNodeType* coverage = nullptr;
     openvdb::Vec3STree::LeafNodeType* normal = nullptr;
+    openvdb::FloatTree::LeafNodeType* offset_vx = nullptr;
   };
   struct NearLeaves {
     const std::int32_t* layer = nullptr;

@@ -10,7 +10,10 @@
 #include "sim/world.h"
 
 /// The light that surfaces receive. A surface is judged from the free space in front of it: a ray from inside
-/// a floor's voxel would run into the floor's next voxel.
+/// a floor's voxel would run into the floor's next voxel, and even half a voxel before a slanting wall its
+/// own stairs hide what lies low. So places are asked that stand clear of the surface, in two layers and
+/// more, and a straight line through their answers is followed back to where the surface lies
+/// (docs/accuracy.md).
 namespace espalier::sim {
 
 /// Surface voxels that can be lit, and the free places from which each is judged.
@@ -19,7 +22,8 @@ struct SurfaceSensors {
     std::uint32_t place;  ///< number in `places`
     float weight;  ///< those of one surface add up to 1; may be negative (extrapolation to the surface)
   };
-  std::vector<TiledVoxel> surfaces;        ///< with a free place in front; (y, z, x) order
+  std::vector<TiledVoxel> surfaces;  ///< with a free place in front, in the order that was given. The normal
+                                     ///< is the one by which they are judged: never zero
   std::shared_ptr<const VoxelSet> places;  ///< that taps read
   std::vector<Tap> taps;
   std::vector<std::size_t> first;  ///< surface i has taps first[i] .. first[i + 1] - 1
@@ -29,10 +33,20 @@ struct SurfaceSensors {
   }
 };
 
+/// All of a world's surfaces, in (y, z, x) order. What lies inside solids is none.
 SurfaceSensors surfaceSensors(const World& world);
 
-/// For each surface what it receives of the sky (sim/sky.h) by its own normal, 0..1. `open` must be of the
-/// sensors' places and the sky's directions.
+/// Some of them.
+SurfaceSensors surfaceSensors(const World& world, std::vector<TiledVoxel> surfaces);
+
+/// What a receiver with this unit normal gets of a sky that nothing hides but the receiver's own back and the
+/// ground: 1 facing up, 0 facing down. By closed forms: (1 + n.y) / 2 for uniform and cosine; Moon and
+/// Spencer's (1942) sky integrated over the tilted receiver for the overcast one.
+double openSky(Weighting weighting, Vec3 normal);
+
+/// For each surface what it receives of the sky (sim/sky.h) by its own normal, 0..1: openSky where nothing
+/// stands in the way, exactly, and else the share of it that the open directions in front of the surface
+/// bring. `open` must be of the sensors' places and the sky's directions.
 std::vector<float> surfaceSky(const SurfaceSensors& sensors, const OpenTable& open, const Sky& sky);
 
 /// The same of the sun: the weighted fraction of its way that the surface sees, 0..1; a surface does not see

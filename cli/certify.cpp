@@ -1,0 +1,48 @@
+#include <fmt/format.h>
+
+#include <CLI/App.hpp>
+#include <CLI/Config.hpp>
+#include <CLI/Formatter.hpp>
+#include <cstdio>
+#include <memory>
+
+#include "cli/commands.h"
+#include "scenes/certificate.h"
+#include "scenes/read_scene.h"
+
+namespace espalier::cli {
+namespace {
+
+struct CertifyArguments {
+  std::string scene;
+  bool json = false;
+};
+
+int certify(const CertifyArguments& arguments) {
+  auto scene = scenes::readScene(arguments.scene);
+  if (!scene) {
+    fmt::print(stderr, "{}\n", scenes::format(scene.problems()));
+    return kInputError;
+  }
+  try {
+    const scenes::Certificate certificate = scenes::certify(scenes::prepareJob(std::move(*scene)));
+    fmt::print("{}", arguments.json ? scenes::toJson(certificate) : scenes::toText(certificate));
+  } catch (const scenes::MeshMissing& missing) {
+    fmt::print(stderr, "{}; skipped, as the scene calls it optional\n", missing.what());
+  }
+  return 0;
+}
+
+}  // namespace
+
+void addCertify(CLI::App& app, int& exit_status) {
+  auto* const command = app.add_subcommand(
+      "certify",
+      "Print the error of a scene's exposure maps: against shapes that are known, and against rays");
+  const auto arguments = std::make_shared<CertifyArguments>();
+  command->add_option("scene", arguments->scene, "Scene file")->required();
+  command->add_flag("--json", arguments->json, "Print JSON");
+  command->callback([arguments, &exit_status] { exit_status = certify(*arguments); });
+}
+
+}  // namespace espalier::cli

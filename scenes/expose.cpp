@@ -49,6 +49,7 @@ ExposeResult exposeScene(Scene scene, const RunOptions& options) {
     wanted.brightest = true;
     wanted.space = space;
     wanted.space_hours = true;
+    wanted.random_sky = job.random_sky;
     return lightOf(job.world, job.sky, job.sun, wanted);
   });
   if (light.surfaces.empty() && !space) {
@@ -90,9 +91,8 @@ std::string summary(const ExposeResult& result, const std::filesystem::path& fol
                                  size.x, size.y, size.z, report.frame.voxel_m, report.exposure->surfaces);
   if (report.exposure->in_space > 0) text += fmt::format(", {} in free space", report.exposure->in_space);
   text += "\n";
-  for (const auto& [name, about] : report.light) {
-    if (name == "sky" || name == "sun") text += fmt::format("{}: {}\n", name, about);
-  }
+  text += "sky: " + report.light.sky + "\n";
+  if (!report.light.sun.empty()) text += "sun: " + report.light.sun + "\n";
   text += "\n" + result.table + "\n";
   if (report.exposure->sideless > 0) {
     text += fmt::format("note: {} voxels have no side to be judged by and are not in the table\n",

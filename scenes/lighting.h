@@ -2,11 +2,13 @@
 #include <array>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "sim/field.h"
+#include "sim/sense/random_sky.h"
 #include "sim/sky.h"
 #include "sim/sun.h"
 #include "sim/world.h"
@@ -20,7 +22,25 @@ struct LightWanted {
   std::shared_ptr<const sim::VoxelSet> space = nullptr;
   bool dense = false;        ///< in every voxel of the world, whatever `space` says
   bool space_hours = false;  ///< hours of sun too, there
+  /// Greene's rays for sky_exposure instead of the sky's directions. They know no normals: surfaces then
+  /// receive what level ground would in front of them.
+  std::optional<sim::RandomSky> random_sky = std::nullopt;
 };
+
+/// What the numbers of a light are: named wherever they are shown.
+struct LightAbout {
+  std::string sky;        ///< in words
+  std::string weighting;  ///< of the sky, as scene files name it
+  std::size_t directions = 0;
+  double standard_error = 0.0;     ///< of sky_exposure; 0: not known
+  std::string sun;                 ///< in words; empty: there is none, and no more of the following
+  std::size_t sun_directions = 0;  ///< within sun_error_deg of the sun's places
+  double sun_error_deg = 0.0;
+  double sun_hours = 0.0;  ///< a day, where nothing obstructs
+  double voxel_m = 0.0;
+};
+/// The same as names and texts, for tables and headers.
+std::vector<std::pair<std::string, std::string>> texts(const LightAbout& about);
 
 /// What surfaces receive of one kind of light: the values of Lighting::surfaces, then of Lighting::faces.
 struct Received {
@@ -42,14 +62,13 @@ struct Lighting {
 
   Received sky, sun;                  ///< 0..1
   Received sun_hours;                 ///< a day
-  double hours_a_day = 0.0;           ///< of sun where nothing obstructs
   std::vector<sim::Vec3f> brightest;  ///< by surface: unit, zero where no sky is seen; empty if not wanted
 
-  /// In free space, as level ground receives it; null where not wanted. Hours are fractions of `hours_a_day`.
+  /// In free space, as level ground receives it; null where not wanted. Hours are fractions of
+  /// about.sun_hours.
   std::shared_ptr<const sim::ExposureField> space_sky, space_sun, space_hours;
 
-  /// What the numbers are, by name: sky, weighting, directions, standard error, sun and so on.
-  std::vector<std::pair<std::string, std::string>> about;
+  LightAbout about;
 
   /// By voxel, in (y, z, x) order, then face: as in render/visibility.h.
   std::uint64_t faceKey(sim::Voxel voxel, std::uint8_t face) const;

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "scenes/job.h"
+#include "scenes/lighting.h"
 #include "sim/grow.h"
 
 namespace espalier::scenes {
@@ -19,8 +20,7 @@ struct Report {
   std::size_t scene_voxels = 0;     ///< before they grew
   std::size_t degenerate_triangles = 0;
   std::vector<sim::FillReport> fills;
-  /// What the numbers of its light are, by name (Lighting::about).
-  std::vector<std::pair<std::string, std::string>> light;
+  LightAbout light;
 
   struct Growth {
     int iterations = 0;

@@ -26,3 +26,5 @@ find_package(nlohmann_json REQUIRED CONFIG)
 find_path(RANDOM123_INCLUDE_DIR Random123/philox.h REQUIRED)
 find_path(XXHASH_INCLUDE_DIR xxhash.h REQUIRED)
 find_library(XXHASH_LIBRARY xxhash REQUIRED)
+find_path(NOVA_INCLUDE_DIR libnova/libnova.h REQUIRED) # the sun's place; no CMake package, no .pc
+find_library(NOVA_LIBRARY nova REQUIRED)

@@ -48,6 +48,10 @@ small $work/figure_3a/column_layers.png column_layers 640
 grow scenes/library/ruin.yaml
 if [ -f $work/ruin/vines.png ]; then small $work/ruin/vines.png ruin 720; else echo "  no ruin: its mesh is missing"; fi
 
+[ -x build/release/tests/figures ] || ./run build
+build/release/tests/figures $work/lattice_sweep.png
+small $work/lattice_sweep.png lattice_sweep 1040
+
 # The README's first rule file, as it stands and with the three changes that it proposes.
 changed() {  # changed NAME FROM TO [FROM TO ...]
   local name=$1 rules=$work/first_$1.yaml

@@ -32,7 +32,10 @@ Image contactSheet(std::span<const Captioned> pictures, const SheetLook& look) {
   const float text = std::max(9.0f, static_cast<float>(width) / 28.0f);
   const int gutter = static_cast<int>(std::lround(1.5f * text));
   const int caption = static_cast<int>(std::lround(2.0f * text));
-  const int head = look.title.empty() ? 0 : static_cast<int>(std::lround(3.0f * text));
+  const auto notes = linesOf(look.note);
+  const float line = 1.25f * text;  // of the notes
+  const int head = static_cast<int>(
+      std::lround((look.title.empty() ? 0.0f : 3.0f * text) + line * static_cast<float>(notes.size())));
   const int count = static_cast<int>(pictures.size());
   const int columns = std::min(look.columns, count), rows = (count + columns - 1) / columns;
 
@@ -40,9 +43,14 @@ Image contactSheet(std::span<const Captioned> pictures, const SheetLook& look) {
               head + gutter + rows * (height + caption) + (rows - 1) * gutter / 2 + gutter / 2, 3);
   fillBox(sheet, {0, 0}, {static_cast<float>(sheet.width), static_cast<float>(sheet.height)},
           {kGround, 1.0f});
-  if (head > 0) {
-    drawText(sheet, {static_cast<float>(gutter), static_cast<float>(gutter) + 1.2f * text}, look.title,
-             {1.35f * text, kTitle, Align::left, Font::bold});
+  glm::vec2 top(static_cast<float>(gutter), static_cast<float>(gutter) + 1.2f * text);
+  if (!look.title.empty()) {
+    drawText(sheet, top, look.title, {1.35f * text, kTitle, Align::left, Font::bold});
+    top.y += 1.6f * text;
+  }
+  for (const std::string& note : notes) {
+    drawText(sheet, top, note, {0.85f * text, kCaption});
+    top.y += line;
   }
   std::vector<Image> reduced(pictures.size());
   sim::parallelForEach(pictures.size(),

@@ -2,9 +2,11 @@
 
 #include <OpenImageIO/imagebufalgo.h>
 #include <fmt/format.h>
+#include <sstream>
 
 #include <algorithm>
 #include <cmath>
+#include <sstream>
 #include <utility>
 
 #include "sim/error.h"
@@ -122,6 +124,13 @@ void drawText(Image& image, glm::vec2 at, const std::string& text, const TextSty
       if (sum > 0.0f) blend(image, x, y, style.ink, sum / (kTextScale * kTextScale));
     }
   }
+}
+
+std::vector<std::string> linesOf(const std::string& text) {
+  std::vector<std::string> lines;
+  std::istringstream in(text);
+  for (std::string line; std::getline(in, line);) lines.push_back(line);
+  return lines;
 }
 
 void drawSegment(Image& image, glm::vec2 a, glm::vec2 b, float width_px, Ink ink) {

@@ -1,5 +1,6 @@
 #pragma once
 #include <string>
+#include <vector>
 
 #include <glm/vec2.hpp>
 
@@ -31,6 +32,8 @@ struct TextStyle {
 float textWidth(const std::string& text, float size_px, Font font = Font::regular);
 /// `at` is on the base line: the left end, the middle or the right end of the text by its alignment.
 void drawText(Image& image, glm::vec2 at, const std::string& text, const TextStyle& style);
+
+std::vector<std::string> linesOf(const std::string& text);
 
 void drawSegment(Image& image, glm::vec2 a, glm::vec2 b, float width_px, Ink ink);
 void fillBox(Image& image, glm::vec2 low, glm::vec2 high, Ink ink, float corner_radius_px = 0.0f);

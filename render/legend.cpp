@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "render/drawing.h"
 #include "render/tone.h"
@@ -25,12 +26,20 @@ struct Layout {
   float text, note, pad, margin;
 };
 
+float widestLine(const std::string& title, const std::string& note, const Layout& is) {
+  float width = textWidth(title, is.text, Font::bold);
+  for (const std::string& line : linesOf(note)) width = std::max(width, textWidth(line, is.note));
+  return width;
+}
+
 /// Draws the plate, the title and the note; gives back where the content's upper left corner is.
 glm::vec2 drawPlate(Image& image, const Layout& is, glm::vec2 content, const std::string& title,
                     const std::string& note) {
-  const float head = (title.empty() ? 0.0f : 1.35f * is.text) + (note.empty() ? 0.0f : 1.35f * is.note);
+  const auto notes = linesOf(note);
+  const float head =
+      (title.empty() ? 0.0f : 1.35f * is.text) + 1.35f * is.note * static_cast<float>(notes.size());
   const float gap = head > 0.0f ? 0.45f * is.text : 0.0f;
-  const float width = std::max({content.x, textWidth(title, is.text, Font::bold), textWidth(note, is.note)});
+  const float width = std::max(content.x, widestLine(title, note, is));
   const glm::vec2 size(width + 2 * is.pad, content.y + head + gap + 2 * is.pad);
   const glm::vec2 low =
       glm::floor(glm::vec2(is.margin, static_cast<float>(image.height) - is.margin - size.y));
@@ -42,8 +51,8 @@ glm::vec2 drawPlate(Image& image, const Layout& is, glm::vec2 content, const std
     drawText(image, {pen.x, pen.y + 0.95f * is.text}, title, {is.text, kStrong, Align::left, Font::bold});
     pen.y += 1.35f * is.text;
   }
-  if (!note.empty()) {
-    drawText(image, {pen.x, pen.y + 0.95f * is.note}, note, {is.note, kQuiet});
+  for (const std::string& line : notes) {
+    drawText(image, {pen.x, pen.y + 0.95f * is.note}, line, {is.note, kQuiet});
     pen.y += 1.35f * is.note;
   }
   return {pen.x, pen.y + gap};
@@ -53,8 +62,7 @@ glm::vec2 drawPlate(Image& image, const Layout& is, glm::vec2 content, const std
 
 void drawLegend(Image& image, const BarLegend& legend, const ColourMap& colours) {
   const Layout is(image);
-  const float head = std::max(textWidth(legend.title, is.text, Font::bold), textWidth(legend.note, is.note));
-  const float bar_width = std::round(std::max(head, 15.0f * is.text));
+  const float bar_width = std::round(std::max(widestLine(legend.title, legend.note, is), 15.0f * is.text));
   const float bar_height = std::round(0.85f * is.text);
   const float tick = 0.3f * is.text;
   const glm::vec2 content(bar_width, bar_height + tick + 1.35f * is.note);
@@ -66,9 +74,9 @@ void drawLegend(Image& image, const BarLegend& legend, const ColourMap& colours)
     const sim::Colour colour = srgbFromLinear(colours((x + 0.5f) / bar_width));
     fillBox(image, low + glm::vec2(x, 0.0f), low + glm::vec2(x + 1.0f, bar_height), {colour, 1.0f});
   }
-  for (int i = 0; i <= 4; ++i) {
-    const float value = 0.25f * static_cast<float>(i);
-    const float x = low.x + value * bar_width;
+  for (int i = 0; static_cast<float>(i) * legend.step < 1.0005f * legend.most; ++i) {
+    const float value = static_cast<float>(i) * legend.step;
+    const float x = low.x + value / legend.most * bar_width;
     const float top = low.y + bar_height + 1.0f;
     drawSegment(image, {x, top}, {x, top + tick}, std::max(1.0f, 0.07f * is.text), kQuiet);
     drawText(image, {x, top + tick + 1.1f * is.note}, fmt::format("{:g}", value),

@@ -9,10 +9,12 @@
 /// follows the picture's.
 namespace espalier::render {
 
-/// A bar of colours with ticks at 0, 0.25, 0.5, 0.75 and 1.
+/// A bar of colours with ticks from 0 to the greatest value.
 struct BarLegend {
-  std::string title;  ///< what is shown: "sky exposure"
-  std::string note;   ///< how it was weighed: "fraction of the sky seen, solid-angle weighted"
+  std::string title;   ///< what is shown: "sky exposure"
+  std::string note;    ///< how it was weighed: "fraction of the sky seen, solid-angle weighted"; lines by \n
+  float most = 1.0f;   ///< what the bar's end stands for; > 0
+  float step = 0.25f;  ///< from tick to tick; > 0
 };
 void drawLegend(Image& image, const BarLegend& legend, const ColourMap& colours);
 

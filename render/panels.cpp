@@ -34,34 +34,26 @@ std::array<Voxel, 2> inPlane(std::uint8_t face) {
   return axes;
 }
 
-/// The four voxels before a face that a point on it lies between, the one before the face itself first, with
-/// their bilinear shares.
-struct Around {
-  std::array<Voxel, 4> voxels;
-  std::array<float, 4> shares;
-};
-Around aroundPoint(const Fragment& f) {
+/// The mean over the faces side by side that a point on a face lies between, by their bilinear shares. Steps
+/// and corners are not crossed: they are faces of other planes.
+float smoothed(const FaceValue& value, const sim::BitVolume& occupied, const Fragment& f) {
   const auto [u, v] = inPlane(f.face);
-  const Voxel front = f.voxel + kFaceNormals[f.face];
   const Voxel du = f.at.x < 0 ? -u : u, dv = f.at.y < 0 ? -v : v;
   const float a = std::min(std::abs(f.at.x), 0.5f), b = std::min(std::abs(f.at.y), 0.5f);
-  return {{front, front + du, front + dv, front + du + dv},
-          {(1 - a) * (1 - b), a * (1 - b), (1 - a) * b, a * b}};
-}
-
-float smoothed(const sim::ExposureField& field, const sim::BitVolume& occupied, const Fragment& f) {
-  const Around around = aroundPoint(f);
-  const bool u_free = !occupied.at(around.voxels[1]), v_free = !occupied.at(around.voxels[2]);
-  // Across a corner only where light can pass beside it.
-  const std::array<bool, 4> counts = {true, u_free, v_free,
-                                      (u_free || v_free) && !occupied.at(around.voxels[3])};
-  float sum = 0.0f, share = 0.0f;
-  for (std::size_t i = 0; i < 4; ++i) {
-    if (!counts[i]) continue;
-    sum += around.shares[i] * field.at(around.voxels[i]);
-    share += around.shares[i];
-  }
-  return sum / share;
+  const auto isFace = [&](Voxel voxel) {
+    return occupied.at(voxel) && !occupied.at(voxel + kFaceNormals[f.face]);
+  };
+  float sum = 0.0f, shares = 0.0f;
+  const auto add = [&](Voxel voxel, float share) {
+    sum += share * value(voxel, f.face);
+    shares += share;
+  };
+  const bool beside_u = isFace(f.voxel + du), beside_v = isFace(f.voxel + dv);
+  add(f.voxel, (1 - a) * (1 - b));
+  if (beside_u) add(f.voxel + du, a * (1 - b));
+  if (beside_v) add(f.voxel + dv, (1 - a) * b);
+  if ((beside_u || beside_v) && isFace(f.voxel + du + dv)) add(f.voxel + du + dv, a * b);
+  return sum / shares;
 }
 
 /// The face's own brightness, darker towards cubes that stand before it.
@@ -172,15 +164,14 @@ PanelPainter::PanelPainter(const Visibility& seen, const PanelWorld& world, Pane
     values.resize(count);
     forEachFragment(seen, [&](std::size_t i, const Fragment& f) { values[i] = value(f); });
   };
-  const auto prepareField = [&](const sim::ExposureField& field, std::vector<float>& pure,
-                                std::vector<float>& smooth) {
-    prepare(pure, [&](const Fragment& f) { return field.at(f.voxel + kFaceNormals[f.face]); });
-    prepare(smooth, [&](const Fragment& f) { return smoothed(field, world.occupied, f); });
+  const auto prepareShown = [&](const FaceValue& value, Shown& shown) {
+    prepare(shown.pure, [&](const Fragment& f) { return value(f.voxel, f.face); });
+    prepare(shown.smooth, [&](const Fragment& f) { return smoothed(value, world.occupied, f); });
   };
   prepare(relief_, [&](const Fragment& f) { return relief(world.occupied, f); });
-  if (wanted({Panel::sun_exposure, Panel::threshold})) prepareField(world.sun, pure_sun_, sun_);
-  if (wanted({Panel::sky_exposure, Panel::threshold, Panel::first_pass}))
-    prepareField(world.sky, pure_sky_, sky_);
+  if (wanted({Panel::sun_exposure, Panel::threshold})) prepareShown(world.sun, sun_);
+  if (wanted({Panel::sky_exposure, Panel::threshold, Panel::first_pass})) prepareShown(world.sky, sky_);
+  if (wanted({Panel::sun_hours})) prepareShown(world.sun_hours, hours_);
   if (wanted({Panel::shadow_matte, Panel::first_pass}))
     lit_ = castShadows(seen, world.occupied, world.bricks, look_.to_sun);
   if (wanted({Panel::surface_colour, Panel::first_pass}))
@@ -194,32 +185,34 @@ PanelPicture PanelPainter::paint(Panel panel) const {
   const auto sky = [&](int x, int y) {
     return skyColour(seen_.rays.direction((x + 0.5) / seen_.width, (y + 0.5) / seen_.height));
   };
-  const auto field = [&](const std::vector<float>& pure, const std::vector<float>& smooth,
-                         const std::string& map, const char* name) {
+  const auto field = [&](const Shown& shown, const std::string& map, float most, const char* name) {
     const ColourMap colours(map);
-    return PanelPicture{compose(
-                            seen_, [&](std::size_t i) { return relief_[i] * colours(smooth[i]); }, neutral),
-                        measure<1>(seen_, true, [&](std::size_t i) { return std::array{pure[i]}; }),
-                        {name, "coverage"}};
+    return PanelPicture{
+        compose(
+            seen_, [&](std::size_t i) { return relief_[i] * colours(shown.smooth[i] / most); }, neutral),
+        measure<1>(seen_, true, [&](std::size_t i) { return std::array{shown.pure[i]}; }),
+        {name, "coverage"}};
   };
   const auto exposure = [&](const std::vector<float>& sun, const std::vector<float>& skies, std::size_t i) {
     return look_.blend_sun * sun[i] + look_.blend_sky * skies[i];
   };
   switch (panel) {
     case Panel::sun_exposure:
-      return field(pure_sun_, sun_, look_.sun_map, "sun_exposure");
+      return field(sun_, look_.sun_map, 1.0f, "sun_exposure");
     case Panel::sky_exposure:
-      return field(pure_sky_, sky_, look_.sky_map, "sky_exposure");
+      return field(sky_, look_.sky_map, 1.0f, "sky_exposure");
+    case Panel::sun_hours:
+      return field(hours_, look_.hours_map, look_.most_hours, "sun_hours");
     case Panel::threshold: {
       const auto shade = [&](std::size_t i) {
-        const float above =
-            smoothStep(look_.threshold - 0.006f, look_.threshold + 0.006f, exposure(sun_, sky_, i));
-        return relief_[i] * (0.45f + 0.55f * sky_[i]) * glm::mix(kBelow, kAbove, above);
+        const float above = smoothStep(look_.threshold - 0.006f, look_.threshold + 0.006f,
+                                       exposure(sun_.smooth, sky_.smooth, i));
+        return relief_[i] * (0.45f + 0.55f * sky_.smooth[i]) * glm::mix(kBelow, kAbove, above);
       };
       return {compose(seen_, shade, neutral),
               measure<2>(seen_, true,
                          [&](std::size_t i) {
-                           const float e = exposure(pure_sun_, pure_sky_, i);
+                           const float e = exposure(sun_.pure, sky_.pure, i);
                            return std::array{e >= look_.threshold ? 1.0f : 0.0f, e};
                          }),
               {"above_threshold", "exposure", "coverage"}};
@@ -248,7 +241,7 @@ PanelPicture PanelPainter::paint(Panel panel) const {
     const float slant = static_cast<float>(
         std::max(0.0, glm::dot(sim::Vec3(kFaceNormals[seen_.fragments[i].face]), look_.to_sun)));
     return colour_[i] *
-           (sky_[i] * Colour(0.28f, 0.32f, 0.38f) + lit_[i] * slant * Colour(1.15f, 1.0f, 0.78f));
+           (sky_.smooth[i] * Colour(0.28f, 0.32f, 0.38f) + lit_[i] * slant * Colour(1.15f, 1.0f, 0.78f));
   };
   const auto shade = [&](std::size_t i) {
     const Colour c = light(i);

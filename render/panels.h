@@ -1,4 +1,5 @@
 #pragma once
+#include <cstdint>
 #include <functional>
 #include <span>
 #include <string>
@@ -8,21 +9,33 @@
 #include "render/image.h"
 #include "render/tone.h"
 #include "render/visibility.h"
-#include "sim/field.h"
 
-/// The six panels of Greene 1989, figure 6: what light does in a world of voxels, each cube drawn as it
-/// stands.
+/// The six panels of Greene 1989, figure 6, and hours of sun: what light does in a world of voxels, each cube
+/// drawn as it stands.
 namespace espalier::render {
 
-enum class Panel { sun_exposure, sky_exposure, threshold, shadow_matte, surface_colour, first_pass };
+enum class Panel {
+  sun_exposure,
+  sky_exposure,
+  threshold,
+  shadow_matte,
+  surface_colour,
+  first_pass,
+  sun_hours
+};
 
-/// What the panels need to know of a world. `colour` may be called by several threads at once.
+/// What a face of an occupied voxel receives; asked only where the voxel in front of it is not occupied.
+using FaceValue = std::function<float(sim::Voxel voxel, std::uint8_t face)>;
+
+/// What the panels need to know of a world. Several threads may ask at once. What no panel wanted may be left
+/// out.
 struct PanelWorld {
   const sim::BitVolume& occupied;
   const sim::Bricks& bricks;
-  const sim::ExposureField& sun;
-  const sim::ExposureField& sky;
+  FaceValue sun;                                  ///< 0..1
+  FaceValue sky;                                  ///< 0..1
   std::function<sim::Colour(sim::Voxel)> colour;  ///< linear, of an occupied voxel
+  FaceValue sun_hours = {};
 };
 
 struct PanelLook {
@@ -31,7 +44,9 @@ struct PanelLook {
   sim::Vec3 to_sun{0.0, 1.0, 0.0};           ///< unit; the sun of the shadow matte and of the first pass
   std::string sun_map = "magma";
   std::string sky_map = "viridis";
-  ToneCurve tone;  ///< of the first pass
+  std::string hours_map = "plasma";
+  float most_hours = 12.0f;  ///< that the map's bright end stands for
+  ToneCurve tone;            ///< of the first pass
 };
 
 struct PanelPicture {
@@ -43,7 +58,7 @@ struct PanelPicture {
   std::vector<std::string> channel_names;
 };
 
-/// Shades what a camera sees. The exposure shown on a face is that of the free voxel in front of it.
+/// Shades what a camera sees.
 class PanelPainter {
  public:
   /// Prepares what these panels need. What is given must outlive the painter.
@@ -56,8 +71,10 @@ class PanelPainter {
   const Visibility& seen_;
   PanelLook look_;
   std::vector<float> relief_;  ///< how bright a cube's face is drawn; for each fragment, as all that follows
-  std::vector<float> pure_sun_, pure_sky_;
-  std::vector<float> sun_, sky_;  ///< smoothed over faces side by side
+  struct Shown {
+    std::vector<float> pure, smooth;  ///< as it is, and smoothed over faces side by side
+  };
+  Shown sun_, sky_, hours_;
   std::vector<float> lit_;
   std::vector<sim::Colour> colour_;
 };

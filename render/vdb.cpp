@@ -6,10 +6,12 @@
 #include <openvdb/tree/LeafManager.h>
 #include <xxhash.h>
 
+#include <algorithm>
+#include <bit>
+#include <concepts>
 #include <sstream>
 
 #include "sim/error.h"
-#include "sim/sense/exposure.h"
 #include "sim/world_grids.h"
 
 namespace espalier::render {
@@ -20,10 +22,18 @@ namespace {
 constexpr std::size_t kIdAt = 21, kIdLength = 36;
 
 struct About {
-  const char* name;
-  const char* description;
-  const char* unit;
+  std::string name;
+  std::string description;
+  std::string unit;
 };
+
+void describe(openvdb::GridBase& grid, const About& about, const sim::Frame& frame) {
+  grid.setName(about.name);
+  grid.setCreator("Espalier");
+  grid.insertMeta("description", openvdb::StringMetadata(about.description));
+  grid.insertMeta("unit", openvdb::StringMetadata(about.unit));
+  grid.insertMeta("voxel_m", openvdb::DoubleMetadata(frame.voxel_m));
+}
 
 /// Shares the grid's tree but not its metadata.
 template <class Grid>
@@ -31,12 +41,8 @@ typename Grid::Ptr shown(const typename Grid::Ptr& grid, const About& about, con
                          openvdb::GridClass grid_class = openvdb::GRID_UNKNOWN) {
   auto result = Grid::create(grid->treePtr());
   result->setTransform(grid->transform().copy());
-  result->setName(about.name);
   result->setGridClass(grid_class);
-  result->setCreator("Espalier");
-  result->insertMeta("description", openvdb::StringMetadata(about.description));
-  result->insertMeta("unit", openvdb::StringMetadata(about.unit));
-  result->insertMeta("voxel_m", openvdb::DoubleMetadata(frame.voxel_m));
+  describe(*result, about, frame);
   return result;
 }
 
@@ -47,25 +53,87 @@ openvdb::FloatGrid::Ptr density(const sim::World::Grids& grids) {
   return grid;
 }
 
-openvdb::FloatGrid::Ptr exposure(const sim::World& world, const sim::ExposureField& field) {
-  if (field.size != world.frame().size)
-    throw sim::InputError("an exposure field has another size than the world");
-  const sim::World::Grids& grids = world.grids();
-  auto tree = std::make_shared<openvdb::FloatTree>(grids.part->tree(), 0.0f, openvdb::TopologyCopy());
-  tree->topologyUnion(grids.layer->tree());
-  tree->voxelizeActiveTiles();
-  openvdb::tree::LeafManager<openvdb::FloatTree>(*tree).foreach ([&](auto& leaf, std::size_t) {
-    for (auto value = leaf.beginValueOn(); value; ++value) {
-      const openvdb::Coord at = value.getCoord();
-      const sim::Voxel v(at.x(), at.y(), at.z());
-      const auto surface = world.surfaceAt(v);
-      value.setValue(surface ? sim::surfaceExposure(world.occupied(), field, v, surface->normal)
-                             : field.at(v));
+constexpr int kLeafSide = 8;
+
+/// The eight voxels of a set from x on, as the bits of a byte; x is a multiple of 8.
+std::uint8_t eightOf(const sim::VoxelSet& where, int x, int y, int z) {
+  return static_cast<std::uint8_t>(where.bits().row(y, z)[x >> 6] >> (x & 63));
+}
+
+/// Makes the leaves that hold voxels of the set, without values.
+template <class Tree>
+void touchLeaves(Tree& tree, const sim::VoxelSet& where) {
+  const sim::Voxel size = where.bits().size();
+  openvdb::tree::ValueAccessor<Tree> access(tree);
+  std::vector<std::uint64_t> any(static_cast<std::size_t>(where.bits().rowWords() - 1));
+  for (int y0 = 0; y0 < size.y; y0 += kLeafSide) {
+    for (int z0 = 0; z0 < size.z; z0 += kLeafSide) {
+      std::fill(any.begin(), any.end(), 0u);
+      for (int y = y0; y < std::min(size.y, y0 + kLeafSide); ++y) {
+        for (int z = z0; z < std::min(size.z, z0 + kLeafSide); ++z) {
+          const std::uint64_t* const row = where.bits().row(y, z);
+          for (std::size_t w = 0; w < any.size(); ++w) any[w] |= row[w];
+        }
+      }
+      for (int x = 0; x < size.x; x += kLeafSide) {
+        if (((any[static_cast<std::size_t>(x) / 64] >> (x % 64)) & 0xffu) != 0) access.touchLeaf({x, y0, z0});
+      }
+    }
+  }
+}
+
+float toVdb(float value) {
+  return value;
+}
+std::int32_t toVdb(std::int32_t value) {
+  return value;
+}
+openvdb::Vec3f toVdb(sim::Vec3f value) {
+  return {value.x, value.y, value.z};
+}
+
+template <class Value>
+openvdb::GridBase::Ptr gridOf(const std::vector<VdbPart<Value>>& parts, sim::Voxel size) {
+  using Tree = typename openvdb::tree::Tree4<decltype(toVdb(Value{})), 5, 4, 3>::Type;
+  auto grid = openvdb::Grid<Tree>::create();
+  for (const auto& part : parts) touchLeaves(grid->tree(), *part.where);
+  openvdb::tree::LeafManager<Tree>(grid->tree()).foreach ([&](auto& leaf, std::size_t) {
+    const openvdb::Coord low = leaf.origin();
+    for (const auto& part : parts) {
+      for (int y = low.y(); y < std::min(size.y, low.y() + kLeafSide); ++y) {
+        for (int z = low.z(); z < std::min(size.z, low.z() + kLeafSide); ++z) {
+          std::uint8_t left = eightOf(*part.where, low.x(), y, z);
+          if (left == 0) continue;
+          std::size_t number = part.where->number({low.x() + std::countr_zero(left), y, z});
+          for (; left != 0; left = static_cast<std::uint8_t>(left & (left - 1))) {
+            const sim::Voxel v(low.x() + std::countr_zero(left), y, z);
+            leaf.setValueOn({v.x, v.y, v.z}, toVdb(part.value(v, number++)));
+          }
+        }
+      }
     }
   });
-  auto grid = openvdb::FloatGrid::create(tree);
-  grid->setTransform(grids.part->transform().copy());
+  if constexpr (std::same_as<Value, sim::Vec3f>) grid->setVectorType(openvdb::VEC_COVARIANT_NORMALIZE);
   return grid;
+}
+
+void addFields(openvdb::GridPtrVec& out, const std::vector<VdbField>& fields, const sim::World& world) {
+  const sim::Voxel size = world.frame().size;
+  for (const VdbField& field : fields) {
+    const auto grid = std::visit(
+        [&](const auto& parts) {
+          for (const auto& part : parts) {
+            if (part.where->bits().size() != size)
+              throw sim::InputError(fmt::format("the field {} has another size than the world", field.name));
+          }
+          return gridOf(parts, size);
+        },
+        field.parts);
+    grid->setTransform(world.grids().part->transform().copy());
+    describe(*grid, {field.name, field.description, field.unit}, world.frame());
+    for (const auto& [name, text] : field.about) grid->insertMeta(name, openvdb::StringMetadata(text));
+    out.push_back(grid);
+  }
 }
 
 openvdb::MetaMap aboutFile(const sim::World& world) {
@@ -94,9 +162,18 @@ void setId(std::string& bytes) {
   bytes.replace(kIdAt, kIdLength, hex);
 }
 
+std::string bytesOf(const openvdb::GridPtrVec& grids, const sim::World& world) {
+  std::ostringstream stream(std::ios::binary);
+  stream.exceptions(std::ios::failbit | std::ios::badbit);
+  openvdb::io::Stream(stream).write(grids, aboutFile(world));
+  std::string bytes = std::move(stream).str();
+  setId(bytes);
+  return bytes;
+}
+
 }  // namespace
 
-std::string vdbBytes(const sim::World& world, const ExposureFields& fields) {
+std::string vdbBytes(const sim::World& world, const std::vector<VdbField>& fields) {
   openvdb::initialize();
   using openvdb::FloatGrid, openvdb::Int32Grid, openvdb::Vec3SGrid;
   const sim::World::Grids& grids = world.grids();
@@ -123,21 +200,15 @@ std::string vdbBytes(const sim::World& world, const ExposureFields& fields) {
   out.push_back(shown<FloatGrid>(
       grids.distance_vx,
       {"distance", "distance to the nearest scene voxel, centre to centre", "voxel widths"}, frame));
-  if (fields.sun) {
-    out.push_back(shown<FloatGrid>(exposure(world, *fields.sun),
-                                   {"sun_exposure", "fraction of the sun's arc in sight", "1"}, frame));
-  }
-  if (fields.sky) {
-    out.push_back(shown<FloatGrid>(exposure(world, *fields.sky),
-                                   {"sky_exposure", "fraction of the sky in sight", "1"}, frame));
-  }
+  addFields(out, fields, world);
+  return bytesOf(out, world);
+}
 
-  std::ostringstream stream(std::ios::binary);
-  stream.exceptions(std::ios::failbit | std::ios::badbit);
-  openvdb::io::Stream(stream).write(out, aboutFile(world));
-  std::string bytes = std::move(stream).str();
-  setId(bytes);
-  return bytes;
+std::string fieldVdbBytes(const sim::World& world, const std::vector<VdbField>& fields) {
+  openvdb::initialize();
+  openvdb::GridPtrVec out;
+  addFields(out, fields, world);
+  return bytesOf(out, world);
 }
 
 }  // namespace espalier::render

@@ -1,24 +1,45 @@
 #pragma once
+#include <cstdint>
+#include <functional>
 #include <string>
+#include <utility>
+#include <variant>
+#include <vector>
 
-#include "sim/field.h"
+#include "sim/voxel_set.h"
 #include "sim/world.h"
 
 namespace espalier::render {
 
-/// Exposure to be written beside the world's own grids; either may be missing. Borrowed, of the world's size.
-struct ExposureFields {
-  const sim::ExposureField* sun = nullptr;
-  const sim::ExposureField* sky = nullptr;
+/// Values for some of a world's voxels. Borrows the set, which must have the world's size.
+template <class Value>
+struct VdbPart {
+  const sim::VoxelSet* where;
+  /// Of a voxel and its number in the set; several threads may ask.
+  std::function<Value(sim::Voxel voxel, std::size_t number)> value;
+};
+
+/// What is known of some of a world's voxels: a grid that is active there and nowhere else.
+struct VdbField {
+  std::string name;
+  std::string description;
+  std::string unit;
+  /// Parts that share no voxel. Directions are unit vectors in world space.
+  std::variant<std::vector<VdbPart<float>>, std::vector<VdbPart<std::int32_t>>,
+               std::vector<VdbPart<sim::Vec3f>>>
+      parts;
+  std::vector<std::pair<std::string, std::string>> about = {};  ///< more metadata: name and text
 };
 
 /// A .vdb file of the world. Grids, all with one transform from voxels to world metres: `density` (1 where
 /// occupied: what Blender shows), `part`, `colour`, `coverage`, `normal`; `layer`, `nearest` and `distance`
-/// within the boundary layers; `sun_exposure` and `sky_exposure` where given, on surfaces (judged from the
-/// free space in front of them) and in the layers around them. Every grid says what it holds and in what
-/// unit; the names of the parts are in the file's metadata. OpenVDB's random file id is replaced by one that
-/// follows from the contents, so that the same world gives the same bytes. Throws InputError where a field
-/// has another size than the world.
-std::string vdbBytes(const sim::World& world, const ExposureFields& fields = {});
+/// within the boundary layers; then the fields. Every grid says what it holds and in what unit; the names of
+/// the parts are in the file's metadata. OpenVDB's random file id is replaced by one that follows from the
+/// contents, so that the same world gives the same bytes. Throws InputError where a field has another size
+/// than the world.
+std::string vdbBytes(const sim::World& world, const std::vector<VdbField>& fields = {});
+
+/// The fields alone, with the world's transform and the names of its parts.
+std::string fieldVdbBytes(const sim::World& world, const std::vector<VdbField>& fields);
 
 }  // namespace espalier::render

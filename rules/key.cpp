@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "rules/colour.h"
+#include "sim/sun.h"
 
 namespace espalier::rules {
 namespace {
@@ -53,6 +54,7 @@ struct Writer {
     return fmt::format("\"{}\"", hexFromLinear(colour));
   }
   std::string operator()(const sim::Vec3& p) const { return fmt::format("[{}, {}, {}]", p.x, p.y, p.z); }
+  std::string operator()(std::chrono::year_month_day date) const { return sim::written(date); }
   std::string operator()(const std::string& text) const { return text; }
   std::string operator()(const RuleReference& reference) const { return reference.file; }
   template <class T>
@@ -117,6 +119,8 @@ std::string expectation(const Key& key) {
       return fmt::format("a list of polygons, each a list of points [x, y, z]{}", inUnit(key));
     case Kind::choice:
       return fmt::format("one of {}", fmt::join(key.choices, ", "));
+    case Kind::date:
+      return fmt::format("a date such as 2026-06-21, or 06-21 (of {})", static_cast<int>(sim::kUsualYear));
     case Kind::name:
       return "a name of letters, digits, '_', '-' and '.', such as south_wall";
     case Kind::text:

@@ -1,5 +1,6 @@
 #pragma once
 #include <array>
+#include <chrono>
 #include <cstdint>
 #include <functional>
 #include <limits>
@@ -38,6 +39,7 @@ enum class Kind {
   name,         ///< a word that may become part of a file name
   text,         ///< any text of one line
   names,        ///< a list of names
+  date,         ///< a day: 2026-06-21; or 06-21, of the year sim::kUsualYear
   file,         ///< a path, relative to the file that names it
   base,         ///< the file of a rule set to build on
   rules,        ///< a rule set: its file, or a mapping of rule keys
@@ -68,7 +70,7 @@ struct RuleReference {
 
 /// A value on its way between a file and a struct. monostate: none.
 using Datum = std::variant<std::monostate, bool, std::int64_t, WholeRange, double, Value, Length, sim::Colour,
-                           sim::Vec3, std::string, std::vector<sim::Vec3>,
+                           sim::Vec3, std::chrono::year_month_day, std::string, std::vector<sim::Vec3>,
                            std::vector<std::vector<sim::Vec3>>, std::vector<std::string>, RuleReference>;
 
 struct Table;

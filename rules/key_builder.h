@@ -108,6 +108,10 @@ class TableOf {
     return field<std::vector<std::vector<sim::Vec3>>>(n, Kind::polygons, a, s);
   }
   template <class A>
+  TableOf& date(std::string n, A a, About s) {
+    return field<std::chrono::year_month_day>(n, Kind::date, a, s);
+  }
+  template <class A>
   TableOf& name(std::string n, A a, About s) {
     return field<std::string>(n, Kind::name, a, s);
   }

@@ -56,6 +56,13 @@ std::shared_ptr<const Table> biasKeys() {
     return About{
         .unit = "weight", .limits = kWeight, .meaning = std::move(meaning), .greene = std::move(greene)};
   };
+  const auto light = TableOf<Bias>()
+                         .value("amount", &Bias::light, weight("How far it bends.", "seeksun_bias"))
+                         .choice<Brightest>("brightest", &Bias::brightest,
+                                            {{"moment", Brightest::moment}, {"table", Brightest::table}},
+                                            {.meaning = "moment: the mean of what is in sight, quick; table: "
+                                                        "Greene's own way, one of several openings."})
+                         .shared();
   const auto twist =
       TableOf<Bias>()
           .value(
@@ -72,8 +79,10 @@ std::shared_ptr<const Table> biasKeys() {
   return TableOf<Bias>()
       .value("up", &Bias::up, weight("Straight up.", "vertical_bias"))
       .value("gravity", &Bias::gravity, weight("Straight down."))
-      .value("light", &Bias::light,
-             weight("To the brightest part of the sky that the tip sees.", "seeksun_bias"))
+      .section(
+          "light", std::identity{}, light,
+          {.meaning = "To the brightest part of the sky that the tip sees; a number stands for its amount."},
+          "amount")
       .value("away", &Bias::away, weight("From the nearest scene object."))
       .value("toward", &Bias::toward, weight("To the nearest scene object."))
       .section("twist", std::identity{}, twist,

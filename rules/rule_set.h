@@ -32,11 +32,18 @@ struct RandomTree {
   int trials_max = 300;     ///< trials before the tip gives up
 };
 
+/// How the brightest part of the sky is found.
+enum class Brightest {
+  moment,  ///< the weighted sum of the directions in sight
+  table    ///< Greene's table of the sky, filtered with the cosine lobe
+};
+
 /// Each bends a trial's direction towards a vector by its weight: 0 not at all, 1 all the way.
 struct Bias {
   Value up = 0.0;
   Value gravity = 0.0;
-  Value light = 0.0;   ///< towards the brightest part of the sky
+  Value light = 0.0;  ///< towards the brightest part of the sky
+  Brightest brightest = Brightest::moment;
   Value away = 0.0;    ///< from the nearest scene object
   Value toward = 0.0;  ///< to the nearest scene object
   Value twist = 0.0;   ///< to one side of the plane through the last segment and the local centre of mass

@@ -52,11 +52,11 @@ Senses sense(const sim::GrowthView& view, const sim::Bud& bud, const RuleSet& ru
     sim::tileSegment(from, senses.at_vx, senses.attachment);
   }
   addSiblings(view, bud.node, senses);
-  const sim::Outlook sky = view.sky.from(view.world.opaque(), senses.voxel);
-  const sim::Outlook sun = view.sun.from(view.world.opaque(), senses.voxel);
-  senses.light = unitOrZero(sky.toward);
-  senses.sky_exposure = sky.fraction();
-  senses.sun_exposure = sun.fraction();
+  senses.light = rules.bias.brightest == Brightest::table
+                     ? sim::brightest(view.sky_table, view.world.opaque(), senses.voxel)
+                     : unitOrZero(view.light.sky.toward);
+  senses.sky_exposure = view.light.sky.fraction();
+  senses.sun_exposure = view.light.sun.fraction();
   senses.exposure = blended(rules.light, senses.sun_exposure, senses.sky_exposure);
   senses.vigour = vigourAt(rules, senses.exposure);
   senses.away = sim::awayFromScene(view.world, senses.voxel);

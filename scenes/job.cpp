@@ -8,6 +8,7 @@
 #include <map>
 
 #include "rules/random_tree.h"
+#include "scenes/lights.h"
 #include "scenes/mesh_import.h"
 #include "scenes/problem.h"
 #include "sim/error.h"
@@ -133,10 +134,6 @@ sim::Planting plant(Job& job, const PlantSpec& spec, std::size_t number) {
 
 }  // namespace
 
-sim::SunArc sunArc(const SunSpec& spec) {
-  return {spec.tilt_deg, spec.toward_deg, spec.samples};
-}
-
 Job prepareJob(Scene scene) {
   std::vector<sim::TiledMesh> meshes = readMeshes(scene);
   const std::string where = scene.file.string() + ": ";
@@ -151,11 +148,12 @@ Job prepareJob(Scene scene) {
           world.emplace(sim::buildWorld(frame, meshes, scene.world.layers, &fills));
         },
         [&] {
-          sky = sim::makeSky({scene.sky.weighting, 0.005, scene.sky.directions});
-          sun = sim::makeSun(sunArc(scene.sun));
+          sky = sim::makeSky(skySettings(scene.sky));
+          sun = makeSun(scene.sun);
         });
+    const auto random_sky = randomSky(scene.sky, scene.seed);
     Job job{std::move(scene), std::move(meshes), std::move(fills), std::move(*world), {}, {},
-            std::move(sky),   std::move(sun)};
+            std::move(sky),   random_sky,        std::move(sun)};
     for (std::size_t i = 0; i < job.scene.plants.size(); ++i) {
       job.plantings.push_back(plant(job, job.scene.plants[i], i));
     }
@@ -173,6 +171,7 @@ sim::GrowthSettings growthSettings(const Job& job) {
   settings.seed = job.scene.seed;
   settings.sky = sim::receivedBy(job.sky);
   settings.sun = job.sun.directions;
+  settings.sky_table = sim::makeSkyTable(9, 36, sim::backgroundOf(job.sky.weighting));  // cells of 10 degrees
   for (const ImageSpec& image : job.scene.images) {
     settings.record_attempts = settings.record_attempts || image.kind == ImageKind::attempts;
   }

@@ -1,5 +1,6 @@
 #pragma once
 #include <memory>
+#include <optional>
 #include <stdexcept>
 #include <vector>
 
@@ -7,6 +8,7 @@
 #include "sim/build_world.h"
 #include "sim/grow.h"
 #include "sim/rule.h"
+#include "sim/sense/random_sky.h"
 #include "sim/sky.h"
 #include "sim/sun.h"
 #include "sim/world.h"
@@ -28,6 +30,7 @@ struct Job {
   std::vector<std::unique_ptr<const sim::Rule>> rules;
   std::vector<sim::Planting> plantings;
   sim::Sky sky;
+  std::optional<sim::RandomSky> random_sky;  ///< where the scene asks for it: instead of sky's directions
   sim::Sun sun;
 };
 
@@ -36,8 +39,5 @@ Job prepareJob(Scene scene);
 
 /// Settings that the scene gives; the caller adds progress and stop.
 sim::GrowthSettings growthSettings(const Job& job);
-
-/// Greene's sun of a scene.
-sim::SunArc sunArc(const SunSpec& spec);
 
 }  // namespace espalier::scenes

@@ -17,6 +17,11 @@ using rules::Table;
 
 const char* const kNumber = "[+-]?([0-9]+(\\.[0-9]*)?|\\.[0-9]+)([eE][+-]?[0-9]+)?";
 
+// A year may be left out; 29 February then does not exist, and with a year it may.
+const char* const kDate =
+    "^(([0-9]{4}-)?((0[13578]|1[02])-(0[1-9]|[12][0-9]|3[01])|(0[469]|11)-(0[1-9]|[12][0-9]|30)|"
+    "02-(0[1-9]|1[0-9]|2[0-8]))|[0-9]{4}-02-29)$";
+
 Json reference(const std::string& name) {
   return {{"$ref", "#/$defs/" + name}};
 }
@@ -102,6 +107,8 @@ Json valueOf(const Key& key) {
       return list(list(list(bounded(key, "number"), 3, 3), 3, 64), 1, key.most);
     case Kind::choice:
       return {{"enum", key.choices}};
+    case Kind::date:
+      return {{"type", "string"}, {"pattern", kDate}};
     case Kind::name:
       return reference("name");
     case Kind::names:

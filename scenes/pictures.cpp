@@ -15,6 +15,7 @@
 #include "render/panels.h"
 #include "render/section.h"
 #include "render/visibility.h"
+#include "scenes/lights.h"
 #include "sim/error.h"
 #include "sim/parallel.h"
 #include "sim/ray.h"
@@ -39,13 +40,35 @@ std::optional<Panel> panelOf(ImageKind kind) {
       return Panel::surface_colour;
     case ImageKind::first_pass:
       return Panel::first_pass;
+    case ImageKind::sun_hours:
+      return Panel::sun_hours;
     default:
       return std::nullopt;
   }
 }
 
-std::string weightingOf(const Scene& scene) {
-  return scene.sky.weighting == sim::Weighting::cosine ? "cosine-weighted" : "solid-angle weighted";
+/// What an image's numbers are, for its header.
+render::Metadata metadataOf(const Finished& finished, const ImageSpec& image) {
+  render::Metadata metadata = {{"Title", finished.job.scene.name + ": " + image.name}};
+  for (const auto& [name, text] : finished.light.about) metadata.emplace_back("espalier:" + name, text);
+  return metadata;
+}
+
+/// Broken after commas into lines that a legend has room for.
+std::string wrapped(const std::string& text) {
+  constexpr std::size_t kWidth = 62;
+  std::string out, line;
+  for (std::size_t at = 0; at < text.size();) {
+    const std::size_t comma = std::min(text.find(", ", at), text.size() - 2);
+    const std::string piece = text.substr(at, comma + 2 - at);
+    if (!line.empty() && line.size() + piece.size() > kWidth) {
+      out += line + "\n";
+      line.clear();
+    }
+    line += piece;
+    at = comma + 2;
+  }
+  return out + line;
 }
 
 const render::Camera& cameraOf(const Scene& scene, const ImageSpec& image) {
@@ -73,6 +96,12 @@ class Studio {
     render::PanelPainter painter;
   };
 
+  render::FaceValue faces(const Received& received) const {
+    return [&light = finished_.light, &received](sim::Voxel v, std::uint8_t face) {
+      return light.atFace(received, v, face);
+    };
+  }
+
   const Finished& finished_;
   const Scene& scene_;
   sim::Bricks bricks_;
@@ -85,11 +114,16 @@ Studio::Studio(const Finished& finished)
     : finished_(finished),
       scene_(finished.job.scene),
       bricks_(finished.job.world.occupied()),
-      world_{finished.job.world.occupied(), bricks_, finished.sun, finished.sky,
+      world_{finished.job.world.occupied(),
+             bricks_,
+             faces(finished.light.sun),
+             faces(finished.light.sky),
              [&world = finished.job.world](sim::Voxel v) {
                const auto surface = world.surfaceAt(v);
                return surface ? surface->colour : sim::Colour(0.0f);
-             }} {
+             },
+             faces(finished.light.sun_hours)} {
+  look_.most_hours = std::max(0.01f, static_cast<float>(finished.light.hours_a_day));
   if (!scene_.plants.empty()) {
     const rules::RuleSet& rules = *scene_.plants.front().rules;
     const double sum = rules.light.sun + rules.light.sky;
@@ -97,7 +131,7 @@ Studio::Studio(const Finished& finished)
     look_.blend_sky = static_cast<float>(rules.light.sky / sum);
     look_.threshold = static_cast<float>(rules.require.exposure_min);
   }
-  look_.to_sun = sim::sunDirection(sunArc(scene_.sun), scene_.sun.shadow_hour);
+  look_.to_sun = shadowDirection(scene_.sun);
 }
 
 render::PanelPicture Studio::paint(const ImageSpec& image, Panel panel) {
@@ -117,21 +151,29 @@ render::PanelPicture Studio::paint(const ImageSpec& image, Panel panel) {
 }
 
 std::function<void(Image&)> Studio::legend(Panel panel) const {
-  const auto bar = [](const std::string& title, const std::string& note, const std::string& map) {
+  const auto bar = [](const std::string& title, const std::string& note, const std::string& map,
+                      float most = 1.0f, float step = 0.25f) {
     return [=](Image& picture) {
-      render::drawLegend(picture, render::BarLegend{title, note}, render::ColourMap(map));
+      render::drawLegend(picture, render::BarLegend{title, note, most, step}, render::ColourMap(map));
     };
   };
+  const std::string sky = wrapped(sim::describe(finished_.job.sky));
+  const std::string sun = wrapped(sim::describe(finished_.job.sun));
   switch (panel) {
     case Panel::sun_exposure:
-      return bar("sun exposure", "fraction of the sun's arc in sight", look_.sun_map);
+      return bar("sun exposure", "share of the sun's way in sight\n" + sun, look_.sun_map);
     case Panel::sky_exposure:
-      return bar("sky exposure", "fraction of the sky in sight, " + weightingOf(scene_), look_.sky_map);
+      return bar("sky exposure", sky, look_.sky_map);
+    case Panel::sun_hours:
+      return bar("hours of direct sun a day", sun, look_.hours_map, look_.most_hours,
+                 look_.most_hours > 8.0f   ? 2.0f
+                 : look_.most_hours > 3.0f ? 1.0f
+                                           : 0.5f);
     case Panel::threshold: {
       const auto [above, below] = render::thresholdColours();
       const render::SwatchLegend swatches{
           "exposure of the vine",
-          fmt::format("{:.2g} sun + {:.2g} sky", look_.blend_sun, look_.blend_sky),
+          fmt::format("{:.2g} sun + {:.2g} sky\n{}", look_.blend_sun, look_.blend_sky, sky),
           {{above, fmt::format("{:.2g} and more: it grows", look_.threshold)}, {below, "less: too dark"}}};
       return [swatches](Image& picture) { render::drawLegend(picture, swatches); };
     }
@@ -146,7 +188,7 @@ Image Studio::vines(const ImageSpec& image) const {
   for (const auto& model : finished_.models) scene.model.plants.push_back(&model);
   scene.frame = finished_.job.world.frame();
   scene.occupied = &finished_.job.world.occupied();
-  scene.sky = &finished_.sky;
+  scene.sky = finished_.light.space_sky.get();
   scene.to_sun = look_.to_sun;
   Image picture =
       render::finishedPicture(scene, cameraOf(scene_, image), scene_.image_width, scene_.image_height);
@@ -226,19 +268,23 @@ OutputFile png(const std::string& name, std::shared_ptr<const Image> picture, re
   return {name + ".png", [picture, metadata] { return render::encodePng(*picture, metadata); }};
 }
 
-Image contactSheet(const Scene& scene, const ImageSpec& sheet,
+Image contactSheet(const Job& job, const ImageSpec& sheet,
                    const std::map<std::string, std::shared_ptr<const Image>>& pictures) {
+  const Scene& scene = job.scene;
   std::vector<render::Captioned> captioned;
+  bool light = false;
   for (const std::string& name : sheet.of) {
     const auto spec = std::find_if(scene.images.begin(), scene.images.end(),
                                    [&](const ImageSpec& image) { return image.name == name; });
+    light = light || panelOf(spec->kind).has_value();
     const std::string letter(1, static_cast<char>('A' + captioned.size()));
     captioned.push_back({pictures.at(name).get(), spec->letter.empty() ? letter : spec->letter,
                          spec->caption.empty() ? name : spec->caption});
   }
   render::SheetLook look;
-  look.columns = captioned.size() <= 4 ? static_cast<int>(captioned.size()) : 3;
+  look.columns = captioned.size() <= 4 ? static_cast<int>(captioned.size()) : captioned.size() <= 6 ? 3 : 4;
   look.title = sheet.caption.empty() ? scene.name : sheet.caption;
+  if (light) look.note = "sky: " + sim::describe(job.sky) + "\nsun: " + sim::describe(job.sun);
   return render::contactSheet(captioned, look);
 }
 
@@ -254,9 +300,7 @@ std::vector<OutputFile> drawPictures(const Finished& finished, const std::stop_t
     pictures[image.name] = kept;
     return kept;
   };
-  const auto metadata = [&](const ImageSpec& image) {
-    return render::Metadata{{"Title", scene.name + ": " + image.name}, {"espalier:sky", weightingOf(scene)}};
-  };
+  const auto metadata = [&](const ImageSpec& image) { return metadataOf(finished, image); };
   // The two that take time, side by side: each has stretches that keep one core alone busy.
   std::map<std::string, render::PanelPicture> panels;
   std::map<std::string, Image> vines;
@@ -301,8 +345,8 @@ std::vector<OutputFile> drawPictures(const Finished& finished, const std::stop_t
   }
   for (const ImageSpec& image : scene.images) {
     if (image.kind != ImageKind::contact_sheet) continue;
-    files.push_back({image.name + ".png", [&scene, image, pictures, about = metadata(image)] {
-                       return render::encodePng(contactSheet(scene, image, pictures), about);
+    files.push_back({image.name + ".png", [&job = finished.job, image, pictures, about = metadata(image)] {
+                       return render::encodePng(contactSheet(job, image, pictures), about);
                      }});
   }
   return files;

@@ -1,12 +1,11 @@
 #pragma once
-#include <functional>
 #include <stop_token>
-#include <string>
 #include <vector>
 
 #include "render/plant_model.h"
 #include "scenes/job.h"
-#include "sim/field.h"
+#include "scenes/lighting.h"
+#include "scenes/output_files.h"
 #include "sim/grow.h"
 
 namespace espalier::scenes {
@@ -15,15 +14,8 @@ namespace espalier::scenes {
 struct Finished {
   const Job& job;
   const sim::Growth& growth;
-  const sim::ExposureField& sun;
-  const sim::ExposureField& sky;
+  const Lighting& light;                          ///< in all of space too, where there is an image of vines
   const std::vector<render::PlantModel>& models;  ///< one a plant
-};
-
-/// A file to be written, once its bytes have been made.
-struct OutputFile {
-  std::string name;
-  std::function<std::string()> bytes;  ///< may run on any thread, as long as what it was made from lives
 };
 
 /// Draws the images that a scene asks for, in its order: PNG files for the eye, and EXR files with the pure

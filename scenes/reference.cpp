@@ -50,10 +50,12 @@ How values are written:
 - *length*: metres, as a number or as text with a unit: `0.04`, `4 cm`, `40 mm`, `0.04 m`.
 - *point*: `[x, y, z]`; *place*: the same in lengths.
 - *colour*: `"#a05f46"`, in quotes, for an unquoted `#` begins a comment; or `[r, g, b]` from 0 to 1. Both sRGB.
+- *date*: `2026-06-21`; or `06-21`, of 2017, the year of the common tables of the sun.
 - *name*: letters, digits, `_`, `-` and `.`: it may become part of a file's name.
 - *rule set*: a rule file's path, or a mapping of the keys of one (see the page of rule files).
 
 `world` needs either a voxel size or a resolution. An entry of `meshes` may be just a path, one of `images` just its kind.
+`sun` is an inclined arc, or with `place` a real sun on a date or a range of dates.
 )";
 
 std::string kindText(const Key& key) {
@@ -85,6 +87,8 @@ std::string kindText(const Key& key) {
       return "list of polygons";
     case Kind::choice:
       return fmt::format("`{}`", fmt::join(key.choices, "`, `"));
+    case Kind::date:
+      return "date";
     case Kind::name:
       return "name";
     case Kind::text:

@@ -1,6 +1,7 @@
 #include "scenes/registry.h"
 
 #include "rules/key_builder.h"
+#include "scenes/light_keys.h"
 #include "scenes/scene.h"
 
 namespace espalier::scenes {
@@ -82,35 +83,18 @@ std::shared_ptr<const Table> worldKeys() {
       .shared();
 }
 
-std::shared_ptr<const Table> skyKeys() {
-  return TableOf<SkySpec>()
-      .choice<sim::Weighting>(
-          "weighting", &SkySpec::weighting,
-          {{"uniform", sim::Weighting::uniform}, {"cosine", sim::Weighting::cosine}},
-          {.meaning = "Each direction counts by its solid angle (Greene's way), or also by "
-                      "the cosine with the vertical, as a level surface receives it."})
-      .whole(
-          "directions", &SkySpec::directions,
-          {.unit = "directions", .limits = {1.0, 4096.0}, .meaning = "Directions over the sky's hemisphere."})
-      .shared();
-}
-
-std::shared_ptr<const Table> sunKeys() {
-  return TableOf<SunSpec>()
-      .number("tilt", &SunSpec::tilt_deg,
-              {.unit = kDegrees,
-               .limits = {0.0, 85.0},
-               .meaning = "How far the sun's half circle leans from the vertical."})
-      .number("toward", &SunSpec::toward_deg,
-              {.unit = kDegrees,
-               .limits = {-360.0, 360.0},
-               .meaning = "The compass way to which it leans: 0 is -z, 90 is +x, 180 is +z."})
-      .whole("samples", &SunSpec::samples,
-             {.unit = "directions", .limits = {1.0, 65'536.0}, .meaning = "Places of the sun along its way."})
-      .number("shadow_hour", &SunSpec::shadow_hour,
-              {.unit = "hours",
-               .limits = {6.0, 18.0},
-               .meaning = "Time of day of a shadow_matte: 6 sunrise, 12 the top of the way, 18 sunset."})
+std::shared_ptr<const Table> exposureKeys() {
+  return TableOf<ExposureSpec>()
+      .choice<ExposureWhere>("where", &ExposureSpec::where,
+                             {{"surfaces", ExposureWhere::surfaces},
+                              {"band", ExposureWhere::band},
+                              {"everything", ExposureWhere::everything}},
+                             {.meaning = "On surfaces alone, in the free space near them too, or in all of "
+                                         "the world's free space."})
+      .whole("band", &ExposureSpec::band_vx,
+             {.unit = "voxels",
+              .limits = {1.0, 64.0},
+              .meaning = "How far the free space near surfaces reaches, for where: band."})
       .shared();
 }
 
@@ -158,8 +142,8 @@ std::shared_ptr<const Table> imageKeys() {
   std::vector<std::pair<std::string, ImageKind>> kinds;
   for (const auto kind :
        {ImageKind::sun_exposure, ImageKind::sky_exposure, ImageKind::threshold, ImageKind::shadow_matte,
-        ImageKind::surface_colour, ImageKind::first_pass, ImageKind::vines, ImageKind::section,
-        ImageKind::attempts, ImageKind::contact_sheet}) {
+        ImageKind::surface_colour, ImageKind::first_pass, ImageKind::sun_hours, ImageKind::vines,
+        ImageKind::section, ImageKind::attempts, ImageKind::contact_sheet}) {
     kinds.emplace_back(nameOf(kind), kind);
   }
   return TableOf<ImageSpec>()
@@ -201,7 +185,9 @@ Table makeTable() {
                {.meaning = "How the meshes become voxels.", .required = true})
       .section("sky", &Scene::sky, skyKeys(), {.meaning = "How sky_exposure is found."})
       .section("sun", &Scene::sun, sunKeys(),
-               {.meaning = "How sun_exposure is found: Greene's half circle from horizon to horizon."})
+               {.meaning = "How sun_exposure is found: Greene's inclined arc, or with a place the real sun."})
+      .section("exposure", &Scene::exposure, exposureKeys(),
+               {.meaning = "What espalier expose finds beside the exposure of surfaces."})
       .list<PlantSpec>("plants", Kind::entries, &Scene::plants, plantKeys(),
                        {.meaning = "What grows.", .most = kMostEntries})
       .whole("iterations", &Scene::iterations,

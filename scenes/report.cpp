@@ -18,7 +18,28 @@ Json outcomes(const sim::OutcomeCounts& counts) {
   return json;
 }
 
+Json growth(const Report::Growth& growth) {
+  Json plants = Json::array();
+  for (const auto& [name, counts] : growth.plants) {
+    plants.push_back({{"name", name}, {"segments", counts[0]}, {"elements", counts[1]}});
+  }
+  return {{"iterations", growth.iterations},
+          {"state_hash", fmt::format("{:016x}", growth.state_hash)},
+          {"buds", outcomes(growth.buds)},
+          {"trials", outcomes(growth.trials)},
+          {"plants", plants}};
+}
+
 }  // namespace
+
+void describeWorld(Report& report, const Job& job) {
+  report.scene = job.scene.name;
+  report.frame = job.world.frame();
+  report.fills = job.fills;
+  report.scene_voxels = job.world.occupied().count();
+  report.occupied_voxels = report.scene_voxels;
+  for (const auto& tiled : job.meshes) report.degenerate_triangles += tiled.mesh.degenerate_dropped;
+}
 
 std::uint64_t peakMemoryBytes() {
   rusage usage{};
@@ -42,15 +63,15 @@ std::string toJson(const Report& report) {
         {{"object", fill.object}, {"filled_voxels", fill.filled}, {"doubtful_voxels", fill.doubtful}});
   }
   json["world"]["fills"] = fills;
-  Json plants = Json::array();
-  for (const auto& [name, counts] : report.plants) {
-    plants.push_back({{"name", name}, {"segments", counts[0]}, {"elements", counts[1]}});
+  Json light = Json::object();
+  for (const auto& [name, text] : report.light) light[name] = text;
+  json["light"] = light;
+  if (report.growth) json["growth"] = growth(*report.growth);
+  if (report.exposure) {
+    json["exposure"] = {{"surface_voxels", report.exposure->surfaces},
+                        {"sideless_voxels", report.exposure->sideless},
+                        {"free_voxels", report.exposure->in_space}};
   }
-  json["growth"] = {{"iterations", report.iterations},
-                    {"state_hash", fmt::format("{:016x}", report.state_hash)},
-                    {"buds", outcomes(report.buds)},
-                    {"trials", outcomes(report.trials)},
-                    {"plants", plants}};
   json["files"] = report.files;
   Json stages = Json::object();
   for (const auto& [stage, seconds] : report.run.stages_s) stages[stage] = seconds;

@@ -1,5 +1,7 @@
 #pragma once
+#include <array>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -17,10 +19,24 @@ struct Report {
   std::size_t scene_voxels = 0;     ///< before they grew
   std::size_t degenerate_triangles = 0;
   std::vector<sim::FillReport> fills;
-  int iterations = 0;
-  std::vector<std::pair<std::string, std::array<std::size_t, 2>>> plants;  ///< name, segments and elements
-  sim::OutcomeCounts buds{}, trials{};
-  std::uint64_t state_hash = 0;
+  /// What the numbers of its light are, by name (Lighting::about).
+  std::vector<std::pair<std::string, std::string>> light;
+
+  struct Growth {
+    int iterations = 0;
+    std::vector<std::pair<std::string, std::array<std::size_t, 2>>> plants;  ///< name, segments and elements
+    sim::OutcomeCounts buds{}, trials{};
+    std::uint64_t state_hash = 0;
+  };
+  std::optional<Growth> growth;  ///< where plants grew
+
+  /// Surface voxels whose exposure was found, and those that have no side to be judged by.
+  struct Exposure {
+    std::size_t surfaces = 0, sideless = 0;
+    std::size_t in_space = 0;  ///< free voxels whose exposure was found
+  };
+  std::optional<Exposure> exposure;  ///< where it was what the run was for
+
   std::vector<std::string> files;  ///< that were written, in the output folder
 
   struct Run {
@@ -33,6 +49,9 @@ struct Report {
 
 /// JSON, two spaces deep, keys in the order above.
 std::string toJson(const Report& report);
+
+/// Fills in what there is to say of a world before anything grows in it.
+void describeWorld(Report& report, const Job& job);
 
 /// The most memory that this process has held so far.
 std::uint64_t peakMemoryBytes();

@@ -16,6 +16,8 @@ std::string_view nameOf(ImageKind kind) {
       return "surface_colour";
     case ImageKind::first_pass:
       return "first_pass";
+    case ImageKind::sun_hours:
+      return "sun_hours";
     case ImageKind::vines:
       return "vines";
     case ImageKind::section:

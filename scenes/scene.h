@@ -1,5 +1,6 @@
 #pragma once
 #include <array>
+#include <chrono>
 #include <cstdint>
 #include <filesystem>
 #include <memory>
@@ -11,6 +12,7 @@
 #include "render/camera.h"
 #include "rules/rule_set.h"
 #include "sim/sky.h"
+#include "sim/sun.h"
 #include "sim/vec.h"
 
 /// A scene as plain structs: what was asked for, with nothing yet read but the rule files it names.
@@ -40,18 +42,60 @@ struct WorldSpec {
   int layers = 4;
 };
 
+/// Where the sky is looked for: along the same lattice directions from everywhere, or along Greene's random
+/// rays from each place.
+enum class Sampling { lattice, random };
+
 struct SkySpec {
   sim::Weighting weighting = sim::Weighting::uniform;
-  int directions = 128;
+  double accuracy = 0.005;        ///< standard error of sky_exposure
+  std::optional<int> directions;  ///< instead
+  Sampling sampling = Sampling::lattice;
+  int rays = 100;  ///< from each place, of random sampling
 };
 
-/// Greene's sun: a half circle from horizon to horizon through a point `tilt` from the zenith.
+/// The sun: an inclined arc, or with a place the real one.
 struct SunSpec {
-  double tilt_deg = 20.0;     ///< the arc's inclination from the vertical
+  struct Place {
+    double latitude_deg = 0.0, longitude_deg = 0.0;  ///< north and east are positive
+    double utc_offset_h = 0.0;                       ///< of the local clock
+  };
+  struct Dates {
+    std::chrono::year_month_day from, to;  ///< both included
+  };
+  struct Hours {
+    double from = 0.0, to = 24.0;  ///< by the local clock
+  };
+
+  // Greene's arc: a half circle from horizon to horizon through a point `tilt` from the zenith.
+  double tilt_deg = 20.0;
   double toward_deg = 180.0;  ///< the compass way to which it leans: 0 = -z (north), 90 = +x (east), 180 = +z
   int samples = 48;
-  double shadow_hour =
-      15.0;  ///< time of day of the shadow matte: 6 sunrise .. 12 top of the arc .. 18 sunset
+
+  // The real sun.
+  std::optional<Place> place;
+  std::optional<std::chrono::year_month_day> date;  ///< either this
+  std::optional<Dates> dates;                       ///< or these
+  Hours hours;
+  double step_min = 10.0;
+  sim::SunWeighting weighting = sim::SunWeighting::even;
+  double north_deg = 0.0;  ///< the model's compass way of true north
+
+  // Either.
+  double accuracy_deg = sim::kSunAngle;  ///< of its directions
+  double shadow_hour = 15.0;  ///< time of day of the shadow matte; on the arc 6 is sunrise and 18 sunset
+
+  std::chrono::year_month_day firstDay() const {
+    return date ? *date : dates ? dates->from : std::chrono::year_month_day{};
+  }
+};
+
+/// Where exposure maps are wanted beside the surfaces.
+enum class ExposureWhere { surfaces, band, everything };
+
+struct ExposureSpec {
+  ExposureWhere where = ExposureWhere::surfaces;
+  int band_vx = 4;  ///< of ExposureWhere::band: free voxels up to so many from a surface
 };
 
 struct Scatter {
@@ -79,6 +123,7 @@ enum class ImageKind {
   shadow_matte,
   surface_colour,
   first_pass,  // Greene's figure 6
+  sun_hours,   // of direct sun, a day
   vines,       // the plant itself, leaves and stems
   section,     // a cut through the world with its boundary layers
   attempts,    // every trial of a flat walk and the voxels taken, beside the skeleton
@@ -106,6 +151,7 @@ struct Scene {
   WorldSpec world;
   SkySpec sky;
   SunSpec sun;
+  ExposureSpec exposure;
   std::vector<PlantSpec> plants;
   int iterations = 50;
   std::uint64_t seed = 1;

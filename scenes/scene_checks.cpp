@@ -4,6 +4,7 @@
 #include <cmath>
 #include <set>
 
+#include "scenes/light_keys.h"
 #include "scenes/problem.h"
 #include "scenes/registry.h"
 #include "scenes/scene.h"
@@ -176,6 +177,8 @@ const std::vector<Check>& sceneChecks() {
       check({"world.bounds", "world.voxel"}, checkBounds),
       check({"world.bounds"}, checkSeeds),
       check({"meshes", "world.bounds"}, checkMeshes),
+      check({"sky"}, checkSky),
+      check({"sun"}, checkSun),
       check({}, checkPlants),
       check({}, [](const Scene& s, const Given&,
                    const Complain& complain) { checkNames(s.meshes, "meshes", complain); }),

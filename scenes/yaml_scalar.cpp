@@ -3,8 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <charconv>
 
 #include "rules/colour.h"
+#include "sim/sun.h"
 
 namespace espalier::scenes {
 
@@ -97,6 +99,42 @@ std::optional<std::string> ScalarReader::text(const Node& node) const {
     return fail(node, fmt::format("is a text of {} bytes, more than {}", node.text.size(), kLongestText));
   if (node.text.find('\n') != node.text.npos) return wrongScalar(node, "has more than one line");
   return node.text;
+}
+
+std::optional<std::chrono::year_month_day> ScalarReader::date(const Node& node) const {
+  const auto read = text(node);
+  if (!read) return std::nullopt;
+  std::string_view shape = *read;
+  const auto number = [&](std::size_t digits) -> std::optional<int> {
+    int value = 0;
+    const auto [end, error] =
+        std::from_chars(shape.data(), shape.data() + std::min(digits, shape.size()), value);
+    if (error != std::errc{} || end != shape.data() + digits || shape[0] == '-') return std::nullopt;
+    shape.remove_prefix(digits);
+    return value;
+  };
+  const auto dash = [&] {
+    const bool here = shape.starts_with('-');
+    shape.remove_prefix(here ? 1 : 0);
+    return here;
+  };
+  std::optional<int> year = static_cast<int>(sim::kUsualYear);
+  constexpr std::size_t kWithYear = 10, kWithout = 5;  // 2026-06-21, 06-21
+  if (shape.size() == kWithYear) {
+    year = number(4);
+    if (!year || !dash()) return wrongScalar(node, "is no date");
+  } else if (shape.size() != kWithout) {
+    return wrongScalar(node, "is no date");
+  }
+  const auto month = number(2);
+  const bool parted = month && dash();
+  const auto day = parted ? number(2) : std::nullopt;
+  if (!day) return wrongScalar(node, "is no date");
+  const std::chrono::year_month_day date{std::chrono::year{*year},
+                                         std::chrono::month{static_cast<unsigned>(*month)},
+                                         std::chrono::day{static_cast<unsigned>(*day)}};
+  if (!date.ok()) return wrongScalar(node, "is a day that does not exist");
+  return date;
 }
 
 std::optional<std::string> ScalarReader::name(const Node& node) const {

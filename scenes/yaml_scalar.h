@@ -1,4 +1,5 @@
 #pragma once
+#include <chrono>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -32,6 +33,7 @@ struct ScalarReader {
   std::optional<double> metres(const YamlNode& node) const;
   std::optional<bool> flag(const YamlNode& node) const;
   std::optional<std::string> text(const YamlNode& node) const;
+  std::optional<std::chrono::year_month_day> date(const YamlNode& node) const;
   std::optional<std::string> name(const YamlNode& node) const;
   std::optional<std::string> choice(const YamlNode& node) const;
   std::optional<sim::Colour> hexColour(const YamlNode& node) const;

@@ -244,6 +244,8 @@ std::optional<Datum> readDatum(const Node& node, const Key& key, const std::stri
       return datum(listOf(read, node, key.most, polygon));
     case Kind::choice:
       return datum(read.choice(node));
+    case Kind::date:
+      return datum(read.date(node));
     case Kind::name:
       return datum(read.name(node));
     case Kind::text:

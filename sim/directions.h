@@ -1,5 +1,6 @@
 #pragma once
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 #include "sim/vec.h"
@@ -18,8 +19,7 @@ struct LatticeDirection {
 
 inline constexpr int kLongestComponent = 63;  ///< a sweep reads at most a word to either side
 
-/// Directions whose weights add up to at most ExposureField::kWhole. Empty where there is nothing to see (a
-/// sun that never rises), and then every exposure is 0.
+/// Directions whose weights add up to at most ExposureField::kWhole. With none of them every exposure is 0.
 using DirectionSet = std::vector<LatticeDirection>;
 
 /// One direction with all the weight: a shadow matte.
@@ -29,9 +29,20 @@ DirectionSet singleDirection(Vec3 unit);
 /// vector.
 Voxel nearestLatticeVector(Vec3 unit, int longest);
 
+/// Calls visit for primitive vectors that lie around a unit vector, their longest component growing from 1 to
+/// kLongestComponent, until it returns false: among the vectors of one size, those on every side of the unit
+/// vector. v.y >= lowest, which is 0 or 1; some come more than once.
+void forEachLatticeVector(Vec3 unit, int lowest, const std::function<bool(int longest, Voxel v)>& visit);
+
+/// The sine of the angle between a vector and a unit vector; 1 from a right angle on.
+double sineBetween(Voxel v, Vec3 unit);
+
+/// How many voxels a ray crosses in one period of v: what a sweep along it costs.
+int crossedCount(Voxel v);
+
 /// A set of these directions with whole-number weights in proportion to the shares, adding up to `total`:
 /// what rounding leaves over goes to the largest remainders. Shares must not be negative; directions whose
-/// weight comes to 0 stay in the set.
+/// weight comes to 0 stay in the set. Shares of nothing but 0 give weights of 0.
 DirectionSet directionSet(const std::vector<Voxel>& vectors, const std::vector<double>& shares, int total);
 
 /// Voxels crossed on one period of v: LatticeDirection::crossed.

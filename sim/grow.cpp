@@ -121,6 +121,17 @@ State plantSeeds(World& world, const std::vector<Planting>& plantings) {
   return state;
 }
 
+Voxel voxelOf(const Bud& bud, const State& state) {
+  const Skeleton& skeleton = state.plants[static_cast<std::size_t>(bud.plant)].plant.skeleton;
+  return voxelAt(skeleton.position_vx[static_cast<std::size_t>(bud.node)]);
+}
+
+std::vector<Voxel> voxelsOf(const std::vector<Bud>& buds, const State& state) {
+  std::vector<Voxel> voxels;
+  for (const Bud& bud : buds) voxels.push_back(voxelOf(bud, state));
+  return voxels;
+}
+
 void occupyWith(std::vector<TiledVoxel>& edit, std::span<const Voxel> voxels, const Surface& surface) {
   for (const Voxel v : voxels) edit.push_back({v, surface});
 }
@@ -155,20 +166,22 @@ Growth grow(World& world, const std::vector<Planting>& plantings, const GrowthSe
   Growth growth;
   State state = plantSeeds(world, plantings);
   Claims claims(world.frame().size);
-  const Lookout sky(world.opaque(), settings.sky), sun(world.opaque(), settings.sun);
+  const LightSensor sensor(world.opaque(), settings.sky, settings.sun);
   std::size_t segments = 0;
 
   for (int iteration = 0; iteration < settings.iterations && !state.buds.empty(); ++iteration) {
     std::vector<Bud> due, next;
     for (const Bud& bud : state.buds) (bud.due <= iteration ? due : next).push_back(bud);
 
+    const std::vector<Light> lights = sensor.at(world.opaque(), voxelsOf(due, state));
     std::vector<Proposal> proposals(due.size());
     parallelFor(due.size(), 4, [&](std::size_t begin, std::size_t end) {
       for (std::size_t i = begin; i < end && !settings.stop.stop_requested(); ++i) {
         const Bud& bud = due[i];
         const Growing& growing = state.plants[static_cast<std::size_t>(bud.plant)];
-        const GrowthView view{world, growing.plant, growing.children,        sky,
-                              sun,   iteration,     settings.record_attempts};
+        const GrowthView view{
+            world,     growing.plant,           growing.children, lights[i], settings.sky_table,
+            iteration, settings.record_attempts};
         const RandomKey key{settings.seed, static_cast<std::uint32_t>(bud.plant), agentOf(bud),
                             static_cast<std::uint32_t>(iteration)};
         proposals[i] = growing.rule->propose(view, bud, key);
@@ -183,7 +196,7 @@ Growth grow(World& world, const std::vector<Planting>& plantings, const GrowthSe
       Proposal& proposal = proposals[i];
       Growing& growing = state.plants[static_cast<std::size_t>(bud.plant)];
       const Skeleton& skeleton = growing.plant.skeleton;
-      const Voxel start = voxelAt(skeleton.position_vx[static_cast<std::size_t>(bud.node)]);
+      const Voxel start = voxelOf(bud, state);
       if (proposal.outcome == Outcome::grown && !claims.allow(proposal.voxels, bud, start)) {
         proposal.outcome = Outcome::claimed;
         proposal.retire = false;

@@ -7,6 +7,7 @@
 
 #include "sim/directions.h"
 #include "sim/rule.h"
+#include "sim/sense/brightest.h"
 
 namespace espalier::sim {
 
@@ -28,6 +29,7 @@ struct GrowthSettings {
   int iterations = 50;
   std::uint64_t seed = 1;
   DirectionSet sky, sun;
+  SkyTable sky_table;  ///< may be empty where no rule looks for the brightest spot
   bool record_attempts = false;
   std::stop_token stop;
   std::function<void(const GrowthProgress&)> progress;  ///< after each iteration

@@ -33,46 +33,128 @@ HWY_INLINE Vector funnel(Vector low, Vector high, const std::uint64_t* shift) {
 #endif
 }
 
-template <std::size_t kWords>
-HWY_INLINE void uniteWords(std::span<const Read> reads, std::size_t line, Word* out, std::size_t at) {
-  const Words d;
-  Vector all[kWords];
-  for (std::size_t w = 0; w < kWords; ++w) all[w] = hn::Zero(d);
-  for (const Read& read : reads) {
-    const Word* const from = read.from + at;
-    Vector words[kWords + 1];
-    for (std::size_t w = 0; w <= kWords; ++w) words[w] = hn::LoadU(d, from + w * line);
-    if (read.unmoved) {
-      for (std::size_t w = 0; w < kWords; ++w) all[w] = hn::Or(all[w], words[w]);
-    }
-    for (std::uint32_t s = 0; s < read.count; ++s) {
-      for (std::size_t w = 0; w < kWords; ++w)
-        all[w] = hn::Or(all[w], funnel(words[w], words[w + 1], read.shifts + s));
-    }
-  }
-  for (std::size_t w = 0; w < kWords; ++w) hn::Store(all[w], d, out + at + w * line);
+HWY_INLINE std::size_t lowest(Blocks blocks) {
+  return hwy::Num0BitsBelowLS1Bit_Nonzero64(blocks);
 }
 
-void Unite(std::span<const Read> reads, std::size_t line, Word* out, std::size_t words, std::size_t z0,
-           std::size_t z1) {
-  const std::size_t n = hn::Lanes(Words());
-  for (std::size_t z = z0; z < z1; z += n) {
-    std::size_t w = 0;
-    for (; w + 4 <= words; w += 4) uniteWords<4>(reads, line, out, w * line + z);
-    switch (words - w) {
-      case 3:
-        uniteWords<3>(reads, line, out, w * line + z);
-        break;
-      case 2:
-        uniteWords<2>(reads, line, out, w * line + z);
-        break;
-      case 1:
-        uniteWords<1>(reads, line, out, w * line + z);
-        break;
-      default:
-        break;
+HWY_INLINE bool holdsAnything(const Word* block) {
+  const Words d;
+  Vector all = hn::Load(d, block);
+  for (std::size_t i = hn::Lanes(d); i < kRows; i += hn::Lanes(d)) all = hn::Or(all, hn::Load(d, block + i));
+  return !hn::AllTrue(d, hn::Eq(all, hn::Zero(d)));
+}
+
+HWY_INLINE Blocks thatHoldAnything(const Word* line, Blocks blocks) {
+  Blocks filled = 0;
+  for (Blocks left = blocks; left != 0; left &= left - 1) {
+    if (holdsAnything(line + kRows * lowest(left))) filled |= left & (~left + 1);
+  }
+  return filled;
+}
+
+/// Lines w .. w + kWords - 1, all blocks.
+template <std::size_t kWords>
+HWY_INLINE void uniteDense(std::span<const Read> reads, std::size_t line, Word* out, std::size_t w,
+                           std::size_t blocks) {
+  const Words d;
+  for (std::size_t z = 0; z < blocks * kRows; z += hn::Lanes(d)) {
+    const std::size_t at = w * line + z;
+    Vector all[kWords];
+    for (std::size_t i = 0; i < kWords; ++i) all[i] = hn::Zero(d);
+    for (const Read& read : reads) {
+      const Word* const from = read.from + at;
+      Vector words[kWords + 1];
+      for (std::size_t i = 0; i <= kWords; ++i) words[i] = hn::LoadU(d, from + i * line);
+      if (read.unmoved) {
+        for (std::size_t i = 0; i < kWords; ++i) all[i] = hn::Or(all[i], words[i]);
+      }
+      for (std::uint32_t s = 0; s < read.count; ++s) {
+        for (std::size_t i = 0; i < kWords; ++i)
+          all[i] = hn::Or(all[i], funnel(words[i], words[i + 1], read.shifts + s));
+      }
+    }
+    for (std::size_t i = 0; i < kWords; ++i) hn::Store(all[i], d, out + at + i * line);
+  }
+}
+
+/// Line w, block by block where reads[r] has anything in the blocks filled[r].
+HWY_INLINE void uniteSparse(std::span<const Read> reads, const Blocks* filled, Blocks touched,
+                            std::size_t line, Word* out, std::size_t w) {
+  const Words d;
+  const std::size_t n = hn::Lanes(d);
+  for (Blocks left = touched; left != 0; left &= left - 1) {
+    Word* const block = out + w * line + kRows * lowest(left);
+    for (std::size_t i = 0; i < kRows; i += n) hn::Store(hn::Zero(d), d, block + i);
+  }
+  for (std::size_t r = 0; r < reads.size(); ++r) {
+    const Read& read = reads[r];
+    for (Blocks left = filled[r]; left != 0; left &= left - 1) {
+      const std::size_t first = w * line + kRows * lowest(left);
+      for (std::size_t at = first; at < first + kRows; at += n) {
+        const Vector low = hn::LoadU(d, read.from + at), high = hn::LoadU(d, read.from + line + at);
+        Vector all = hn::Load(d, out + at);
+        if (read.unmoved) all = hn::Or(all, low);
+        for (std::uint32_t s = 0; s < read.count; ++s) all = hn::Or(all, funnel(low, high, read.shifts + s));
+        hn::Store(all, d, out + at);
+      }
     }
   }
+}
+
+constexpr std::size_t kMostReads = 256;
+constexpr std::size_t kWordsAtOnce = 4;
+
+void Unite(std::span<const Read> reads, Lines lines, Word* out, std::size_t words, std::size_t blocks,
+           Blocks* filled) {
+  const Blocks wanted = (Blocks{1} << blocks) - 1;
+  Blocks sources[kWordsAtOnce][kMostReads];
+  for (std::size_t w = 0; w < words; w += kWordsAtOnce) {
+    const std::size_t n = words - w < kWordsAtOnce ? words - w : kWordsAtOnce;
+    std::size_t sum = 0;
+    for (std::size_t r = 0; r < reads.size(); ++r) {
+      const Read& read = reads[r];
+      const auto line = [&](std::size_t i) {
+        const Blocks* const at = read.filled + (w + i) * lines.blocks;
+        const Blocks here = (at[0] >> read.first) | (at[1] << 1 << (63 - read.first));
+        return read.astride ? here | (here >> 1) : here;
+      };
+      Blocks low = line(0);
+      for (std::size_t i = 0; i < n; ++i) {
+        const Blocks high = read.count == 0 ? 0 : line(i + 1);
+        sources[i][r] = (low | high) & wanted;
+        sum += hwy::PopCount(sources[i][r]);
+        low = read.count == 0 ? line(i + 1) : high;
+      }
+    }
+    if (5 * sum > 2 * reads.size() * n * blocks) {
+      switch (n) {
+        case 1:
+          uniteDense<1>(reads, lines.words, out, w, blocks);
+          break;
+        case 2:
+          uniteDense<2>(reads, lines.words, out, w, blocks);
+          break;
+        case 3:
+          uniteDense<3>(reads, lines.words, out, w, blocks);
+          break;
+        default:
+          uniteDense<4>(reads, lines.words, out, w, blocks);
+      }
+      for (std::size_t i = 0; i < n; ++i)
+        filled[w + i] = thatHoldAnything(out + (w + i) * lines.words, wanted);
+    } else {
+      for (std::size_t i = 0; i < n; ++i) {
+        Blocks touched = filled[w + i];
+        for (std::size_t r = 0; r < reads.size(); ++r) touched |= sources[i][r];
+        uniteSparse(reads, sources[i], touched, lines.words, out, w + i);
+        filled[w + i] = thatHoldAnything(out + (w + i) * lines.words, touched);
+      }
+    }
+  }
+}
+
+Blocks AnythingIn(const Word* line, std::size_t blocks) {
+  return thatHoldAnything(line, (Blocks{1} << blocks) - 1);
 }
 
 /// sum = a + b + c modulo 2, and what is carried.
@@ -174,11 +256,16 @@ HWY_AFTER_NAMESPACE();
 namespace espalier::sim::lanes {
 
 HWY_EXPORT(Unite);
+HWY_EXPORT(AnythingIn);
 HWY_EXPORT(Sums);
 
-void unite(std::span<const Read> reads, std::size_t line, Word* out, std::size_t words, std::size_t z0,
-           std::size_t z1) {
-  HWY_DYNAMIC_DISPATCH(Unite)(reads, line, out, words, z0, z1);
+void unite(std::span<const Read> reads, Lines lines, Word* out, std::size_t words, std::size_t blocks,
+           Blocks* filled) {
+  HWY_DYNAMIC_DISPATCH(Unite)(reads, lines, out, words, blocks, filled);
+}
+
+Blocks anythingIn(const Word* line, std::size_t blocks) {
+  return HWY_DYNAMIC_DISPATCH(AnythingIn)(line, blocks);
 }
 
 Adders::Adders(std::span<const std::uint16_t> weights) {

@@ -16,18 +16,33 @@ using Word = std::uint64_t;
 /// x stays in its lanes. `line` words lie between (w, z) and (w + 1, z).
 inline constexpr std::size_t kRows = 8;
 
+/// A set of blocks of kRows rows each: bit j is rows kRows * j .. kRows * (j + 1) - 1.
+using Blocks = std::uint64_t;
+inline constexpr std::size_t kMostBlocks = 63;  ///< that are swept at once
+
 /// Words that are read several times, their voxels moved down by 0 .. 63 each time.
 struct Read {
-  const Word* from;  ///< what word (0, 0) of the result reads; readable for one line more than asked for
-  const std::uint64_t* shifts;  ///< not 0
+  const Word* from;      ///< what word (0, 0) of the result reads; readable for one line more than asked for
+  const Blocks* filled;  ///< from bit `first` of this word on: which blocks of what is read hold anything
+  unsigned first;        ///< < 64
+  bool astride;          ///< what a block reads lies in two
+  bool unmoved;          ///< read as it stands too
   std::uint32_t count;
-  bool unmoved;  ///< read as it stands too
+  const std::uint64_t* shifts;  ///< not 0
 };
 
-/// out(w, z) = the union of all reads for w < words and z0 <= z < z1, both multiples of kRows. `out` is none
-/// of what is read.
-void unite(std::span<const Read> reads, std::size_t line, Word* out, std::size_t words, std::size_t z0,
-           std::size_t z1);
+/// Words from line to line, of voxels and of the sets that say which blocks hold anything.
+struct Lines {
+  std::size_t words, blocks;
+};
+
+/// out(w, z) = the union of all reads, for w < words and `blocks` blocks of rows. `out` is none of what is
+/// read. filled[w] says which blocks of the result hold anything; before the call, which blocks of `out` do.
+void unite(std::span<const Read> reads, Lines lines, Word* out, std::size_t words, std::size_t blocks,
+           Blocks* filled);
+
+/// Which of the first blocks of a line hold anything.
+Blocks anythingIn(const Word* line, std::size_t blocks);
 
 /// Weighted counts by carry-save adders: the bits of the weights say which adders a direction goes through.
 class Adders {

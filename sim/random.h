@@ -17,7 +17,7 @@ struct RandomKey {
 };
 
 /// Keeps the draws for different ends apart.
-enum class Purpose : std::uint32_t { rate, tip, branch, branch_age, element, scatter, opacity, spot };
+enum class Purpose : std::uint32_t { rate, tip, branch, branch_age, element, scatter, opacity, sky, spot };
 
 /// A stream of numbers for one key, purpose and trial.
 class Draws {

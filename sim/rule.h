@@ -7,7 +7,8 @@
 
 #include "sim/plant.h"
 #include "sim/random.h"
-#include "sim/sense/exposure.h"
+#include "sim/sense/brightest.h"
+#include "sim/sense/light.h"
 #include "sim/world.h"
 
 namespace espalier::sim {
@@ -44,8 +45,8 @@ struct GrowthView {
   const World& world;
   const Plant& plant;
   const std::vector<std::vector<NodeId>>& children;  ///< of each of the plant's nodes
-  const Lookout& sky;
-  const Lookout& sun;
+  const Light& light;                                ///< at the bud
+  const SkyTable& sky_table;                         ///< for those who look for the brightest spot
   int iteration = 0;
   bool record_attempts = false;
 };

@@ -4,22 +4,17 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
+#include <set>
 #include <tuple>
 
 #include "sim/error.h"
 #include "sim/field.h"
+#include "sim/sky_shares.h"
 
 namespace espalier::sim {
 namespace {
-
-constexpr int kShareSamples = 1 << 16;
-
-/// Vectors long enough that snapping to the lattice moves a direction by much less than the way to its
-/// neighbours: short ones would crowd on the planes of symmetry, which is where walls stand.
-int longestForSky(int count) {
-  return std::clamp(static_cast<int>(std::lround(1.4 * std::sqrt(count))), 6, 40);
-}
 
 /// Point i of n on the hemisphere, evenly spread: equal steps of height, golden-ratio steps of azimuth.
 /// Single-precision sine and cosine: glibc's double versions give other last bits on other processors.
@@ -35,25 +30,37 @@ bool before(Voxel a, Voxel b) {
   return std::tie(a.y, a.z, a.x) < std::tie(b.y, b.z, b.x);
 }
 
-/// What part of the hemisphere is nearer to each direction than to any other.
-std::vector<double> shares(const std::vector<Voxel>& vectors) {
-  std::vector<Vec3f> units;
-  for (const Voxel v : vectors) units.push_back(Vec3f(glm::normalize(Vec3(v))));
-  std::vector<double> shares(vectors.size());
-  for (int s = 0; s < kShareSamples; ++s) {
-    const Vec3f point(spiralPoint(s, kShareSamples));
-    std::size_t nearest = 0;
-    float nearest_cosine = -2.0f;
-    for (std::size_t i = 0; i < units.size(); ++i) {
-      const float c = glm::dot(units[i], point);
-      if (c > nearest_cosine) {
-        nearest_cosine = c;
-        nearest = i;
+/// Vectors along points evenly spread over the sky. A longer vector lies nearer to its point, but a sweep
+/// along it costs more: each takes the least of (angle in spacings)^2 + length_cost * length. With this cost
+/// the error of the sky is that of the points themselves, while the vectors are a third shorter than those
+/// that would lie nearest; shorter ones still crowd on the planes of symmetry, which is where walls stand.
+std::vector<Voxel> spreadVectors(int count) {
+  const double length_cost = 0.0004 * std::min(1.0, 512.0 / count);
+  const double spacing2 = 2.0 * std::numbers::pi / count;
+  const auto earlier = [](Voxel a, Voxel b) { return before(a, b); };
+  std::set<Voxel, decltype(earlier)> taken(earlier);
+  for (int i = 0; i < count; ++i) {
+    const Vec3 point = spiralPoint(i, count);
+    Voxel best(0);
+    double least = std::numeric_limits<double>::infinity();
+    forEachLatticeVector(point, 1, [&](int longest, Voxel v) {
+      const double sine = sineBetween(v, point);
+      const double cost = sine * sine / spacing2 + length_cost * crossedCount(v);
+      if (cost < least && !taken.contains(v)) {
+        least = cost;
+        best = v;
       }
-    }
-    shares[nearest] += 1.0;
+      return length_cost * longest < least;
+    });
+    taken.insert(best);
   }
-  return shares;
+  return {taken.begin(), taken.end()};
+}
+
+/// The constant of the law error = constant * directions^-0.75, the power that evenly spread points give to
+/// masks with smooth edges.
+double errorConstant(Weighting weighting) {
+  return weighting == Weighting::uniform ? 0.48 : weighting == Weighting::cosine ? 0.52 : 0.58;
 }
 
 }  // namespace
@@ -70,36 +77,82 @@ std::string_view nameOf(Weighting weighting) {
   return "";
 }
 
+std::string_view describe(Weighting weighting) {
+  switch (weighting) {
+    case Weighting::uniform:
+      return "uniform by solid angle";
+    case Weighting::cosine:
+      return "cosine-weighted view factor";
+    case Weighting::cie_overcast:
+      return "CIE overcast sky";
+  }
+  return "";
+}
+
 double received(Weighting weighting, Vec3 direction, Vec3 normal) {
   if (weighting == Weighting::uniform) return 1.0;
   const double cosine = std::max(0.0, glm::dot(direction, normal));
   return weighting == Weighting::cosine ? 2.0 * cosine : 6.0 / 7.0 * cosine * (1.0 + 2.0 * direction.y);
 }
 
+double unobstructed(Weighting weighting, Vec3 normal) {
+  if (weighting == Weighting::uniform) return 1.0;
+  const double even = 0.5 * (1.0 + normal.y);
+  if (weighting == Weighting::cosine) return even;
+  // P. Moon and D. Spencer, "Illumination from a Non-Uniform Sky", 1942, on a tilted plane.
+  const double tilt = std::acos(std::clamp(normal.y, -1.0, 1.0));
+  const double across = std::sqrt(std::max(0.0, 1.0 - normal.y * normal.y));
+  return 3.0 / 7.0 * even + 4.0 / 7.0 * (across + (std::numbers::pi - tilt) * normal.y) / std::numbers::pi;
+}
+
+double skyError(Weighting weighting, int directions) {
+  return errorConstant(weighting) * std::pow(directions, -0.75);
+}
+
+int directionsFor(Weighting weighting, double standard_error) {
+  constexpr int kStep = 32;  // tables of directions hold a bit for each
+  for (int count = kStep; count <= kMostSkyDirections; count += kStep) {
+    if (skyError(weighting, count) <= standard_error) return count;
+  }
+  throw InputError(fmt::format(
+      "a standard error of {:g} for a {} sky would need more than {} directions; expected at least {:g}",
+      standard_error, nameOf(weighting), kMostSkyDirections,
+      std::ceil(1e4 * skyError(weighting, kMostSkyDirections)) / 1e4));
+}
+
 Sky makeSky(const SkySettings& settings) {
-  const int count = settings.directions.value_or(256);
-  if (count < 1) throw InputError(fmt::format("a sky of {} directions; expected at least 1", count));
-  std::vector<Voxel> vectors;
-  for (int i = 0; i < count; ++i)
-    vectors.push_back(nearestLatticeVector(spiralPoint(i, count), longestForSky(count)));
-  std::sort(vectors.begin(), vectors.end(), before);
-  vectors.erase(std::unique(vectors.begin(), vectors.end()), vectors.end());
-  return {settings.weighting, directionSet(vectors, shares(vectors), ExposureField::kWhole),
-          0.3 * std::pow(count, -0.75)};
+  const int count =
+      settings.directions ? *settings.directions : directionsFor(settings.weighting, settings.standard_error);
+  if (count < 1 || count > kMostSkyDirections) {
+    throw InputError(fmt::format("a sky of {} directions; expected 1 to {}", count, kMostSkyDirections));
+  }
+  const std::vector<Voxel> vectors = spreadVectors(count);
+  std::vector<Vec3> units;
+  for (const Voxel v : vectors) units.push_back(glm::normalize(Vec3(v)));
+  std::vector<double> shares = voronoiShares(units);
+  meetMoments(units, shares);
+  const std::vector<std::uint16_t> weights = wholeShares(units, shares);
+  Sky sky{settings.weighting, {}, skyError(settings.weighting, count)};
+  for (std::size_t i = 0; i < vectors.size(); ++i)
+    sky.directions.push_back({vectors[i], crossedVoxels(vectors[i]), weights[i]});
+  return sky;
 }
 
 DirectionSet receivedBy(const Sky& sky, Vec3 normal) {
   if (sky.weighting == Weighting::uniform) return sky.directions;
   std::vector<Voxel> vectors;
   std::vector<double> amounts;
-  double sum = 0.0;
   for (const LatticeDirection& d : sky.directions) {
     vectors.push_back(d.v);
     amounts.push_back(d.weight * received(sky.weighting, glm::normalize(Vec3(d.v)), normal));
-    sum += amounts.back();
   }
-  const int total = static_cast<int>(std::min<long>(std::lround(sum), ExposureField::kWhole));
-  return directionSet(vectors, amounts, total);
+  const double whole = unobstructed(sky.weighting, normal) * ExposureField::kWhole;
+  return directionSet(vectors, amounts, static_cast<int>(std::lround(whole)));
+}
+
+std::string describe(const Sky& sky) {
+  return fmt::format("{}, {} directions, standard error {:.1g}", describe(sky.weighting),
+                     sky.directions.size(), sky.standard_error);
 }
 
 }  // namespace espalier::sim

@@ -15,6 +15,8 @@ namespace {
 using lanes::kRows;
 using lanes::Word;
 
+constexpr std::size_t kSummedAtOnce = 24;  // directions whose sweep is worth a pass over the sums
+
 DirectionSet thatCount(const DirectionSet& directions) {
   DirectionSet counting;
   std::copy_if(directions.begin(), directions.end(), std::back_inserter(counting),
@@ -32,19 +34,27 @@ std::uint16_t wholeSum(const DirectionSet& directions) {
 struct Block {
   int y, z;
   std::size_t rows;
+  const Band& band;
+
+  /// Where word (w, z) lies, from word (0, 0).
+  std::size_t at(std::size_t w) const { return w * band.line + static_cast<std::size_t>(z); }
+  /// Whether any direction is blocked anywhere in the words of this w.
+  bool anything(std::size_t w) const {
+    return ((band.filled[w] >> (static_cast<std::size_t>(z - band.z0) / kRows)) & 1u) != 0;
+  }
 };
 
-/// Calls work(band, block, numbers of the band's directions) for all blocks of all batches.
+/// Calls prepare(numbers of its directions) for each batch, and what that returns for each block.
 template <typename Prepare>
-void sweepBlocks(const BitVolume& occupied, const DirectionSet& directions, const Prepare& prepare) {
-  forEachBatch(occupied, directions, [&](std::span<const std::size_t> numbers) {
+void sweepBlocks(const BitVolume& occupied, const DirectionSet& directions, std::size_t batch_size,
+                 const Prepare& prepare) {
+  forEachBatch(occupied, directions, batch_size, [&](std::span<const std::size_t> numbers) {
     std::vector<const LatticeDirection*> batch;
     for (const std::size_t i : numbers) batch.push_back(&directions[i]);
     const auto work = prepare(numbers);
     sweepBatch(occupied, batch, [&](const Band& band) {
       for (int z = band.z0; z < band.z1; z += static_cast<int>(kRows)) {
-        work(band,
-             Block{band.y, z, static_cast<std::size_t>(std::min(static_cast<int>(kRows), band.z1 - z))});
+        work({band.y, z, static_cast<std::size_t>(std::min(static_cast<int>(kRows), band.z1 - z)), band});
       }
     });
   });
@@ -70,13 +80,16 @@ void forEachAsked(const VoxelSet& where, const Block& block, const Begin& begin,
     next[r] = where.firstOfRow(block.y, z);
   }
   for (int w = 0; w < words; ++w) {
+    const bool anything = block.anything(static_cast<std::size_t>(w));
     bool begun = false;
     for (std::size_t r = 0; r < block.rows; ++r) {
       const Word asked = rows[r][w];
       if (asked == 0) continue;
-      if (!begun) begin(static_cast<std::size_t>(w));
-      begun = true;
-      take(static_cast<std::size_t>(w), r, asked, next[r]);
+      if (anything) {
+        if (!begun) begin(static_cast<std::size_t>(w));
+        begun = true;
+        take(static_cast<std::size_t>(w), r, asked, next[r]);
+      }
       next[r] += static_cast<std::size_t>(std::popcount(asked));
     }
   }
@@ -90,12 +103,12 @@ ExposureField sweepExposure(const BitVolume& occupied, const DirectionSet& direc
   const std::size_t voxels = nx * static_cast<std::size_t>(size.y) * static_cast<std::size_t>(size.z);
   ExposureField field{size, std::vector<std::uint16_t>(voxels, wholeSum(directions))};
   const DirectionSet counting = thatCount(directions);
-  sweepBlocks(occupied, counting, [&](std::span<const std::size_t> numbers) {
-    return [&, adders = addersOf(counting, numbers)](const Band& band, const Block& block) {
+  sweepBlocks(occupied, counting, kSummedAtOnce, [&](std::span<const std::size_t> numbers) {
+    return [&, adders = addersOf(counting, numbers)](const Block& block) {
       std::array<std::uint16_t, 64 * kRows> blocked;
       for (std::size_t x = 0; x < nx; x += 64) {
-        adders.sums(band.blocked.data(), x / 64 * band.line + static_cast<std::size_t>(block.z),
-                    blocked.data());
+        if (!block.anything(x / 64)) continue;
+        adders.sums(block.band.blocked.data(), block.at(x / 64), blocked.data());
         for (std::size_t r = 0; r < block.rows; ++r) {
           std::uint16_t* const sums =
               field.sums.data() + field.index({static_cast<int>(x), block.y, block.z + static_cast<int>(r)});
@@ -114,15 +127,12 @@ ExposureField sweepExposure(const BitVolume& occupied, const DirectionSet& direc
   ExposureField field{occupied.size(), std::vector<std::uint16_t>(where->count(), wholeSum(directions)),
                       where};
   const DirectionSet counting = thatCount(directions);
-  sweepBlocks(occupied, counting, [&](std::span<const std::size_t> numbers) {
-    return [&, adders = addersOf(counting, numbers)](const Band& band, const Block& block) {
+  sweepBlocks(occupied, counting, kSummedAtOnce, [&](std::span<const std::size_t> numbers) {
+    return [&, adders = addersOf(counting, numbers)](const Block& block) {
       std::array<std::uint16_t, 64 * kRows> blocked;
       forEachAsked(
           *where, block,
-          [&](std::size_t w) {
-            adders.sums(band.blocked.data(), w * band.line + static_cast<std::size_t>(block.z),
-                        blocked.data());
-          },
+          [&](std::size_t w) { adders.sums(block.band.blocked.data(), block.at(w), blocked.data()); },
           [&](std::size_t, std::size_t r, Word asked, std::size_t place) {
             for (; asked != 0; asked &= asked - 1, ++place) {
               field.sums[place] = static_cast<std::uint16_t>(
@@ -142,18 +152,18 @@ OpenTable sweepOpen(const BitVolume& occupied, const DirectionSet& directions,
     const std::size_t left = directions.size() - 64 * (i % table.words());
     table.bits[i] = left >= 64 ? ~Word{0} : (Word{1} << left) - 1;
   }
-  sweepBlocks(occupied, directions, [&](std::span<const std::size_t> numbers) {
-    return [&, numbers](const Band& band, const Block& block) {
+  sweepBlocks(occupied, directions, 64, [&](std::span<const std::size_t> numbers) {
+    return [&, numbers](const Block& block) {
       forEachAsked(
           *where, block, [](std::size_t) {},
           [&](std::size_t w, std::size_t r, Word asked, std::size_t place) {
-            const std::size_t at = w * band.line + static_cast<std::size_t>(block.z) + r;
+            const std::size_t at = block.at(w) + r;
             for (std::size_t n = 0;
                  n < numbers.size();) {  // 64 directions by 64 voxels change rows for columns
               const std::size_t column = numbers[n] / 64;
               std::array<Word, 64> square{};
               for (; n < numbers.size() && numbers[n] / 64 == column; ++n)
-                square[numbers[n] % 64] = band.blocked[n][at];
+                square[numbers[n] % 64] = block.band.blocked[n][at];
               lanes::transpose(square.data());
               Word* row = table.bits.data() + place * table.words() + column;
               for (Word left = asked; left != 0; left &= left - 1, row += table.words())

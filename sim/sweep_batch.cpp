@@ -1,69 +1,36 @@
 #include "sim/sweep_batch.h"
 
-#include <hwy/aligned_allocator.h>
-
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cstdlib>
 
 #include "sim/parallel.h"
+#include "sim/slice_ring.h"
 
 // A world is swept slice by slice, all directions of a batch at once. Each direction keeps the blocked bits
 // of the last slices that it still needs in a ring, and so does the world its own bits, laid out anew for the
 // vectors. A slice is cut into bands of rows: the threads' work, and as much as stays in a core's cache until
-// the bits of all directions have been counted there.
+// the bits of all directions have been counted there. Where nothing stands and nothing is blocked, nothing is
+// done.
 namespace espalier::sim {
 namespace {
 
+using lanes::Blocks;
 using lanes::kRows;
 using lanes::Word;
 
 constexpr std::size_t kCacheWords = std::size_t{48}
                                     << 10;  // of blocked bits in a band: less than a core's cache
-constexpr std::size_t kLeastRingBytes = std::size_t{256} << 20;
+constexpr std::size_t kRingBytes = std::size_t{1} << 20;  // of a batch: what a core's own cache holds
+constexpr std::size_t kMostReads = 3 * (kLongestComponent + 1);
 
-std::size_t roundedUp(std::size_t n) {
-  return (n + kRows - 1) / kRows * kRows;
+SliceLayout layoutFor(const BitVolume& occupied, std::span<const LatticeDirection* const> batch) {
+  std::size_t across = 0;
+  for (const auto* d : batch) across = std::max(across, static_cast<std::size_t>(std::abs(d->v.z)));
+  return {static_cast<std::size_t>(occupied.rowWords()) - 1,
+          (static_cast<std::size_t>(occupied.size().z) + kRows - 1) / kRows, (across / kRows + 2) * kRows};
 }
-
-/// How a slice lies in memory: lines of the words of one w, each behind enough zeros for a ray that looks
-/// beyond the first row or, from the line before, beyond the last; a line of zeros on either side of them.
-struct Layout {
-  std::size_t words;  // along x
-  std::size_t rows;   // rounded up
-  std::size_t pad;
-  std::size_t line() const { return pad + rows; }
-  std::size_t slice() const { return (words + 2) * line() + pad; }
-
-  Layout(const BitVolume& occupied, std::span<const LatticeDirection* const> batch)
-      : words(static_cast<std::size_t>(occupied.rowWords()) - 1),
-        rows(roundedUp(static_cast<std::size_t>(occupied.size().z))),
-        pad(kRows) {
-    for (const auto* d : batch)
-      pad = std::max(pad, roundedUp(static_cast<std::size_t>(std::abs(d->v.z)) + kRows));
-  }
-};
-
-/// The last few slices, in the order of the sweep.
-class Ring {
- public:
-  Ring(const Layout& layout, int slots)
-      : layout_(layout),
-        slots_(slots),
-        words_(hwy::AllocateAligned<Word>(layout.slice() * static_cast<std::size_t>(slots))) {
-    std::fill_n(words_.get(), layout.slice() * static_cast<std::size_t>(slots), Word{0});
-  }
-  /// Word (0, 0) of a slice.
-  Word* slice(int done) const {
-    return words_.get() + static_cast<std::size_t>(done % slots_) * layout_.slice() + layout_.line() +
-           layout_.pad;
-  }
-
- private:
-  Layout layout_;
-  int slots_;
-  hwy::AlignedFreeUniquePtr<Word[]> words_;
-};
 
 int slotsFor(const BitVolume& occupied, Voxel v) {
   return std::min(std::abs(v.y), occupied.size().y - 1) + 1;
@@ -72,17 +39,14 @@ int slotsFor(const BitVolume& occupied, Voxel v) {
 /// One direction: what it reads, and what it has found blocked.
 class Sweep {
  public:
-  Sweep(const BitVolume& occupied, const LatticeDirection& direction, const Layout& layout)
+  Sweep(const BitVolume& occupied, const LatticeDirection& direction, const SliceLayout& layout)
       : v_(direction.v),
         rows_(occupied.size().z),
         layout_(layout),
         ring_(layout, slotsFor(occupied, direction.v)) {
-    const auto line = static_cast<std::ptrdiff_t>(layout.line());
     for (const Voxel o : direction.crossed) {
-      const Part part{std::abs(o.y), (o.x >> 6) * line + o.z, static_cast<std::uint32_t>(shifts_.size()), 0,
-                      false};
-      if (parts_.empty() || parts_.back().up != part.up || parts_.back().offset != part.offset)
-        parts_.push_back(part);
+      const Part part{std::abs(o.y), o.x >> 6, o.z, static_cast<std::uint32_t>(shifts_.size()), 0, false};
+      if (parts_.empty() || !parts_.back().sameWords(part)) parts_.push_back(part);
       if ((o.x & 63) == 0) {
         parts_.back().unmoved = true;
       } else {
@@ -90,33 +54,42 @@ class Sweep {
         ++parts_.back().count;
       }
     }
+    Part end = parts_.back();
+    end.first += end.unmoved ? 0 : end.count - 1;
+    end.count = end.unmoved ? 0 : 1;
+    parts_.push_back(end);
   }
 
   bool level() const { return v_.y == 0; }
-  const Word* blocked(int done) const { return ring_.slice(done); }
+  const SliceRing& blocked() const { return ring_; }
 
-  /// Rows z0 <= z < z1 of a slice.
-  void run(const Ring& occupied, int done, std::size_t z0, std::size_t z1) {
+  /// Some blocks of rows of a slice; filled[w] becomes those in which anything is blocked.
+  void run(const SliceRing& occupied, int slice, std::size_t first, std::size_t count,
+           std::vector<Blocks>& filled) {
     Reads reads;
-    lanes::unite(gather(occupied, done, reads), layout_.line(), ring_.slice(done), layout_.words, z0, z1);
+    const std::size_t n = gather(occupied, slice, first, reads);
+    for (std::size_t w = 0; w < layout_.words; ++w) filled[w] = ring_.filled(slice, w, first, count);
+    const std::vector<Blocks> before(filled);
+    lanes::unite(std::span(reads).first(n), {layout_.line(), layout_.flagLine()},
+                 ring_.slice(slice) + first * kRows, layout_.words, count, filled.data());
+    for (std::size_t w = 0; w < layout_.words; ++w) ring_.change(slice, w, first, before[w] ^ filled[w]);
   }
 
   /// A whole slice of a direction that stays in it, word by word: they depend on each other.
-  void runLevel(const Ring& occupied, int done) {
-    Reads reads;
-    const auto all = gather(occupied, done, reads);
+  void runLevel(const SliceRing& occupied, int slice) {
     const std::size_t line = layout_.line();
-    Word* const out = ring_.slice(done);
-    if (v_.z == 0) {  // along a row
-      for (std::size_t z = 0; z < static_cast<std::size_t>(rows_); ++z)
-        runAlongRow(occupied.slice(done) + z, out + z);
-      return;
-    }
+    Word* const out = ring_.slice(slice);
+    Reads reads;
+    const std::size_t n = gather(occupied, slice, 0, reads);
     for (int i = 0; i < rows_; ++i) {
       const auto z = static_cast<std::size_t>(v_.z > 0 ? rows_ - 1 - i : i);
+      if (v_.z == 0) {
+        runAlongRow(occupied.slice(slice) + z, out + z);
+        continue;
+      }
       for (std::size_t at = z; at < z + layout_.words * line; at += line) {
         Word blocked = 0;
-        for (const lanes::Read& read : all) {
+        for (const lanes::Read& read : std::span(reads).first(n)) {
           if (read.unmoved) blocked |= read.from[at];
           for (std::uint32_t s = 0; s < read.count; ++s)
             blocked |= (read.from[at] >> read.shifts[s]) | (read.from[at + line] << (64 - read.shifts[s]));
@@ -124,32 +97,46 @@ class Sweep {
         out[at] = blocked;
       }
     }
+    for (std::size_t w = 0; w < layout_.words; ++w) ring_.look(slice, w);
   }
 
  private:
-  /// What is read of one row, from one word on.
+  /// What is read of one row, from one word on. The last one of a direction is what its own period's end
+  /// sees.
   struct Part {
-    int up;  // slices ahead
-    std::ptrdiff_t offset;
+    int ahead;  // slices
+    int words, rows;
     std::uint32_t first, count;  // in shifts_
     bool unmoved;
+    bool sameWords(const Part& o) const { return ahead == o.ahead && words == o.words && rows == o.rows; }
   };
-  using Reads = std::array<lanes::Read, 3 * (kLongestComponent + 1)>;
 
-  /// What a slice reads of those ahead that lie in the world: a ray that has left does not come back.
-  std::span<const lanes::Read> gather(const Ring& occupied, int done, Reads& reads) const {
+  using Reads = std::array<lanes::Read, kMostReads>;
+
+  /// What a slice's blocks from `first` on read of those ahead that lie in the world: a ray that has left
+  /// does not come back.
+  std::size_t gather(const SliceRing& occupied, int slice, std::size_t first, Reads& reads) const {
+    const auto line = static_cast<std::ptrdiff_t>(layout_.line());
+    const auto flag_line = static_cast<std::ptrdiff_t>(layout_.flagLine());
     std::size_t n = 0;
-    for (const Part& part : parts_) {
-      if (part.up > done) return std::span(reads).first(n);
-      reads[n++] = {occupied.slice(done - part.up) + part.offset, shifts_.data() + part.first, part.count,
-                    part.unmoved};
+    for (; n < parts_.size() && parts_[n].ahead <= slice; ++n) {
+      const Part& part = parts_[n];
+      const SliceRing& source = n + 1 == parts_.size() ? ring_ : occupied;
+      const auto [filled, bit] =
+          source.filled(slice - part.ahead, static_cast<std::ptrdiff_t>(first) + (part.rows >> 3));
+      reads[n] = {source.slice(slice - part.ahead) + part.words * line + part.rows +
+                      static_cast<std::ptrdiff_t>(first * kRows),
+                  filled + part.words * flag_line,
+                  bit,
+                  part.rows % 8 != 0,
+                  part.unmoved,
+                  part.count,
+                  shifts_.data() + part.first};
     }
-    const Part& end = parts_.back();  // and what is seen from the period's end
-    reads[n++] = {ring_.slice(done - end.up) + end.offset,
-                  shifts_.data() + end.first + end.count - !end.unmoved, end.unmoved ? 0u : 1u, end.unmoved};
-    return std::span(reads).first(n);
+    return n;
   }
 
+  /// Along x a row depends on itself.
   void runAlongRow(const Word* in, Word* out) const {
     const auto line = static_cast<std::ptrdiff_t>(layout_.line()),
                words = static_cast<std::ptrdiff_t>(layout_.words);
@@ -166,18 +153,22 @@ class Sweep {
 
   Voxel v_;
   int rows_;
-  Layout layout_;
-  std::vector<Part> parts_;
+  SliceLayout layout_;
+  std::vector<Part> parts_;  // in the order of the ray
   std::vector<std::uint64_t> shifts_;
-  Ring ring_;
+  SliceRing ring_;
 };
 
-void layOut(const BitVolume& occupied, int y, const Layout& layout, Word* slice) {
-  for (int z = 0; z < occupied.size().z; ++z) {
-    const Word* const row = occupied.row(y, z);
-    for (std::size_t w = 0; w < layout.words; ++w)
-      slice[w * layout.line() + static_cast<std::size_t>(z)] = row[w];
-  }
+/// Brings a slice of the world into a ring.
+void layOut(const BitVolume& occupied, int y, const SliceLayout& layout, SliceRing& ring, int slice) {
+  const std::size_t lines_at_once = std::max<std::size_t>(1, 8192 / (layout.blocks * kRows));
+  parallelFor(layout.words, lines_at_once, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t w = begin; w < end; ++w) {
+      Word* const line = ring.slice(slice) + w * layout.line();
+      for (int z = 0; z < occupied.size().z; ++z) line[z] = occupied.row(y, z)[w];
+      ring.look(slice, w);
+    }
+  });
 }
 
 bool anything(const BitVolume& occupied, int y) {
@@ -192,11 +183,11 @@ void sweepBatch(const BitVolume& occupied, std::span<const LatticeDirection* con
                 const std::function<void(const Band&)>& count) {
   const Voxel size = occupied.size();
   const bool up = std::all_of(batch.begin(), batch.end(), [](const auto* d) { return d->v.y >= 0; });
-  const auto slice = [&](int done) { return up ? size.y - 1 - done : done; };
-  int first = 0;
-  while (first < size.y && !anything(occupied, slice(first))) ++first;
+  const auto yOf = [&](int slice) { return up ? size.y - 1 - slice : slice; };
+  int begin = 0;
+  while (begin < size.y && !anything(occupied, yOf(begin))) ++begin;
 
-  const Layout layout(occupied, batch);
+  const SliceLayout layout = layoutFor(occupied, batch);
   std::vector<Sweep> sweeps;
   std::vector<Sweep*> level;
   sweeps.reserve(batch.size());
@@ -206,47 +197,53 @@ void sweepBatch(const BitVolume& occupied, std::span<const LatticeDirection* con
     if (sweeps.back().level()) level.push_back(&sweeps.back());
     slots = std::max(slots, slotsFor(occupied, direction->v));
   }
-  const Ring world(layout, slots);
-  const std::size_t cached = kCacheWords / (layout.words * batch.size()) / kRows * kRows;
-  const std::size_t shared = roundedUp((layout.rows + static_cast<std::size_t>(threadCount()) - 1) /
-                                       static_cast<std::size_t>(threadCount()));
-  const std::size_t rows = std::clamp(cached, kRows, shared);
-  const std::size_t bands = (layout.rows + rows - 1) / rows;
-  for (int done = first; done < size.y; ++done) {
-    layOut(occupied, slice(done), layout, world.slice(done));
-    parallelForEach(level.size(), [&](std::size_t i) { level[i]->runLevel(world, done); });
+  SliceRing world(layout, slots);
+  const auto threads = static_cast<std::size_t>(threadCount());
+  const std::size_t shared = std::min(lanes::kMostBlocks, (layout.blocks + threads - 1) / threads);
+  const std::size_t blocks =
+      std::clamp<std::size_t>(kCacheWords / (layout.words * batch.size() * kRows), 1, shared);
+  const std::size_t bands = (layout.blocks + blocks - 1) / blocks;
+  for (int slice = begin; slice < size.y; ++slice) {
+    layOut(occupied, yOf(slice), layout, world, slice);
+    parallelForEach(level.size(), [&](std::size_t i) { level[i]->runLevel(world, slice); });
     parallelForEach(bands, [&](std::size_t b) {
-      const std::size_t z0 = b * rows, z1 = std::min(layout.rows, z0 + rows);
+      const std::size_t first = b * blocks, n = std::min(blocks, layout.blocks - first);
       std::vector<const Word*> blocked;
       blocked.reserve(sweeps.size());
+      std::vector<Blocks> filled(layout.words);
+      std::vector<Blocks> of_one(layout.words);
       for (Sweep& sweep : sweeps) {
-        if (!sweep.level()) sweep.run(world, done, z0, z1);
-        blocked.push_back(sweep.blocked(done));
+        if (sweep.level()) {
+          for (std::size_t w = 0; w < layout.words; ++w)
+            of_one[w] = sweep.blocked().filled(slice, w, first, n);
+        } else {
+          sweep.run(world, slice, first, n, of_one);
+        }
+        blocked.push_back(sweep.blocked().slice(slice));
+        for (std::size_t w = 0; w < layout.words; ++w) filled[w] |= of_one[w];
       }
-      count({slice(done), static_cast<int>(z0), std::min(size.z, static_cast<int>(z1)), blocked,
-             layout.line()});
+      const auto row = [&](std::size_t block) { return std::min(size.z, static_cast<int>(block * kRows)); };
+      count({yOf(slice), row(first), row(first + n), blocked, layout.line(), filled});
     });
   }
 }
 
-void forEachBatch(const BitVolume& occupied, const DirectionSet& directions,
+void forEachBatch(const BitVolume& occupied, const DirectionSet& directions, std::size_t least,
                   const std::function<void(std::span<const std::size_t>)>& take) {
-  const std::size_t most = std::max(kLeastRingBytes, occupied.words().size() * sizeof(Word));
   for (const bool up : {true, false}) {
     std::vector<std::size_t> batch;
     std::size_t bytes = 0;
     for (std::size_t i = 0; i < directions.size(); ++i) {
       if ((directions[i].v.y >= 0) != up) continue;
       const std::array<const LatticeDirection*, 1> alone{&directions[i]};
-      const std::size_t more = Layout(occupied, alone).slice() * sizeof(Word) *
-                               static_cast<std::size_t>(slotsFor(occupied, directions[i].v));
-      if (!batch.empty() && bytes + more > most) {
+      batch.push_back(i);
+      bytes += layoutFor(occupied, alone).slice() * sizeof(Word) *
+               static_cast<std::size_t>(slotsFor(occupied, directions[i].v));
+      if (bytes >= kRingBytes && batch.size() >= least) {
         take(batch);
         batch.clear();
         bytes = 0;
       }
-      batch.push_back(i);
-      bytes += more;
     }
     if (!batch.empty()) take(batch);
   }

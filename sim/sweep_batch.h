@@ -15,6 +15,7 @@ struct Band {
   int z0, z1;                                   ///< rows z0 <= z < z1; z0 is a multiple of lanes::kRows
   std::span<const lanes::Word* const> blocked;  ///< of each direction, word (0, 0) of the slice (sim/lanes.h)
   std::size_t line;                             ///< words from (w, z) to (w + 1, z)
+  std::span<const lanes::Blocks> filled;        ///< for each w the band's blocks in which anything is blocked
 };
 
 /// Sweeps directions that all go up or stay level, or all go down. Calls count(band) from several threads for
@@ -22,9 +23,9 @@ struct Band {
 void sweepBatch(const BitVolume& occupied, std::span<const LatticeDirection* const> batch,
                 const std::function<void(const Band&)>& count);
 
-/// Parts a set into batches that can be swept at once, in about as much memory as the world takes. `take`
-/// gets the numbers of a batch's directions.
-void forEachBatch(const BitVolume& occupied, const DirectionSet& directions,
+/// Parts a set into batches of at least so many directions, and no more than stay in a core's cache while
+/// they are swept. `take` gets the numbers of a batch's directions.
+void forEachBatch(const BitVolume& occupied, const DirectionSet& directions, std::size_t least,
                   const std::function<void(std::span<const std::size_t>)>& take);
 
 }  // namespace espalier::sim

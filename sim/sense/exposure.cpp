@@ -26,6 +26,17 @@ Outlook lookOut(const BitVolume& occupied, Voxel p, const DirectionSet& directio
   return outlook;
 }
 
+Outlook outlook(const OpenTable& open, std::size_t place, std::span<const LatticeDirection> directions,
+                std::size_t first) {
+  Outlook outlook;
+  for (std::size_t i = 0; i < directions.size(); ++i) {
+    if (!open.open(place, first + i)) continue;
+    outlook.sum = static_cast<std::uint16_t>(outlook.sum + directions[i].weight);
+    outlook.toward += static_cast<double>(directions[i].weight) * glm::normalize(Vec3(directions[i].v));
+  }
+  return outlook;
+}
+
 Lookout::Lookout(const BitVolume& shape, const DirectionSet& directions) {
   const auto bitStep = [&](Voxel o) {
     return (static_cast<std::ptrdiff_t>(o.y) * shape.size().z + o.z) * shape.rowWords() *

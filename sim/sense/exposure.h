@@ -1,11 +1,13 @@
 #pragma once
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "sim/bits.h"
 #include "sim/directions.h"
 #include "sim/field.h"
+#include "sim/open_table.h"
 
 namespace espalier::sim {
 
@@ -23,6 +25,10 @@ struct Outlook {
 
 /// Casts every ray of the set: the same sum as sweepExposure gives, for a few places.
 Outlook lookOut(const BitVolume& occupied, Voxel p, const DirectionSet& directions);
+
+/// The same from a table (sim/sweep.h) whose directions `first`, first + 1 .. these are.
+Outlook outlook(const OpenTable& open, std::size_t place, std::span<const LatticeDirection> directions,
+                std::size_t first = 0);
 
 /// Directions made ready for many looks into worlds of one shape: the same answers as lookOut, several times
 /// as fast.

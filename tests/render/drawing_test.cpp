@@ -134,7 +134,7 @@ TEST(ContactSheet, SetsPicturesInRowsAndRefusesOddOnes) {
   const Image red(80, 60, 3, 0.25f), blue(80, 60, 3, 0.75f);
   const std::vector<Captioned> four = {
       {&red, "A", "one"}, {&blue, "B", "two"}, {&red, "C", "three"}, {&blue, "D", ""}};
-  const Image sheet = contactSheet(four, {3, 40, ""});
+  const Image sheet = contactSheet(four, {3, 40, "", ""});
   EXPECT_GT(sheet.width, 3 * 40);
   EXPECT_LT(sheet.width, 3 * 40 + 4 * 40);
   EXPECT_GT(sheet.height, 2 * 30);

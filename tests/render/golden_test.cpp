@@ -26,7 +26,8 @@ std::vector<Image> paintAll(int width, int height) {
   const sim::ExposureField sky = garden.exposure(tests::LittleGarden::sky());
   const Visibility seen =
       see(garden.frame(), garden.occupied(), bricks, tests::LittleGarden::camera(), width, height);
-  const PanelWorld world{garden.occupied(), bricks, sun, sky, [&](sim::Voxel v) { return garden.colour(v); }};
+  const PanelWorld world{garden.occupied(), bricks, tests::inFront(sun), tests::inFront(sky),
+                         [&](sim::Voxel v) { return garden.colour(v); }};
   PanelLook look;
   look.threshold = 0.55f;
   look.to_sun = glm::normalize(sim::Vec3(-0.55, 0.75, 0.5));

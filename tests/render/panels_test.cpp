@@ -33,7 +33,8 @@ struct Scene {
     return field;
   }
   PanelWorld world() const {
-    return {garden.occupied(), bricks, sun, sky, [this](sim::Voxel v) { return garden.colour(v); }};
+    return {garden.occupied(), bricks, tests::inFront(sun), tests::inFront(sky),
+            [this](sim::Voxel v) { return garden.colour(v); }};
   }
   tests::LittleGarden garden;
   sim::Bricks bricks;
@@ -79,8 +80,8 @@ TEST(Panels, MeasuredPicturesHoldTheFieldsThemselves) {
 TEST(Panels, AtEdgesFieldsAreMeansOverTheWorldAloneAndColoursArePremultiplied) {
   Scene scene;
   std::fill(scene.sky.sums.begin(), scene.sky.sums.end(), std::uint16_t{40000});
-  const PanelWorld world{scene.garden.occupied(), scene.bricks, scene.sun, scene.sky,
-                         [](sim::Voxel) { return sim::Colour(0.5f); }};
+  const PanelWorld world{scene.garden.occupied(), scene.bricks, tests::inFront(scene.sun),
+                         tests::inFront(scene.sky), [](sim::Voxel) { return sim::Colour(0.5f); }};
   const PanelPainter painter(scene.seen, world, scene.look, kAll);
   const Image sky = painter.paint(Panel::sky_exposure).measured;
   const Image colour = painter.paint(Panel::surface_colour).measured;
@@ -114,7 +115,7 @@ TEST(Panels, ExposureIsSmoothOverAFace) {
   }
   const sim::Bricks bricks(occupied);
   const Visibility seen = see(frame, occupied, bricks, {{7.5, 12, 7.5}, {7.5, 0, 7.5}, 40}, 120, 120);
-  const PanelWorld world{occupied, bricks, field, field, {}};
+  const PanelWorld world{occupied, bricks, {}, tests::inFront(field), {}};
   const std::array panels = {Panel::sky_exposure};
   const Image display = PanelPainter(seen, world, {}, panels).paint(Panel::sky_exposure).display;
   // Viridis's green rises all along; with steps a voxel wide (15 pixels) most neighbours would be equal.

@@ -103,6 +103,15 @@ TEST(ReadRules, TakesANumberForATwistsAmount) {
   EXPECT_EQ(both->bias.twist_radius_vx, 5.0);
 }
 
+TEST(ReadRules, TakesANumberForTheAmountOfTheBiasToLight) {
+  const auto plain = goodText("bias: {light: 0.3}")->bias;
+  EXPECT_EQ(plain.light, Value(0.3));
+  EXPECT_EQ(plain.brightest, rules::Brightest::moment);
+  const auto both = goodText("bias: {light: {amount: 0.2, brightest: table}}")->bias;
+  EXPECT_EQ(both.light, Value(0.2));
+  EXPECT_EQ(both.brightest, rules::Brightest::table);
+}
+
 TEST(ReadRules, TakesOneNumberForARangeOfAges) {
   const auto rules = goodText("random_tree: {branch_age_range: 4}");
   EXPECT_EQ(rules->random_tree.branch_age_min, 4);

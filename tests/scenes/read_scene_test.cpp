@@ -107,6 +107,38 @@ images:
   EXPECT_EQ(scene.images[2].of, (std::vector<std::string>{"vines", "cut"}));
 }
 
+TEST(ReadScene, ReadsARealSunAndARandomSky) {
+  using namespace std::chrono_literals;
+  const Scratch scratch;
+  const auto read = [&](const std::string& sun) {
+    return good(
+        scratch.write("s.yaml",
+                      "espalier: scene\nworld: {voxel: 1 cm, bounds: {min: [0, 0, 0], max: [1, 1, 1]}}\n"
+                      "sky: {weighting: cie_overcast, sampling: random, rays: 50}\n"
+                      "sun:\n  place: {latitude: -33.87, longitude: 151.22, utc_offset: 10}\n" +
+                          sun));
+  };
+  const auto range = read(
+      "  dates: {from: 2026-03-21, to: 2026-09-23}\n  hours: {from: 9, to: 15.5}\n  step: 30\n"
+      "  weighting: sine\n  north: 12\n  accuracy: 1\n");
+  EXPECT_EQ(range.sky.weighting, sim::Weighting::cie_overcast);
+  EXPECT_EQ(range.sky.sampling, Sampling::random);
+  EXPECT_EQ(range.sky.rays, 50);
+  ASSERT_TRUE(range.sun.place && range.sun.dates);
+  EXPECT_EQ(range.sun.place->latitude_deg, -33.87);
+  EXPECT_EQ(range.sun.place->longitude_deg, 151.22);
+  EXPECT_EQ(range.sun.place->utc_offset_h, 10);
+  EXPECT_EQ(range.sun.dates->from, 2026y / 3 / 21);
+  EXPECT_EQ(range.sun.dates->to, 2026y / 9 / 23);
+  EXPECT_EQ(range.sun.hours.from, 9);
+  EXPECT_EQ(range.sun.hours.to, 15.5);
+  EXPECT_EQ(range.sun.step_min, 30);
+  EXPECT_EQ(range.sun.weighting, sim::SunWeighting::sine);
+  EXPECT_EQ(range.sun.north_deg, 12);
+  EXPECT_EQ(range.sun.accuracy_deg, 1);
+  EXPECT_EQ(read("  date: 12-21\n").sun.date, 2017y / 12 / 21) << "the year of the common tables";
+}
+
 TEST(ReadScene, NeedsNoMeshWhereBoundsAreGiven) {
   const Scratch scratch;
   const auto scene = good(scratch.write(

@@ -60,6 +60,8 @@ inline std::vector<std::string> goodTexts(const rules::Key& key) {
       return {"[[[0, 0, 0], [1, 0, 0], [0, 1, 0]]]"};
     case Kind::choice:
       return key.choices;
+    case Kind::date:
+      return {"2026-06-21", "02-28", "\"2024-02-29\""};
     case Kind::name:
       return {"some_name-1.x"};
     case Kind::text:
@@ -144,6 +146,9 @@ inline std::vector<std::string> badTexts(const rules::Key& key) {
       return {"[[0, 0, 0]]", "1", "[[[0, 0, few], [1, 0, 0], [0, 1, 0]]]"};
     case Kind::choice:
       return {"none_of_them", "5", "[]", "{}"};
+    case Kind::date:
+      return {"2026-02-30", "02-29", "2026-13-01", "2026-6-21", "21.06.2026", "2026-06",
+              "-026-06-21", "0621",  "5",          "[]",        "{}"};
     case Kind::name:
       return {"a/b", ".a", "\"\"", "[]", "{}", "\"a b\""};
     case Kind::names:

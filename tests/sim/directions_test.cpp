@@ -3,12 +3,10 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <numbers>
 #include <numeric>
 
 #include "sim/field.h"
 #include "sim/sky.h"
-#include "sim/sun.h"
 
 namespace espalier {
 namespace {
@@ -20,47 +18,20 @@ int total(const sim::DirectionSet& set) {
   return std::accumulate(set.begin(), set.end(), 0, [](int sum, const auto& d) { return sum + d.weight; });
 }
 
-Vec3 moment(const sim::DirectionSet& set) {
-  Vec3 sum(0.0);
-  for (const auto& d : set)
-    sum += static_cast<double>(d.weight) / sim::ExposureField::kWhole * glm::normalize(Vec3(d.v));
-  return sum;
-}
-
-TEST(Directions, WeightsAddUpToTheWhole) {
-  for (const int count : {1, 16, 100, 128, 500}) {
-    EXPECT_EQ(total(sim::makeSky({.directions = count}).directions), sim::ExposureField::kWhole) << count;
-    EXPECT_EQ(total(sim::makeSun({20.0, 135.0, count}).directions), sim::ExposureField::kWhole) << count;
-  }
-}
-
-TEST(Directions, ArePrimitiveAndLookUp) {
-  for (const auto& d : sim::makeSky({.directions = 300}).directions) {
-    EXPECT_GE(d.v.y, 1);
-    EXPECT_EQ(std::gcd(std::gcd(d.v.x, d.v.y), d.v.z), 1);
-    EXPECT_EQ(d.crossed.back(), d.v);
-  }
-}
-
-// The mean of the height over a uniform hemisphere is 1/2, and over one weighted by the cosine 2/3.
-TEST(Directions, IntegrateTheHeightOfTheSky) {
-  const Vec3 uniform = moment(sim::makeSky({.directions = 128}).directions);
-  EXPECT_NEAR(uniform.y, 0.5, 0.004);
-  EXPECT_NEAR(uniform.x, 0.0, 0.004);
-  EXPECT_NEAR(uniform.z, 0.0, 0.004);
-  EXPECT_NEAR(moment(sim::receivedBy(sim::makeSky({sim::Weighting::cosine, 0.005, 128}))).y, 2.0 / 3.0,
-              0.004);
-}
-
-TEST(Directions, CosineWeightingLeavesOutWhatLiesBehindTheSurface) {
-  for (const auto& d : sim::receivedBy(sim::makeSky({sim::Weighting::cosine, 0.005, 200}), Vec3(1, 0, 0)))
-    EXPECT_EQ(d.weight == 0, d.v.x <= 0);
+TEST(Directions, WeightsFollowTheSharesAndAddUp) {
+  const std::vector<Voxel> vectors{{0, 1, 0}, {1, 1, 0}, {0, 1, 1}, {1, 1, 1}};
+  const auto set = sim::directionSet(vectors, {0.5, 0.25, 0.0, 0.25}, 10);
+  EXPECT_EQ(total(set), 10);
+  EXPECT_EQ(set[0].weight, 5);
+  EXPECT_EQ(set[1].weight + set[3].weight, 5);
+  EXPECT_EQ(set[2].weight, 0);
+  EXPECT_EQ(total(sim::directionSet(vectors, {0, 0, 0, 0}, 10)), 0);
 }
 
 TEST(Directions, CrossAsManyVoxelsAsThereAreStepsBetweenNeighbours) {
   for (const auto& d : sim::makeSky({.directions = 128}).directions) {
     // One voxel is entered through one face at a time.
-    EXPECT_EQ(static_cast<int>(d.crossed.size()), std::abs(d.v.x) + std::abs(d.v.y) + std::abs(d.v.z));
+    EXPECT_EQ(static_cast<int>(d.crossed.size()), sim::crossedCount(d.v));
     Voxel last(0);
     for (const Voxel o : d.crossed) {
       const Voxel step = glm::abs(o - last);
@@ -84,24 +55,29 @@ TEST(Directions, TheNearestLatticeVectorIsTheNearest) {
   }
 }
 
-TEST(Sun, RisesInTheEastAndLeansTheWayItIsTold) {
-  const sim::SunArc south{20.0, 180.0, 48};
-  const Vec3 rise = sim::sunDirection(south, 6.0), noon = sim::sunDirection(south, 12.0);
-  EXPECT_NEAR(rise.x, 1.0, 1e-6);
-  EXPECT_NEAR(noon.y, std::cos(20.0 * std::numbers::pi / 180.0), 1e-6);
-  EXPECT_GT(noon.z, 0.3);
-  for (const auto& d : sim::makeSun(south).directions) EXPECT_GE(d.v.z, 0);
-  EXPECT_GT(sim::sunDirection({20.0, 90.0, 1}, 12.0).x, 0.3);
+TEST(Directions, VectorsAroundADirectionComeByTheirSize) {
+  const Vec3 unit = glm::normalize(Vec3(-0.4, 0.01, 0.3));
+  for (const int lowest : {0, 1}) {
+    int last = 0;
+    bool any_level = false;
+    sim::forEachLatticeVector(unit, lowest, [&](int longest, Voxel v) {
+      EXPECT_EQ(longest, std::max({std::abs(v.x), v.y, std::abs(v.z)}));
+      EXPECT_GE(longest, last);
+      EXPECT_GE(v.y, lowest);
+      last = longest;
+      any_level = any_level || v.y == 0;
+      return true;
+    });
+    EXPECT_EQ(last, sim::kLongestComponent);
+    EXPECT_EQ(any_level, lowest == 0);
+  }
 }
 
-TEST(Sun, LatticeDirectionsLieWithinADegreeAndAHalfOfTheArc) {
-  const Vec3 pole = glm::normalize(
-      glm::cross(sim::sunDirection({20.0, 150.0, 48}, 6.0), sim::sunDirection({20.0, 150.0, 48}, 12.0)));
-  for (const auto& d : sim::makeSun({20.0, 150.0, 48}).directions) {
-    const double off =
-        std::asin(std::abs(glm::dot(glm::normalize(Vec3(d.v)), pole))) * 180.0 / std::numbers::pi;
-    EXPECT_LT(off, 1.5);
-  }
+TEST(Directions, SineBetweenIsOfTheAngle) {
+  EXPECT_NEAR(sim::sineBetween({1, 1, 0}, Vec3(0, 1, 0)), std::sqrt(0.5), 1e-15);
+  EXPECT_NEAR(sim::sineBetween({0, 7, 0}, Vec3(0, 1, 0)), 0.0, 1e-15);
+  EXPECT_EQ(sim::sineBetween({0, 0, 1}, Vec3(0, 1, 0)), 1.0);
+  EXPECT_EQ(sim::sineBetween({0, 1, 0}, Vec3(0, -1, 0)), 1.0);
 }
 
 }  // namespace

@@ -8,12 +8,18 @@
 #include <vector>
 
 #include "render/camera.h"
+#include "render/panels.h"
 #include "sim/bits.h"
 #include "sim/field.h"
 #include "sim/frame.h"
 #include "sim/ray.h"
 
 namespace espalier::tests {
+
+/// What the free voxel in front of a face holds. The field must outlive it.
+inline render::FaceValue inFront(const sim::ExposureField& field) {
+  return [&field](sim::Voxel v, std::uint8_t face) { return field.at(v + render::kFaceNormals[face]); };
+}
 
 /// A garden small enough to hold in the head: paving, a wall with an arched window and a coping, steps, a bed
 /// with a clipped ball in it. Colours as plain arrays and exposures by casting every ray, so that pictures

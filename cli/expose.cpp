@@ -1,0 +1,59 @@
+#include <CLI/App.hpp>
+#include <CLI/Config.hpp>
+#include <CLI/Formatter.hpp>
+#include <map>
+#include <memory>
+#include <optional>
+
+#include "cli/commands.h"
+#include "cli/job_options.h"
+#include "scenes/expose.h"
+
+namespace espalier::cli {
+namespace {
+
+const std::map<std::string, scenes::ExposureWhere> kWhere = {
+    {"surfaces", scenes::ExposureWhere::surfaces},
+    {"band", scenes::ExposureWhere::band},
+    {"everything", scenes::ExposureWhere::everything}};
+
+struct ExposeArguments {
+  JobOptions job;
+  std::optional<std::string> where;
+  std::optional<int> band_vx;
+};
+
+}  // namespace
+
+void addExpose(CLI::App& app, int& exit_status) {
+  auto* const command = app.add_subcommand(
+      "expose", "Find the sun and the sky that a scene's surfaces see; write maps, fields and tables");
+  const auto arguments = std::make_shared<ExposeArguments>();
+  addJobOptions(*command, arguments->job);
+  command
+      ->add_option("--where", arguments->where,
+                   "surfaces, band (the free space near them too) or everything (all free space), instead "
+                   "of the scene's exposure.where")
+      ->check(CLI::IsMember({"surfaces", "band", "everything"}));
+  command->add_option("--band", arguments->band_vx, "How many voxels wide a band is; implies --where band")
+      ->check(CLI::Range(1, 64));
+  command->callback([arguments, &exit_status] {
+    const auto& where = arguments->where;
+    const auto& band_vx = arguments->band_vx;
+    if (band_vx && where && *where != "band") {
+      throw CLI::ValidationError(
+          "--band", "a band means nothing to --where " + *where + "; expected --where band, or no --band");
+    }
+    exit_status = runJob(arguments->job, [&](scenes::Scene scene, const scenes::RunOptions& run) {
+      if (band_vx) {
+        scene.exposure = {scenes::ExposureWhere::band, *band_vx};
+      } else if (where) {
+        scene.exposure.where = kWhere.at(*where);
+      }
+      const scenes::ExposeResult result = scenes::exposeScene(std::move(scene), run);
+      return JobOutcome{scenes::toJson(result.report), scenes::summary(result, run.folder)};
+    });
+  });
+}
+
+}  // namespace espalier::cli

@@ -1,0 +1,31 @@
+#pragma once
+#include <CLI/App.hpp>
+#include <functional>
+#include <string>
+
+#include "scenes/run.h"
+#include "scenes/scene.h"
+
+namespace espalier::cli {
+
+/// What every command that works through a scene is told.
+struct JobOptions {
+  std::string scene;
+  std::string folder;
+  int threads = 0;
+  bool quiet = false, json = false, no_pictures = false;
+};
+
+void addJobOptions(CLI::App& command, JobOptions& options);
+
+/// What is printed when the work is done.
+struct JobOutcome {
+  std::string json, summary;
+};
+using JobWork = std::function<JobOutcome(scenes::Scene scene, const scenes::RunOptions& options)>;
+
+/// Reads the scene, runs the work on as many threads as asked with progress and Ctrl-C, and prints what came
+/// of it. Gives the exit status back.
+int runJob(const JobOptions& options, const JobWork& work);
+
+}  // namespace espalier::cli

@@ -1,0 +1,17 @@
+#pragma once
+#include <memory>
+
+#include "rules/key.h"
+#include "scenes/scene.h"
+
+/// The keys `sky` and `sun` of scene files.
+namespace espalier::scenes {
+
+std::shared_ptr<const rules::Table> skyKeys();
+std::shared_ptr<const rules::Table> sunKeys();
+
+/// What must hold between them.
+void checkSky(const Scene& scene, const rules::Check::Given& given, const rules::Check::Complain& complain);
+void checkSun(const Scene& scene, const rules::Check::Given& given, const rules::Check::Complain& complain);
+
+}  // namespace espalier::scenes

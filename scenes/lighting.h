@@ -1,0 +1,67 @@
+#pragma once
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "sim/field.h"
+#include "sim/sky.h"
+#include "sim/sun.h"
+#include "sim/world.h"
+
+namespace espalier::scenes {
+
+struct LightWanted {
+  bool faces = true;       ///< light of the faces that are judged by themselves
+  bool brightest = false;  ///< the brightest way from each surface
+  /// Free voxels where light is wanted beside the surfaces; null: none.
+  std::shared_ptr<const sim::VoxelSet> space = nullptr;
+  bool dense = false;        ///< in every voxel of the world, whatever `space` says
+  bool space_hours = false;  ///< hours of sun too, there
+};
+
+/// What surfaces receive of one kind of light: the values of Lighting::surfaces, then of Lighting::faces.
+struct Received {
+  std::vector<float> values;
+  std::array<float, 6> beyond{};  ///< what a face receives that looks out of the world, by its direction
+};
+
+/// The light of a world, found once for its pictures, tables and files. Surfaces are judged by their own
+/// normals (sim/sense/surface.h).
+///
+/// What has no side, or shows its back, is judged face by face: a cube's face receives what a surface with
+/// the face's normal would in the free voxel before it. So stems, and walls of a single sheet seen from
+/// behind, have values too: they are in pictures and .vdb files, and in no table.
+struct Lighting {
+  std::vector<sim::TiledVoxel> surfaces;          ///< that have a side, in (y, z, x) order
+  std::shared_ptr<const sim::VoxelSet> where;     ///< the same, numbered alike
+  std::vector<std::uint64_t> faces;               ///< judged by themselves: faceKey of each, ascending
+  std::shared_ptr<const sim::VoxelSet> sideless;  ///< voxels with such faces that are no surfaces
+
+  Received sky, sun;                  ///< 0..1
+  Received sun_hours;                 ///< a day
+  double hours_a_day = 0.0;           ///< of sun where nothing obstructs
+  std::vector<sim::Vec3f> brightest;  ///< by surface: unit, zero where no sky is seen; empty if not wanted
+
+  /// In free space, as level ground receives it; null where not wanted. Hours are fractions of `hours_a_day`.
+  std::shared_ptr<const sim::ExposureField> space_sky, space_sun, space_hours;
+
+  /// What the numbers are, by name: sky, weighting, directions, standard error, sun and so on.
+  std::vector<std::pair<std::string, std::string>> about;
+
+  /// By voxel, in (y, z, x) order, then face: as in render/visibility.h.
+  std::uint64_t faceKey(sim::Voxel voxel, std::uint8_t face) const;
+  /// Of a face of an occupied voxel with no occupied voxel before it.
+  float atFace(const Received& light, sim::Voxel voxel, std::uint8_t face) const;
+  /// Of each voxel of `sideless` the mean over its faces.
+  std::vector<float> ofSideless(const Received& light) const;
+};
+
+/// Finds the light of a world; a sun without directions gives none. Takes the world's bits, the surfaces, a
+/// bit for each direction and place before a surface, and what is wanted in free space.
+Lighting lightOf(const sim::World& world, const sim::Sky& sky, const sim::Sun& sun = {},
+                 const LightWanted& wanted = {});
+
+}  // namespace espalier::scenes

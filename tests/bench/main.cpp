@@ -1,0 +1,52 @@
+#include <fmt/format.h>
+
+#include <CLI/App.hpp>
+#include <CLI/Config.hpp>
+#include <CLI/Formatter.hpp>
+#include <exception>
+#include <set>
+
+#include "scenes/read_scene.h"
+#include "sim/error.h"
+#include "tests/bench/machine.h"
+#include "tests/bench/rows.h"
+
+namespace {
+
+using namespace espalier;
+
+scenes::Job courtyard() {
+  auto scene = scenes::readScene(ESPALIER_SOURCE_DIR "/scenes/library/courtyard.yaml");
+  if (!scene) throw sim::InputError(scenes::format(scene.problems()));
+  return scenes::prepareJob(std::move(*scene));
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  CLI::App app("Measures exposure against other ways to find it, in one run: medians of five.", "bench");
+  std::string csv = "out/bench.csv", document;
+  double most_voxels = 1.1e9;
+  std::set<int> rows;
+  app.add_option("--csv", csv, "Where the table goes")->capture_default_str();
+  app.add_option("--into", document, "A document whose first block of ``` takes what is printed");
+  app.add_option("--most-voxels", most_voxels, "Of the largest world")->capture_default_str();
+  app.add_option("--rows", rows, "Only these of 1 .. 4")->check(CLI::Range(1, 4));
+  CLI11_PARSE(app, argc, argv);
+  const auto wanted = [&](int row) { return rows.empty() || rows.contains(row); };
+  try {
+    bench::Report report(bench::machineText());
+    report.note(bench::loadText());
+    scenes::Job job = courtyard();
+    if (wanted(1)) bench::benchSurfaces(job, report);
+    if (wanted(2)) bench::benchEveryVoxel(job, report);
+    if (wanted(3)) bench::benchLargeWorlds(most_voxels, report);
+    if (wanted(4)) bench::benchGrowth(job, report);
+    report.writeCsv(csv);
+    if (!document.empty()) report.writeInto(document);
+  } catch (const std::exception& error) {
+    fmt::print(stderr, "bench: {}\n", error.what());
+    return 1;
+  }
+  return 0;
+}

@@ -1,0 +1,23 @@
+#pragma once
+#include "scenes/job.h"
+#include "tests/bench/report.h"
+
+/// The rows of the report. Each prints what it does, checks that the answers agree, and adds its figures.
+namespace espalier::bench {
+
+/// Every surface voxel of the scene, by the sweep and by each peer.
+void benchSurfaces(const scenes::Job& job, Report& report);
+
+/// Every voxel of the scene, by the sweep and by casting the same rays one by one.
+void benchEveryVoxel(const scenes::Job& job, Report& report);
+
+/// Worlds up to so many voxels: what a voxel and direction cost, and the bytes moved.
+void benchLargeWorlds(double most_voxels, Report& report);
+
+/// What light costs while the scene grows. Grows it.
+void benchGrowth(scenes::Job& job, Report& report);
+
+/// A sky of at least so many directions, of equal weight for equal parts.
+sim::DirectionSet skyOf(int directions);
+
+}  // namespace espalier::bench

@@ -1,0 +1,137 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <memory>
+#include <optional>
+
+#include "sim/error.h"
+#include "sim/sense/surface.h"
+#include "sim/sky.h"
+#include "sim/sweep.h"
+#include "tests/bench/peers.h"
+#include "tests/bench/rows.h"
+
+namespace espalier::bench {
+namespace {
+
+constexpr const char* kRow = "1 surfaces";
+constexpr std::size_t kRun = 1024, kSampleEvery = 16;
+
+/// One run of neighbouring places out of sixteen.
+Question sampleOf(const Question& question) {
+  Question sample{question.directions, {}};
+  for (std::size_t i = 0; i < question.places.size(); ++i) {
+    if (i / kRun % kSampleEvery == 0) sample.places.push_back(question.places[i]);
+  }
+  return sample;
+}
+
+sim::BitVolume bitsOf(const Question& question, sim::Voxel size) {
+  sim::BitVolume bits(size);
+  for (const sim::Voxel v : question.places) bits.set(v);
+  return bits;
+}
+
+std::vector<sim::Mesh> meshesInVoxels(const scenes::Job& job) {
+  std::vector<sim::Mesh> meshes;
+  for (const auto& tiled : job.meshes) {
+    meshes.push_back(tiled.mesh);
+    for (sim::Vec3& v : meshes.back().vertices_m) v = sim::voxelFromWorld(job.world.frame(), v);
+  }
+  return meshes;
+}
+
+/// How an answer differs from ours.
+struct Difference {
+  double places = 0.0;  ///< share with another sum
+  double mean = 0.0;    ///< of the fraction of the sky, over all places
+};
+
+Difference difference(const Sums& ours, const Sums& theirs) {
+  Difference found;
+  for (std::size_t i = 0; i < ours.size(); ++i) {
+    found.places += ours[i] != theirs[i] ? 1.0 : 0.0;
+    found.mean += std::abs(ours[i] - theirs[i]);
+  }
+  const auto n = static_cast<double>(ours.size());
+  return {found.places / n, found.mean / n / sim::ExposureField::kWhole};
+}
+
+/// Those whose mean difference is larger answer another question.
+constexpr double kSameQuestion = 0.005;
+
+/// Times all peers on a sample; the fastest of those that agree with us.
+const Peer& best(const Peers& peers, const Question& sample, const Sums& ours, Report& report) {
+  std::vector<Sums> answers(peers.size());
+  std::vector<Work> works;
+  for (std::size_t i = 0; i < peers.size(); ++i)
+    works.push_back([&, i] { answers[i] = peers[i]->answer(sample); });
+  const std::vector<double> seconds = medianSeconds(works);
+  std::optional<std::size_t> fastest;
+  for (std::size_t i = 0; i < peers.size(); ++i) {
+    const Difference off = difference(ours, answers[i]);
+    report.add({kRow, fmt::format("{}, sample: off by {:.4f}", peers[i]->name(), off.mean),
+                sample.rays() / seconds[i] / 1e6, "Mray/s", hashOf(answers[i])});
+    if (off.mean < kSameQuestion && (!fastest || seconds[i] < seconds[*fastest])) fastest = i;
+  }
+  if (!fastest) throw sim::InputError("no peer agrees with the sweep");
+  return *peers[*fastest];
+}
+
+}  // namespace
+
+sim::DirectionSet skyOf(int directions) {
+  for (int asked = directions;; ++asked) {
+    auto set = sim::makeSky({.directions = asked}).directions;
+    if (static_cast<int>(set.size()) >= directions) return set;
+  }
+}
+
+void benchSurfaces(const scenes::Job& job, Report& report) {
+  const sim::BitVolume& occupied = job.world.opaque();
+  const sim::Sky sky{sim::Weighting::uniform, skyOf(128), 0.0};
+  const sim::SurfaceSensors sensors = sim::surfaceSensors(job.world);
+  const Question question{sky.directions, sensors.places->voxels()};
+  const sim::Voxel size = occupied.size();
+  report.title(fmt::format(
+      "1. Sky exposure of every surface voxel: {}, {} x {} x {} voxels, {} surfaces judged from {} free "
+      "places, {} directions",
+      job.scene.name, size.x, size.y, size.z, sensors.surfaces.size(), question.places.size(),
+      sky.directions.size()));
+
+  const Question sample = sampleOf(question);
+  const auto sampled = std::make_shared<const sim::VoxelSet>(bitsOf(sample, size));
+  const Sums expected = sim::sweepExposure(occupied, sky.directions, sampled).sums;
+  const Peers embree = embreePeers(occupied, meshesInVoxels(job)), nanovdb = nanovdbPeers(occupied);
+  const std::array<const Peer*, 2> rivals = {&best(embree, sample, expected, report),
+                                             &best(nanovdb, sample, expected, report)};
+  Sums ours;
+  std::array<Sums, 2> theirs;
+  const std::vector<double> seconds = medianSeconds(
+      {[&] { ours = sim::sweepExposure(occupied, sky.directions, sensors.places).sums; },
+       [&] { sim::surfaceSky(sensors, sim::sweepOpen(occupied, sky.directions, sensors.places), sky); },
+       [&] { theirs[0] = rivals[0]->answer(question); }, [&] { theirs[1] = rivals[1]->answer(question); }});
+  const std::uint64_t state = hashOf(ours);
+  const auto add = [&](const std::string& what, double time, std::uint64_t hash) {
+    report.add({kRow, what, time * 1e3, "ms", hash});
+    report.add({kRow, "  rays", question.rays() / time / 1e6, "Mray/s", hash});
+  };
+  add("the sweep, at the places", seconds[0], state);
+  add("the sweep, a bit a direction, and what each surface receives", seconds[1], state);
+  for (std::size_t i = 0; i < rivals.size(); ++i) {
+    add(rivals[i]->name(), seconds[2 + i], hashOf(theirs[i]));
+    const Difference off = difference(ours, theirs[i]);
+    report.note(
+        fmt::format("  {:.1f} % of places differ from the sweep; by {:.5f} of the sky in the mean of all",
+                    100.0 * off.places, off.mean));
+  }
+  const double fastest = std::min(seconds[2], seconds[3]);
+  report.add({kRow, "the better peer's time over the sweep's, at the places", fastest / seconds[0], "times",
+              state, Target{50.0}});
+  report.add({kRow, "the same over that of what each surface receives", fastest / seconds[1], "times", state,
+              Target{50.0}});
+}
+
+}  // namespace espalier::bench

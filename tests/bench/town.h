@@ -1,0 +1,10 @@
+#pragma once
+#include "sim/bits.h"
+
+namespace espalier::bench {
+
+/// A town in a world of this size: ground, and houses of many heights along streets. The same for the same
+/// size.
+sim::BitVolume town(sim::Voxel size);
+
+}  // namespace espalier::bench

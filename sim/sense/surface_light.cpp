@@ -84,7 +84,7 @@ class Judge {
   };
 
   Light at(std::span<const Tap> taps, Vec3f normal) {
-    const std::size_t slot = slotOf(normal) % kFronts;
+    const std::size_t hash = hashOf(normal), slot = hash % kFronts;
     std::uint64_t* const mask = masks_.data() + slot * givers_.words();
     Front& front = fronts_[slot];
     if (front.normal != normal) {
@@ -94,7 +94,7 @@ class Judge {
     }
     float sum = 0.0f;
     for (const Tap& tap : taps) {
-      Known& known = known_[(tap.place + slotOf(normal)) % kKnown];
+      Known& known = known_[(tap.place + hash) % kKnown];
       if (known.place != tap.place || known.normal != normal)
         known = {tap.place, normal, givers_.given(open_.row(tap.place).data(), mask, normal)};
       sum += tap.weight * known.value;
@@ -114,7 +114,7 @@ class Judge {
     float value = 0.0f;
   };
 
-  static std::size_t slotOf(Vec3f n) {
+  static std::size_t hashOf(Vec3f n) {
     std::uint64_t hash = std::bit_cast<std::uint32_t>(n.x);
     hash = hash * 0x9e3779b97f4a7c15u + std::bit_cast<std::uint32_t>(n.y);
     hash = hash * 0x9e3779b97f4a7c15u + std::bit_cast<std::uint32_t>(n.z);

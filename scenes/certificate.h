@@ -27,9 +27,9 @@ struct Certificate {
   };
   /// Points drawn evenly by area on the scene's triangles.
   struct SpotCheck {
-    std::size_t points = 0;  ///< compared
-    std::size_t unseen = 0;  ///< whose voxel no light can reach: left out
-    int rays = 0;            ///< from each point
+    std::size_t points = 0;    ///< compared
+    std::size_t left_out = 0;  ///< drawn, but in joints, on backs of what is thinner than a voxel, or outside
+    int rays = 0;              ///< from each point
     double bias = 0.0, rms = 0.0, median = 0.0, percentile_95 = 0.0;  ///< the last two of the error's size
     struct Worst {
       sim::Vec3 at_m{0.0};

@@ -28,7 +28,8 @@ std::string toText(const Certificate& c) {
         s.rays, s.points, sim::nameOf(c.weighting), s.bias, s.rms, s.median, s.percentile_95,
         s.worst.value - s.worst.truth, s.worst.at_m.x, s.worst.at_m.y, s.worst.at_m.z, s.worst.object,
         s.worst.region, s.worst.value, s.worst.truth);
-    if (s.unseen > 0) text += fmt::format("{} points where no light gets in were left out\n", s.unseen);
+    text += fmt::format(
+        "{} points in joints, on backs of thin things or outside of the world were left out\n", s.left_out);
   }
   return text;
 }
@@ -57,7 +58,7 @@ std::string toJson(const Certificate& c) {
   if (c.spots) {
     const auto& s = *c.spots;
     json["rays_on_triangles"] = {{"points", s.points},
-                                 {"points_left_out", s.unseen},
+                                 {"points_left_out", s.left_out},
                                  {"rays", s.rays},
                                  {"bias", s.bias},
                                  {"rms", s.rms},

@@ -95,11 +95,11 @@ double middle(double half, double voxel_m) {
   return std::max(0.05 * half, voxel_m);
 }
 
-/// Elevation of the top of a wall that runs along z at x = at, from height y.
-double overWall(double at, double height, double y, double azimuth) {
-  const double toward = std::cos(azimuth) * at;
-  return toward > 0.0 && height > y ? std::atan((height - y) * std::abs(std::cos(azimuth)) / std::abs(at))
-                                    : 0.0;
+/// Elevation of the top of a wall that runs across the way azimuth 0, `at` ahead of a point (or behind it)
+/// and `height` above it. A wall does not hide anything from a point on itself.
+double overWall(double at, double height, double azimuth) {
+  const double across = std::cos(azimuth) * at;
+  return across > 1e-5 * height && height > 0.0 ? std::atan(height * std::cos(azimuth) / at) : 0.0;
 }
 
 std::string wide(double width_m, double height_m) {
@@ -140,8 +140,8 @@ KnownShape street(double width_m, double height_m, double voxel_m) {
     return skySeen(
         weighting,
         [&](double azimuth) {
-          return std::max(overWall(half - p.x, height_m, p.y, azimuth),
-                          overWall(-half - p.x, height_m, p.y, azimuth));
+          return std::max(overWall(half - p.x, height_m - p.y, azimuth),
+                          overWall(-half - p.x, height_m - p.y, azimuth));
         },
         n);
   };
@@ -182,8 +182,8 @@ KnownShape court(double width_m, double height_m, double turn_deg, double voxel_
           const double a = azimuth - turn_rad;
           double hidden = 0.0;
           for (const double side : {-half, half}) {
-            hidden = std::max(hidden, overWall(side - q.x, height_m, p.y, a));
-            hidden = std::max(hidden, overWall(side - q.z, height_m, p.y, a - kPi / 2.0));
+            hidden = std::max(hidden, overWall(side - q.x, height_m - p.y, a));
+            hidden = std::max(hidden, overWall(side - q.z, height_m - p.y, a - kPi / 2.0));
           }
           return hidden;
         },

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <limits>
 #include <span>
@@ -11,6 +12,7 @@
 #include "sim/error.h"
 #include "sim/fill.h"
 #include "sim/memory.h"
+#include "sim/parallel.h"
 #include "sim/tile_mesh.h"
 #include "sim/tiling.h"
 
@@ -101,34 +103,97 @@ Surface largestRegion(const Mesh& mesh, PartId first_part) {
           .normal = Vec3f(0.0f)};
 }
 
-/// The inside's voxels, each like the nearest surface voxel of its row along x, the lower one where two are
-/// as near.
-std::vector<TiledVoxel> insideVoxels(const BitVolume& inside, std::span<const TiledVoxel> surface,
-                                     Surface fallback) {
-  std::vector<TiledVoxel> voxels;
-  auto row_begin = surface.begin();
-  for (int y = 0; y < inside.size().y; ++y) {
-    for (int z = 0; z < inside.size().z; ++z) {
-      const auto row_end = std::find_if(
-          row_begin, surface.end(), [&](const TiledVoxel& t) { return t.voxel.y != y || t.voxel.z != z; });
-      auto next = row_begin;
-      for (int i = 0; i < inside.rowWords(); ++i) {
-        for (std::uint64_t word = inside.row(y, z)[i]; word != 0; word &= word - 1) {
-          const int x = i * BitVolume::kWordBits + std::countr_zero(word);
-          while (next != row_end && next->voxel.x < x) ++next;
-          Surface like = fallback;
-          if (next != row_begin && (next == row_end || x - (next - 1)->voxel.x <= next->voxel.x - x)) {
-            like = (next - 1)->surface;
-          } else if (next != row_end) {
-            like = next->surface;
-          }
-          voxels.push_back({Voxel(x, y, z), {like.part, like.colour, 1.0f, Vec3f(0.0f)}});
+/// Those of a solid's inside voxels that fill blocks of 8x8x8 whole: a byte of all ones for each, by rows of
+/// blocks. Blocks at the world's high edges that are cut off do not count.
+class WholeBlocks {
+ public:
+  WholeBlocks(const BitVolume& inside, int block_y)
+      : z_rows_(inside.size().z / 8), words_(inside.rowWords()) {
+    if (8 * block_y + 8 > inside.size().y) z_rows_ = 0;
+    masks_.assign(static_cast<std::size_t>(z_rows_) * static_cast<std::size_t>(words_), 0);
+    parallelForEach(static_cast<std::size_t>(z_rows_), [&](std::size_t block_z) {
+      for (int i = 0; i < words_; ++i) {
+        std::uint64_t all = ~std::uint64_t{0};
+        for (int row = 0; row < 64 && all != 0; ++row)
+          all &= inside.row(8 * block_y + row / 8, 8 * static_cast<int>(block_z) + row % 8)[i];
+        std::uint64_t whole = 0;
+        for (int byte = 0; byte < 8; ++byte) {
+          const std::uint64_t ones = std::uint64_t{0xff} << (8 * byte);
+          if ((all & ones) == ones) whole |= ones;
         }
+        masks_[block_z * static_cast<std::size_t>(words_) + static_cast<std::size_t>(i)] = whole;
       }
-      row_begin = row_end;
+    });
+  }
+  std::uint64_t mask(int z, int word) const {
+    return z / 8 < z_rows_ ? masks_[static_cast<std::size_t>(z / 8) * static_cast<std::size_t>(words_) +
+                                    static_cast<std::size_t>(word)]
+                           : 0;
+  }
+
+ private:
+  int z_rows_, words_;
+  std::vector<std::uint64_t> masks_;
+};
+
+/// Occupies a solid's inside: its voxels are like the nearest surface voxel of their row along x, the lower
+/// one where two are as near. Whole blocks are all like their first voxel, as nobody sees so deep.
+void occupyInside(World& world, const BitVolume& inside, std::span<const TiledVoxel> surface,
+                  const Surface& fallback) {
+  const Voxel size = inside.size();
+  auto row_begin = surface.begin();
+  std::vector<TiledVoxel> voxels, blocks;
+  for (int block_y = 0; 8 * block_y < size.y; ++block_y) {
+    const WholeBlocks whole(inside, block_y);
+    for (int y = 8 * block_y; y < std::min(8 * block_y + 8, size.y); ++y) {
+      for (int z = 0; z < size.z; ++z) {
+        const auto row_end = std::find_if(
+            row_begin, surface.end(), [&](const TiledVoxel& t) { return t.voxel.y != y || t.voxel.z != z; });
+        auto next = row_begin;
+        const auto like = [&](int x) {
+          while (next != row_end && next->voxel.x < x) ++next;
+          Surface s = fallback;
+          if (next != row_begin && (next == row_end || x - (next - 1)->voxel.x <= next->voxel.x - x)) {
+            s = (next - 1)->surface;
+          } else if (next != row_end) {
+            s = next->surface;
+          }
+          return Surface{.part = s.part, .colour = s.colour, .coverage = 1.0f};
+        };
+        const bool first_row = y % 8 == 0 && z % 8 == 0;
+        for (int i = 0; i < inside.rowWords(); ++i) {
+          const std::uint64_t in_blocks = whole.mask(z, i);
+          std::uint64_t word = inside.row(y, z)[i] & ~in_blocks;
+          if (first_row) word |= in_blocks & 0x0101010101010101u;
+          for (; word != 0; word &= word - 1) {
+            const int bit = std::countr_zero(word);
+            const Voxel v(i * BitVolume::kWordBits + bit, y, z);
+            ((in_blocks >> bit & 1u) != 0 ? blocks : voxels).push_back({v, like(v.x)});
+          }
+        }
+        row_begin = row_end;
+      }
+    }
+    world.occupyClear(voxels);
+    world.occupyBlocks(blocks);
+    voxels.clear();
+    blocks.clear();
+  }
+}
+
+/// Those that occupyInside keeps one by one.
+std::size_t singleVoxels(const BitVolume& inside) {
+  std::size_t count = 0;
+  for (int block_y = 0; 8 * block_y < inside.size().y; ++block_y) {
+    const WholeBlocks whole(inside, block_y);
+    for (int y = 8 * block_y; y < std::min(8 * block_y + 8, inside.size().y); ++y) {
+      for (int z = 0; z < inside.size().z; ++z) {
+        for (int i = 0; i < inside.rowWords(); ++i)
+          count += static_cast<std::size_t>(std::popcount(inside.row(y, z)[i] & ~whole.mask(z, i)));
+      }
     }
   }
-  return voxels;
+  return count;
 }
 
 /// Earlier meshes keep their voxels.
@@ -159,21 +224,21 @@ FillReport add(World& world, const TiledMesh& tiled, PartId first_part) {
   BitVolume touched(world.frame().size);
   for (const TiledVoxel& t : surface) touched.set(t.voxel);
   Filled filled = fillMesh(trianglesOf(tiled, vertices_vx, world.frame().size), touched, tiled.solid);
+  world.addOpaque(filled.opaque);
   if (tiled.solid) faceOutwards(surface, filled.opaque);
-  world.occupy(surface, filled.opaque);
+  world.occupyClear(surface);
   if (!tiled.solid) return {};
   keepFree(filled.inside, world.occupied());
-  const std::size_t count = filled.inside.count();
-  requireFilledFits(count, mesh.name);
-  world.occupy(insideVoxels(filled.inside, surface, largestRegion(mesh, first_part)), filled.opaque);
-  return {mesh.name, count, filled.doubtful};
+  requireFilledFits(singleVoxels(filled.inside), mesh.name);
+  occupyInside(world, filled.inside, surface, largestRegion(mesh, first_part));
+  return {mesh.name, filled.inside.count(), filled.doubtful};
 }
 
 }  // namespace
 
 World buildWorld(const Frame& frame, const std::vector<TiledMesh>& meshes, int layers,
                  std::vector<FillReport>* fills) {
-  requireFits(frame);
+  requireFits(frame, {.layers = layers});
   for (const TiledMesh& m : meshes) requireSound(m.mesh);
   World world(frame);
   for (const TiledMesh& m : meshes) {
@@ -213,7 +278,7 @@ Frame frameAround(const std::vector<TiledMesh>& meshes, double voxel_m, double m
   const Vec3 last = glm::floor((high - origin) / voxel_m + 0.5 + 0.5 / static_cast<double>(kFixedOne));
   const Vec3 with_margin = glm::ceil((high - low + 2 * margin_m) / voxel_m - 1e-3);
   const Vec3 size = glm::max(last + 1.0, with_margin);
-  requireFits(size, voxel_m);
+  requireFits(size, voxel_m, {});
   return {.origin_m = origin, .voxel_m = voxel_m, .size = Voxel(size)};
 }
 

@@ -36,7 +36,13 @@ World buildWorld(const Frame& frame, const std::vector<TiledMesh>& meshes, int l
 /// Throws InputError where there is nothing to hold or voxel_m is not positive.
 Frame frameAround(const std::vector<TiledMesh>& meshes, double voxel_m, double margin_m);
 
+/// What a world is for, as far as it takes memory.
+struct WorldUse {
+  int layers = 0;
+  double bytes_per_voxel = 0.0;  ///< of fields that cover every voxel; surfaces need none
+};
+
 /// Throws InputError when a world of this size would not fit, naming the voxel size that would.
-void requireFits(const Frame& frame);
+void requireFits(const Frame& frame, const WorldUse& use = {});
 
 }  // namespace espalier::sim

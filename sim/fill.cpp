@@ -15,8 +15,8 @@
 // swells a wall by half a voxel on either side and more; shadows would swell with it. Of a solid the voxels
 // take light whose centres are inside: as many are too much as too little. Light travels along lines of
 // voxels that share faces, so nothing leaks if of any two such neighbours with a triangle between their
-// centres one takes light. Where a solid leaves both outside (it is thinner than a voxel there), and
-// everywhere on an open surface, the one nearer to the triangle does.
+// centres one takes light. On an open surface, and where a solid leaves both outside, that is the one behind
+// the triangle; where triangles face both ways (a wall thinner than a voxel), the one nearer to them.
 //
 // Voxels lie on one line of each direction, so lines run in parallel and only write to voxels of their own.
 // The box is worked through in slabs, so that its bytes never outgrow the world's bits.
@@ -69,27 +69,29 @@ void vote(const VoxelBox& box, const Lines& lines, std::uint32_t line, std::span
   }
 }
 
-/// Marks of each two neighbours with triangles between their centres the one that is nearer to their middle:
-/// bit 2 axis where the other lies before it, bit 2 axis + 1 where it lies after it.
-void markNearer(const VoxelBox& box, const Lines& lines, int axis, std::uint32_t line,
-                std::span<const Crossing> crossings, Bytes& nearer) {
+/// Marks of each two neighbours with triangles between their centres the one that takes light if neither is
+/// inside: bit 2 axis where the other lies before it, bit 2 axis + 1 where it lies after it.
+void markSkin(const VoxelBox& box, const Lines& lines, int axis, std::uint32_t line,
+              std::span<const Crossing> crossings, Bytes& skin) {
   for (std::size_t i = 0; i < crossings.size();) {
-    std::size_t next = i + 1;
-    while (next < crossings.size() && crossings[next].before() == crossings[i].before()) ++next;
-    const std::int64_t middle = (std::int64_t{crossings[i].at} + crossings[next - 1].at) / 2;
+    int turns = 0;
+    std::size_t next = i;
+    for (; next < crossings.size() && crossings[next].before() == crossings[i].before(); ++next)
+      turns += crossings[next].turn;
     const int after = crossings[i].before();
-    // Halfway goes to the later one, as tiling has it.
-    const bool second = middle - (after - 1) * kFixedOne >= kFixedOne / 2;
+    const std::int64_t middle = (std::int64_t{crossings[i].at} + crossings[next - 1].at) / 2;
+    // Turn -1 is a triangle that faces the oncoming line. Halfway goes to the later one, as tiling has it.
+    const bool second = turns != 0 ? turns < 0 : middle - (after - 1) * kFixedOne >= kFixedOne / 2;
     const Voxel v = lines.voxel(line, second ? after : after - 1);
     if (box.has(v)) {
-      std::uint8_t& marks = nearer[box.index(v)];
+      std::uint8_t& marks = skin[box.index(v)];
       marks = static_cast<std::uint8_t>(marks | 1u << (2 * axis + (second ? 0 : 1)));
     }
     i = next;
   }
 }
 
-/// The voxels of the world that may be inside.
+/// The voxels of the world that may be inside or behind.
 VoxelBox boxOf(const Triangles& triangles_vx, Voxel size) {
   VoxelBox box{size, Voxel(-1)};
   for (const auto& t : triangles_vx) {
@@ -98,7 +100,7 @@ VoxelBox boxOf(const Triangles& triangles_vx, Voxel size) {
       box.last = glm::max(box.last, tilePoint(p));
     }
   }
-  return {glm::max(box.first, Voxel(0)), glm::min(box.last, size - 1)};
+  return {glm::max(box.first - 1, Voxel(0)), glm::min(box.last + 1, size - 1)};
 }
 
 /// Part of a mesh's box, with a rim of neighbours that are judged but belong to others.
@@ -106,15 +108,15 @@ class Slab {
  public:
   Slab(const Triangles& triangles_vx, const BitVolume& surface, const VoxelBox& box, bool solid)
       : triangles_(triangles_vx), surface_(surface), box_(box), inside_(solid ? box.count() : 0) {
-    Bytes nearer(box.count());
+    Bytes skin(box.count());
     for (std::size_t axis = 0; axis < kAxes.size(); ++axis) {
       const Lines lines(kAxes[axis], box_);
       lines.forEachCrossed(triangles_, [&](std::uint32_t line, std::span<const Crossing> crossings) {
         if (solid) vote(box_, lines, line, crossings, inside_);
-        markNearer(box_, lines, static_cast<int>(axis), line, crossings, nearer);
+        markSkin(box_, lines, static_cast<int>(axis), line, crossings, skin);
       });
     }
-    nearer_ = std::move(nearer);
+    skin_ = std::move(skin);
     if (solid) settle();
   }
 
@@ -172,7 +174,7 @@ class Slab {
   }
   bool takesLight(Voxel v) const {
     if (isInside(v)) return true;
-    const unsigned marks = nearer_[box_.index(v)];
+    const unsigned marks = skin_[box_.index(v)];
     for (int axis = 0; marks >> (2 * axis) != 0; ++axis) {
       Voxel step(0);
       step[axis] = 1;
@@ -185,7 +187,7 @@ class Slab {
   const Triangles& triangles_;
   const BitVolume& surface_;
   VoxelBox box_;
-  Bytes inside_, nearer_;
+  Bytes inside_, skin_;
 };
 
 /// Wires and points, whose triangles have no area, take the light of every voxel that they touch.

@@ -10,8 +10,8 @@
 namespace espalier::sim {
 
 struct Filled {
-  BitVolume inside;          ///< of a solid's voxels, those that the surface leaves free
-  BitVolume opaque;          ///< what takes light: some of the tiled voxels, and all that are inside
+  BitVolume inside;  ///< of a solid's voxels, those that the surface leaves free
+  BitVolume opaque;  ///< what takes light: all that are inside, and where that is too little, those behind
   std::size_t doubtful = 0;  ///< free voxels that the lines along the axes did not settle
 };
 

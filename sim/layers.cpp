@@ -257,6 +257,10 @@ void World::setLayers(int layers) {
   if (layers < 0 || layers > kMost) {
     throw InputError(fmt::format("{} boundary layers: expected 0 to {}", layers, kMost));
   }
+  if (layers == 0) {  // a voxel's own part is all there is to know (World::nearnessAt)
+    clearLayers();
+    return;
+  }
   const int window = static_cast<int>(std::floor(std::sqrt(3.0) * layers));
   const Reach reach{layers, window, static_cast<int>(std::bit_width(parts_.size()))};
   const BitVolume scene = occupiedByScene(*this);
@@ -265,10 +269,7 @@ void World::setLayers(int layers) {
   auto slabs =
       short_keys ? allSlabs<std::int32_t>(*this, scene, reach) : allSlabs<std::int64_t>(*this, scene, reach);
 
-  grids_->layer->clear();
-  grids_->nearest->clear();
-  grids_->distance_vx->clear();
-  grids_->near.clear();
+  clearLayers();
   for (std::vector<Block>& slab : slabs) {
     for (Block& block : slab) {
       grids_->near.make(block.first) = {block.layer->buffer().data(), block.nearest->buffer().data(),
@@ -279,6 +280,14 @@ void World::setLayers(int layers) {
     }
   }
   layers_ = layers;
+}
+
+void World::clearLayers() {
+  grids_->layer->clear();
+  grids_->nearest->clear();
+  grids_->distance_vx->clear();
+  grids_->near.clear();
+  layers_ = 0;
   ++version_;
 }
 

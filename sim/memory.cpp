@@ -20,18 +20,18 @@ double budget() {
          static_cast<double>(::sysconf(_SC_PAGE_SIZE));
 }
 
-/// Three bit volumes, two exposure fields and two bytes of votes a voxel, and the grids of a surface as large
-/// as the world's own sides, four layers deep.
-double worldBytes(Vec3 size) {
+/// Bit volumes: what is occupied, what takes light, and three more while a solid is filled or places are
+/// looked at. Surfaces as large as the world's own sides: their grids, taps and places with the directions
+/// that are open there; 32 bytes for each layer before them. Fields of every voxel.
+double worldBytes(Vec3 size, const WorldUse& use) {
   const double voxels = size.x * size.y * size.z;
+  const double padded = (size.x + 2 * 64) / size.x;
   const double sides = 2 * (size.x * size.y + size.y * size.z + size.z * size.x);
-  constexpr double kBytesPerVoxel = 3.0 / 8 + 2 * 2 + 2;
-  constexpr double kBytesPerSide = 4 * 32;
-  return kBytesPerVoxel * voxels + kBytesPerSide * sides;
+  return (5.0 / 8 * padded + use.bytes_per_voxel) * voxels + (250.0 + 32.0 * use.layers) * sides;
 }
 
-bool fits(Vec3 size) {
-  return std::max({size.x, size.y, size.z}) <= kLongestAxis && worldBytes(size) <= budget();
+bool fits(Vec3 size, const WorldUse& use) {
+  return std::max({size.x, size.y, size.z}) <= kLongestAxis && worldBytes(size, use) <= budget();
 }
 
 /// Rounded up to two digits.
@@ -40,8 +40,8 @@ double rounded(double voxel_m) {
   return std::ceil(voxel_m / digit - 1e-9) * digit;
 }
 
-double fittingVoxel(Vec3 size, double voxel_m) {
-  const auto fitsAt = [&](double v) { return fits(glm::ceil(size * (voxel_m / v))); };
+double fittingVoxel(Vec3 size, double voxel_m, const WorldUse& use) {
+  const auto fitsAt = [&](double v) { return fits(glm::ceil(size * (voxel_m / v)), use); };
   double low = voxel_m;
   double high = voxel_m * 2;
   while (!fitsAt(high)) high *= 2;
@@ -56,7 +56,7 @@ std::string amount(double bytes) {
 
 }  // namespace
 
-void requireFits(Vec3 size, double voxel_m) {
+void requireFits(Vec3 size, double voxel_m, const WorldUse& use) {
   if (!(voxel_m > 0) || !std::isfinite(voxel_m)) {
     throw InputError(fmt::format("voxel size {} m: expected a positive length", voxel_m));
   }
@@ -69,22 +69,23 @@ void requireFits(Vec3 size, double voxel_m) {
         fmt::format("a world of {:.0f} x {:.0f} x {:.0f} voxels: expected at least one along each axis",
                     size.x, size.y, size.z));
   }
-  if (fits(size)) return;
+  if (fits(size, use)) return;
   const std::string reason = longest > kLongestAxis
                                  ? fmt::format("has more than {} voxels along an axis", kLongestAxis)
                                  : fmt::format("needs {} of memory, and {} are free for it here",
-                                               amount(worldBytes(size)), amount(budget()));
+                                               amount(worldBytes(size, use)), amount(budget()));
   throw InputError(fmt::format(
       "a world of {:.15g} x {:.15g} x {:.15g} voxels of {:.6g} m {}; a voxel size of {:.6g} m would fit",
-      size.x, size.y, size.z, voxel_m, reason, fittingVoxel(size, voxel_m)));
+      size.x, size.y, size.z, voxel_m, reason, fittingVoxel(size, voxel_m, use)));
 }
 
-void requireFits(const Frame& frame) {
-  requireFits(Vec3(frame.size), frame.voxel_m);
+void requireFits(const Frame& frame, const WorldUse& use) {
+  requireFits(Vec3(frame.size), frame.voxel_m, use);
 }
 
 void requireFilledFits(std::size_t voxels, const std::string& object) {
-  const double bytes = static_cast<double>(voxels) * (sizeof(TiledVoxel) + 32.0);
+  constexpr double kBytesPerVoxel = 48.0;  // grids of surfaces and layers
+  const double bytes = static_cast<double>(voxels) * kBytesPerVoxel;
   if (bytes <= budget()) return;
   throw InputError(
       fmt::format("{}: filling it takes {} voxels and {} of memory, and {} are free for it here; expected "

@@ -3,6 +3,7 @@
 #include <cassert>
 #include <limits>
 
+#include "sim/parallel.h"
 #include "sim/random.h"
 #include "sim/world_grids.h"
 
@@ -112,25 +113,61 @@ void World::occupy(std::span<const TiledVoxel> voxels) {
   ++version_;
 }
 
-void World::occupy(std::span<const TiledVoxel> voxels, const BitVolume& opaque) {
+void World::occupyClear(std::span<const TiledVoxel> voxels) {
   for (const TiledVoxel& tiled : voxels) {
     if (!occupied_.at(tiled.voxel)) keep(tiled);
-  }
-  for (int y = 0; y < frame_.size.y; ++y) {
-    for (int z = 0; z < frame_.size.z; ++z) {
-      for (int i = 0; i < opaque_.rowWords(); ++i) opaque_.row(y, z)[i] |= opaque.row(y, z)[i];
-    }
   }
   ++version_;
 }
 
+void World::occupyBlocks(std::span<const TiledVoxel> blocks) {
+  const auto fill = [](auto& tree, Voxel corner, const auto& value) {
+    tree.addTile(1, coordOf(corner), value, true);  // level 1: as large as a leaf
+  };
+  for (const auto& [corner, surface] : blocks) {
+    for (int y = 0; y < 8; ++y) {
+      for (int z = 0; z < 8; ++z) {
+        std::uint64_t* const row = occupied_.row(corner.y + y, corner.z + z);
+        assert((row[corner.x >> 6] >> (corner.x & 63) & 0xffu) == 0);
+        row[corner.x >> 6] |= std::uint64_t{0xff} << (corner.x & 63);
+      }
+    }
+    fill(grids_->part->tree(), corner, surface.part);
+    fill(grids_->colour->tree(), corner, toVdb(surface.colour));
+    fill(grids_->coverage->tree(), corner, surface.coverage);
+    fill(grids_->normal->tree(), corner, toVdb(surface.normal));
+    fill(grids_->offset_vx->tree(), corner, surface.offset_vx);
+  }
+  ++version_;
+}
+
+void World::addOpaque(const BitVolume& voxels) {
+  assert(voxels.size() == frame_.size);
+  parallelForEach(static_cast<std::size_t>(frame_.size.y), [&](std::size_t slice) {
+    const int y = static_cast<int>(slice);
+    for (int z = 0; z < frame_.size.z; ++z) {
+      for (int i = 0; i < opaque_.rowWords(); ++i) opaque_.row(y, z)[i] |= voxels.row(y, z)[i];
+    }
+  });
+  ++version_;
+}
+
 PartId World::partAt(Voxel v) const {
-  return occupied_.at(v) ? grids_->surface.of(v).part->getValue(offsetInLeaf(v)) : kFree;
+  if (!occupied_.at(v)) return kFree;
+  const Grids::SurfaceLeaves& leaves = grids_->surface.of(v);
+  return leaves.part != nullptr ? leaves.part->getValue(offsetInLeaf(v))
+                                : grids_->part->tree().getValue(coordOf(v));
 }
 
 std::optional<Surface> World::surfaceAt(Voxel v) const {
   if (!occupied_.at(v)) return std::nullopt;
   const Grids::SurfaceLeaves& leaves = grids_->surface.of(v);
+  if (leaves.part == nullptr) {  // in a block whose voxels are alike
+    const openvdb::Coord at = coordOf(v);
+    return Surface{grids_->part->tree().getValue(at), fromVdb(grids_->colour->tree().getValue(at)),
+                   grids_->coverage->tree().getValue(at), fromVdb(grids_->normal->tree().getValue(at)),
+                   grids_->offset_vx->tree().getValue(at)};
+  }
   const openvdb::Index n = offsetInLeaf(v);
   return Surface{leaves.part->getValue(n), fromVdb(leaves.colour->getValue(n)), leaves.coverage->getValue(n),
                  fromVdb(leaves.normal->getValue(n)), leaves.offset_vx->getValue(n)};
@@ -138,6 +175,11 @@ std::optional<Surface> World::surfaceAt(Voxel v) const {
 
 std::optional<Nearness> World::nearnessAt(Voxel v) const {
   if (!contains(frame_.size, v)) return std::nullopt;
+  if (layers_ == 0) {
+    const PartId own = partAt(v);
+    if (own == kFree || part(own).kind != PartKind::scene) return std::nullopt;
+    return Nearness{0, own, 0.0f};
+  }
   const Grids::NearLeaves& leaves = grids_->near.of(v);
   if (leaves.layer == nullptr) return std::nullopt;
   const openvdb::Index n = offsetInLeaf(v);

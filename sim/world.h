@@ -76,8 +76,13 @@ class World {
   /// Occupies voxels. One that is occupied already keeps what it has. Voxels outside the world are an error
   /// of the caller (assert). Scene voxels take all light.
   void occupy(std::span<const TiledVoxel> voxels);
-  /// The same, with `opaque` added to what takes light, and no others.
-  void occupy(std::span<const TiledVoxel> voxels, const BitVolume& opaque);
+  /// The same, but they take no light.
+  void occupyClear(std::span<const TiledVoxel> voxels);
+  /// Occupies blocks of 8x8x8 voxels, wholly free until now, given by their low corners (multiples of 8) with
+  /// what all of their voxels are like. They take no room worth mentioning, and no light.
+  void occupyBlocks(std::span<const TiledVoxel> blocks);
+  /// Adds voxels to what takes light.
+  void addOpaque(const BitVolume& voxels);
   /// Finds for every voxel within `layers` of an occupied voxel its Nearness; replaces what was known before.
   void setLayers(int layers);
 
@@ -93,6 +98,7 @@ class World {
 
  private:
   void keep(const TiledVoxel& tiled);
+  void clearLayers();
 
   Frame frame_;
   BitVolume occupied_, opaque_;

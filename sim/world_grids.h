@@ -52,13 +52,13 @@ class BlockMap {
 
 /// The truth of the world. All grids share one transform, with voxel (0,0,0) at the frame's origin.
 struct World::Grids {
-  openvdb::Int32Grid::Ptr part;      ///< background kFree
-  openvdb::Vec3SGrid::Ptr colour;    ///< active where occupied
-  openvdb::FloatGrid::Ptr coverage;  ///< active where occupied
-  openvdb::Vec3SGrid::Ptr normal;    ///< active where occupied
+  openvdb::Int32Grid::Ptr part;       ///< background kFree
+  openvdb::Vec3SGrid::Ptr colour;     ///< active where occupied
+  openvdb::FloatGrid::Ptr coverage;   ///< active where occupied
+  openvdb::Vec3SGrid::Ptr normal;     ///< active where occupied
   openvdb::FloatGrid::Ptr offset_vx;  ///< active where occupied
-  openvdb::Int32Grid::Ptr layer;     ///< active within the boundary layers, 0 on the objects; background -1
-  openvdb::Int32Grid::Ptr nearest;   ///< part of the nearest scene object, same topology as layer
+  openvdb::Int32Grid::Ptr layer;      ///< active within the boundary layers, 0 on the objects; background -1
+  openvdb::Int32Grid::Ptr nearest;    ///< part of the nearest scene object, same topology as layer
   openvdb::FloatGrid::Ptr distance_vx;  ///< distance to it, same topology as layer; background infinity
 
   /// The same data by block. Leaves are never removed but by setLayers, which fills `near` anew.

@@ -107,24 +107,29 @@ void appendTaps(const Places& places, std::vector<Tap>& taps) {
   }
 }
 
-/// The way to the light for a voxel without a normal (stems, sheets whose sides cancel, insides): away from
-/// what is opaque around it; out of the middle of a sheet, the first of up, +x, +z, -x, -z that is free. Zero
-/// where nothing is.
-Vec3f wayOut(const BitVolume& opaque, Voxel voxel) {
-  Vec3f way(0.0f);
+/// Deep inside of something: there no light gets in.
+bool buried(const BitVolume& opaque, Voxel voxel) {
   for (int dy = -1; dy <= 1; ++dy) {
     for (int dz = -1; dz <= 1; ++dz) {
       for (int dx = -1; dx <= 1; ++dx) {
-        if (!opaque.at(voxel + Voxel(dx, dy, dz))) way += Vec3f(Voxel(dx, dy, dz));
+        if (!opaque.at(voxel + Voxel(dx, dy, dz))) return false;
       }
     }
   }
-  if (glm::dot(way, way) > 0.0f) return glm::normalize(way);
-  for (const Voxel side :
-       {Voxel(0, 1, 0), Voxel(1, 0, 0), Voxel(0, 0, 1), Voxel(-1, 0, 0), Voxel(0, 0, -1)}) {
-    if (!opaque.at(voxel + side)) return Vec3f(side);
+  return true;
+}
+
+/// The same for 64 voxels of a row at once.
+std::uint64_t buriedBits(const BitVolume& opaque, int y, int z, int word) {
+  if (y == 0 || z == 0 || y + 1 == opaque.size().y || z + 1 == opaque.size().z) return 0;
+  std::uint64_t all = ~std::uint64_t{0};
+  for (int dy = -1; dy <= 1; ++dy) {
+    for (int dz = -1; dz <= 1; ++dz) {
+      const std::uint64_t* const row = opaque.row(y + dy, z + dz) + word;  // zero words lie around a row
+      all &= row[0] & (row[0] << 1 | row[-1] >> 63) & (row[0] >> 1 | row[1] << 63);
+    }
   }
-  return way;
+  return all;
 }
 
 /// Some of the surfaces in order, those that can be lit.
@@ -133,10 +138,9 @@ struct Stretch {
   std::vector<Tap> taps;
   std::vector<std::uint32_t> counts;
 
-  void add(const BitVolume& opaque, TiledVoxel tiled) {
-    Vec3f& normal = tiled.surface.normal;
-    if (normal == Vec3f(0.0f)) normal = wayOut(opaque, tiled.voxel);
-    if (normal == Vec3f(0.0f)) return;
+  void add(const BitVolume& opaque, const TiledVoxel& tiled) {
+    const Vec3f normal = tiled.surface.normal;
+    if (normal == Vec3f(0.0f) || buried(opaque, tiled.voxel)) return;
     const float clear = kClear * (std::abs(normal.x) + std::abs(normal.y) + std::abs(normal.z));
     Places places = placesBefore(opaque, tiled.voxel, normal, tiled.surface.offset_vx, clear);
     if (places.count == 0)
@@ -201,7 +205,8 @@ SurfaceSensors surfaceSensors(const World& world) {
     for (int z = 0; z < size.z; ++z) {
       const std::uint64_t* const row = world.occupied().row(y, z);
       for (int i = 0; i < world.occupied().rowWords() - 1; ++i) {
-        for (std::uint64_t word = row[i]; word != 0; word &= word - 1) {
+        for (std::uint64_t word = row[i] & ~buriedBits(world.opaque(), y, z, i); word != 0;
+             word &= word - 1) {
           const Voxel v(i * BitVolume::kWordBits + std::countr_zero(word), y, z);
           stretches[slice].add(world.opaque(), {v, *world.surfaceAt(v)});
         }

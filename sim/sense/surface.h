@@ -22,8 +22,8 @@ struct SurfaceSensors {
     std::uint32_t place;  ///< number in `places`
     float weight;  ///< those of one surface add up to 1; may be negative (extrapolation to the surface)
   };
-  std::vector<TiledVoxel> surfaces;  ///< with a free place in front, in the order that was given. The normal
-                                     ///< is the one by which they are judged: never zero
+  std::vector<TiledVoxel> surfaces;  ///< that have a normal and a free place in front, in the order that
+                                     ///< was given
   std::shared_ptr<const VoxelSet> places;  ///< that taps read
   std::vector<Tap> taps;
   std::vector<std::size_t> first;  ///< surface i has taps first[i] .. first[i + 1] - 1

@@ -150,10 +150,14 @@ std::string toCsv(const ExposureTable& table) {
   for (const ExposureRow& row : table.rows) {
     const bool total = row.object.empty();
     for (std::size_t q = 0; q < table.quantities.size(); ++q) {
-      std::vector<std::string> fields = {
-          field(table.scene),         total ? "total" : field(row.object), field(row.region),
-          std::to_string(row.voxels), fmt::format("{}", row.area_m2),      table.quantities[q].name,
-          table.quantities[q].unit};
+      std::vector<std::string> fields = {field(table.scene),
+                                         fmt::format("{:.6g}", table.about.voxel_m),
+                                         total ? "total" : field(row.object),
+                                         field(row.region),
+                                         std::to_string(row.voxels),
+                                         fmt::format("{}", row.area_m2),
+                                         table.quantities[q].name,
+                                         table.quantities[q].unit};
       for (const auto& [name, value] : numbersOf(row.spreads[q])) fields.push_back(fmt::format("{}", value));
       fields.push_back(fmt::format("{}", rounded(table.quantities[q].range, kDecimals)));
       for (const double share : row.spreads[q].histogram) fields.push_back(fmt::format("{}", share));

@@ -27,13 +27,12 @@ VdbPart<float> inSpace(const sim::VoxelSet& where, const sim::ExposureField& fie
 std::vector<VdbField> worldFields(const Lighting& light, const sim::VoxelSet& around) {
   const auto field = [&](const char* name, const char* description, const Received& received,
                          const sim::ExposureField& space) {
-    const auto sideless = std::make_shared<const std::vector<float>>(light.ofSideless(received));
-    return VdbField{
-        name, description, "1",
-        Numbers{onSurfaces(light, received),
-                {light.sideless.get(), [sideless](sim::Voxel, std::size_t n) { return (*sideless)[n]; }},
-                inSpace(around, space)},
-        texts(light.about)};
+    const auto gaps = std::make_shared<const std::vector<float>>(light.ofGaps(received));
+    return VdbField{name, description, "1",
+                    Numbers{onSurfaces(light, received),
+                            {light.gaps.get(), [gaps](sim::Voxel, std::size_t n) { return (*gaps)[n]; }},
+                            inSpace(around, space)},
+                    texts(light.about)};
   };
   return {field("sun_exposure", "weighted share of the sun's way in sight", light.sun, *light.space_sun),
           field("sky_exposure",

@@ -281,9 +281,9 @@ float Lighting::atFace(const Received& light, Voxel voxel, std::uint8_t face) co
   return light.values[surfaces.size() + static_cast<std::size_t>(at - faces.begin())];
 }
 
-std::vector<float> Lighting::ofSideless(const Received& light) const {
+std::vector<float> Lighting::ofGaps(const Received& light) const {
   std::vector<float> means;
-  means.reserve(sideless->count());
+  means.reserve(gaps->count());
   for (std::size_t i = 0; i < faces.size();) {
     const std::uint64_t voxel = faces[i] / kFaces;
     float sum = 0.0f, count = 0.0f;
@@ -305,12 +305,12 @@ Lighting lightOf(const sim::World& world, const sim::Sky& sky, const sim::Sun& s
   light.where = voxelsOf(sensors.surfaces, world.frame().size);
   light.surfaces.swap(sensors.surfaces);
   if (wanted.faces) light.faces = facesByThemselves(world, light);
-  sim::BitVolume sideless(world.frame().size);
+  sim::BitVolume gaps(world.frame().size);
   for (const std::uint64_t key : light.faces) {
     const Voxel v = voxelOfKey(key, world.frame().size);
-    if (!light.where->has(v)) sideless.set(v);
+    if (!light.where->has(v)) gaps.set(v);
   }
-  light.sideless = std::make_shared<const sim::VoxelSet>(std::move(sideless));
+  light.gaps = std::make_shared<const sim::VoxelSet>(std::move(gaps));
   light.surfaces.swap(sensors.surfaces);
   addFaces(sensors, light.faces);
   findSky(light, world, sky, wanted, sensors, count);

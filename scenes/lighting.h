@@ -51,14 +51,14 @@ struct Received {
 /// The light of a world, found once for its pictures, tables and files. Surfaces are judged by their own
 /// normals (sim/sense/surface.h).
 ///
-/// What has no side, or shows its back, is judged face by face: a cube's face receives what a surface with
-/// the face's normal would in the free voxel before it. So stems, and walls of a single sheet seen from
-/// behind, have values too: they are in pictures and .vdb files, and in no table.
+/// What shows its back, or has no place in front (deep in a gap), is judged face by face: a cube's face
+/// receives what a surface with the face's normal would in the free voxel before it. So walls of a single
+/// sheet have values from behind too: they are in pictures and .vdb files, and in no table.
 struct Lighting {
-  std::vector<sim::TiledVoxel> surfaces;          ///< that have a side, in (y, z, x) order
-  std::shared_ptr<const sim::VoxelSet> where;     ///< the same, numbered alike
-  std::vector<std::uint64_t> faces;               ///< judged by themselves: faceKey of each, ascending
-  std::shared_ptr<const sim::VoxelSet> sideless;  ///< voxels with such faces that are no surfaces
+  std::vector<sim::TiledVoxel> surfaces;       ///< with places in front, in (y, z, x) order
+  std::shared_ptr<const sim::VoxelSet> where;  ///< the same, numbered alike
+  std::vector<std::uint64_t> faces;            ///< judged by themselves: faceKey of each, ascending
+  std::shared_ptr<const sim::VoxelSet> gaps;   ///< voxels with such faces that are no surfaces
 
   Received sky, sun;                  ///< 0..1
   Received sun_hours;                 ///< a day
@@ -74,8 +74,8 @@ struct Lighting {
   std::uint64_t faceKey(sim::Voxel voxel, std::uint8_t face) const;
   /// Of a face of an occupied voxel with no occupied voxel before it.
   float atFace(const Received& light, sim::Voxel voxel, std::uint8_t face) const;
-  /// Of each voxel of `sideless` the mean over its faces.
-  std::vector<float> ofSideless(const Received& light) const;
+  /// Of each voxel of `gaps` the mean over its faces.
+  std::vector<float> ofGaps(const Received& light) const;
 };
 
 /// Finds the light of a world; a sun without directions gives none. Takes the world's bits, the surfaces, a

@@ -67,9 +67,10 @@ std::string toJson(const Report& report) {
   if (report.growth) json["growth"] = growth(*report.growth);
   if (report.exposure) {
     json["exposure"] = {{"surface_voxels", report.exposure->surfaces},
-                        {"sideless_voxels", report.exposure->sideless},
+                        {"gap_voxels", report.exposure->gaps},
                         {"free_voxels", report.exposure->in_space}};
   }
+  if (report.certificate) json["certificate"] = Json::parse(toJson(*report.certificate));
   json["files"] = report.files;
   Json stages = Json::object();
   for (const auto& [stage, seconds] : report.run.stages_s) stages[stage] = seconds;

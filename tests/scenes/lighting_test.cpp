@@ -94,24 +94,30 @@ TEST(Lighting, ASheetSeenFromBehindIsJudgedByItsFace) {
   EXPECT_NEAR(light.atFace(light.sky, {16, 9, 12}, 3), 1.0f, 0.02f);
 }
 
-TEST(Lighting, WhatHasNoSideIsJudgedByItsFacesAndStandsInNoSurface) {
+TEST(Lighting, WhatHasNoPlaceInFrontIsJudgedByItsFacesAndIsNoSurface) {
+  // Looks down onto something that lies right below it: nothing is in front, but its other faces are free.
   sim::World world = openGround();
-  const sim::PartId stem = world.addPart({"vine", "stem", sim::PartKind::scene, -1});
-  const sim::TiledVoxel limb{{8, 4, 6}, {stem, sim::Colour(0.5f), 1.0f, Vec3f(0.0f)}};
-  world.occupy(std::span(&limb, 1));
+  const sim::PartId part = world.addPart({"box", "lid", sim::PartKind::scene, -1});
+  const sim::Surface down{
+      .part = part, .colour = sim::Colour(0.5f), .coverage = 1.0f, .normal = Vec3f(0, -1, 0)};
+  const sim::Surface up{
+      .part = part, .colour = sim::Colour(0.5f), .coverage = 1.0f, .normal = Vec3f(0, 1, 0)};
+  std::vector<sim::TiledVoxel> tiled{{{8, 5, 6}, down}};
+  for (int y = 1; y < 5; ++y) {
+    for (int z = 5; z < 8; ++z) {
+      for (int x = 7; x < 10; ++x) tiled.push_back({{x, y, z}, up});
+    }
+  }
+  world.occupy(tiled);
   const Lighting light = lightOf(world, sky(Weighting::cosine, 256));
-  EXPECT_EQ(light.surfaces.size(), 16u * 12u);
-  ASSERT_EQ(light.sideless->count(), 1u);
-  EXPECT_TRUE(light.sideless->has(limb.voxel));
-  EXPECT_EQ(light.faces.size(), 6u);
-  const float up = light.atFace(light.sky, limb.voxel, 3), down = light.atFace(light.sky, limb.voxel, 2),
-              side = light.atFace(light.sky, limb.voxel, 0);
-  EXPECT_NEAR(up, 1.0f, 0.02f);
-  EXPECT_NEAR(side, 0.5f, 0.05f);
-  EXPECT_EQ(down, 0.0f);
-  const auto means = light.ofSideless(light.sky);
-  ASSERT_EQ(means.size(), 1u);
-  EXPECT_NEAR(means[0], 0.5f, 0.05f);  // (1 + 4 / 2 + 0) / 6
+  const Voxel lid(8, 5, 6);
+  ASSERT_TRUE(light.gaps->has(lid));
+  EXPECT_FALSE(light.where->has(lid));
+  EXPECT_NEAR(light.atFace(light.sky, lid, 3), 1.0f, 0.02f);
+  EXPECT_NEAR(light.atFace(light.sky, lid, 0), 0.5f, 0.05f);
+  const auto means = light.ofGaps(light.sky);
+  ASSERT_EQ(means.size(), light.gaps->count());
+  EXPECT_NEAR(means[light.gaps->number(lid)], 0.6f, 0.05f);  // (1 + 4 / 2) / 5
 }
 
 TEST(Lighting, FacesAtTheEdgeOfTheWorldSeeTheHalfThatTheyFace) {

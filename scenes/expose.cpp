@@ -25,12 +25,11 @@ std::shared_ptr<const sim::VoxelSet> spaceWanted(const sim::World& world, const 
     case ExposureWhere::surfaces:
       return nullptr;
     case ExposureWhere::band:
-      return std::make_shared<const sim::VoxelSet>(
-          sim::freeBand(world.occupied(), spec.band_vx, world.occupied()));
+      return std::make_shared<const sim::VoxelSet>(sim::freeBand(world, world.occupied(), spec.band_vx));
     case ExposureWhere::everything:
       break;
   }
-  return std::make_shared<const sim::VoxelSet>(sim::freeVoxels(world.occupied()));
+  return std::make_shared<const sim::VoxelSet>(sim::freeVoxels(world));
 }
 
 /// Each free voxel takes two bytes a field, four in its grid and four in the file, for three fields.

@@ -51,7 +51,7 @@ Report::Growth countPlants(const sim::World& world, const sim::Growth& growth) {
 
 /// The free voxels of the boundary layers, which lie around the scene.
 sim::VoxelSet openLayers(const sim::BitVolume& scene, const sim::World& grown) {
-  return sim::VoxelSet(sim::freeBand(scene, grown.layers(), grown.occupied()));
+  return sim::VoxelSet(sim::freeBand(grown, scene, grown.layers()));
 }
 
 bool drawsVines(const Scene& scene) {

@@ -23,6 +23,7 @@
 #include "sim/fill.h"
 
 #include <algorithm>
+#include <cstring>
 #include <glm/common.hpp>
 
 #include "sim/parallel.h"
@@ -129,6 +130,10 @@ class Slab {
       for (int z = box_.first.z; z <= box_.last.z; ++z) {
         for (int x = box_.first.x; x <= box_.last.x; ++x) {
           const Voxel v(x, y, z);
+          if (x + 8 <= box_.last.x && nothingInEight(v)) {
+            x += 7;
+            continue;
+          }
           if (takesLight(v)) filled.opaque.set(v);
           if (inside_.empty() || surface_.at(v)) continue;
           const std::uint8_t state = inside_[box_.index(v)];
@@ -167,6 +172,15 @@ class Slab {
         v = v == kAll ? kInside : 0;
       }
     }
+  }
+
+  /// Most of a box is air.
+  bool nothingInEight(Voxel first) const {
+    const std::size_t at = box_.index(first);
+    std::uint64_t skin = 0, inside = 0;
+    std::memcpy(&skin, skin_.data() + at, 8);
+    if (!inside_.empty()) std::memcpy(&inside, inside_.data() + at, 8);
+    return (skin | inside) == 0;
   }
 
   bool isInside(Voxel v) const {

@@ -32,11 +32,11 @@ bool before(Voxel a, Voxel b) {
 
 /// Vectors along points evenly spread over the sky. A longer vector lies nearer to its point, but a sweep
 /// along it costs more: each takes the least of (angle in spacings)^2 + length_cost * length. With this cost
-/// a sky that keeps an error is cheapest to sweep: the vectors are half as long as those that would lie
-/// nearest, and a seventh more of them are needed. Still shorter ones crowd on the planes of symmetry, where
-/// walls stand.
+/// the error of the sky is that of the points themselves, while the vectors are two fifths shorter than those
+/// that would lie nearest; shorter ones crowd on planes of simple slopes, which is where edges of walls
+/// stand.
 std::vector<Voxel> spreadVectors(int count) {
-  const double length_cost = 0.0016 * std::min(1.0, 512.0 / count);
+  const double length_cost = 0.0008 * std::min(1.0, 512.0 / count);
   const double spacing2 = 2.0 * std::numbers::pi / count;
   const auto earlier = [](Voxel a, Voxel b) { return before(a, b); };
   std::set<Voxel, decltype(earlier)> taken(earlier);
@@ -61,7 +61,7 @@ std::vector<Voxel> spreadVectors(int count) {
 /// The constant of the law error = constant * directions^-0.75, the power that evenly spread points give to
 /// masks with smooth edges.
 double errorConstant(Weighting weighting) {
-  return weighting == Weighting::uniform ? 0.53 : weighting == Weighting::cosine ? 0.52 : 0.58;
+  return weighting == Weighting::uniform ? 0.48 : weighting == Weighting::cosine ? 0.52 : 0.58;
 }
 
 }  // namespace

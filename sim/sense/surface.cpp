@@ -164,6 +164,30 @@ struct Stretch {
   }
 };
 
+/// VoxelSet::number for places that mostly lie in the words of a few rows, one after the other.
+class Numbers {
+ public:
+  explicit Numbers(const VoxelSet& set) : set_(set) {}
+
+  std::uint32_t operator()(Voxel v) {
+    const int word = v.x >> 6;
+    Known& known = known_[static_cast<std::size_t>((v.y & 15) * 16 + (v.z & 15))];
+    if (known.at != Voxel(word, v.y, v.z))
+      known = {Voxel(word, v.y, v.z), set_.number({word * BitVolume::kWordBits, v.y, v.z})};
+    const std::uint64_t before = (std::uint64_t{1} << (v.x & 63)) - 1;
+    const auto bits = static_cast<std::size_t>(std::popcount(set_.bits().row(v.y, v.z)[word] & before));
+    return static_cast<std::uint32_t>(known.number + bits);
+  }
+
+ private:
+  struct Known {
+    Voxel at{-1};
+    std::size_t number = 0;  ///< of the word's first place
+  };
+  const VoxelSet& set_;
+  std::array<Known, 256> known_;
+};
+
 SurfaceSensors joined(Voxel size, std::vector<Stretch> stretches) {
   BitVolume bits(size);
   parallelForEach(stretches.size(), [&](std::size_t p) { stretches[p].mark(bits); });
@@ -181,6 +205,7 @@ SurfaceSensors joined(Voxel size, std::vector<Stretch> stretches) {
   parallelForEach(stretches.size(), [&](std::size_t p) {
     Stretch mine = std::move(stretches[p]);
     std::size_t next = tap[p];
+    Numbers numbers(*sensors.places);
     for (std::size_t i = 0; i < mine.surfaces.size(); ++i) {
       const TiledVoxel& tiled = mine.surfaces[i];
       sensors.surfaces[surface[p] + i] = tiled;
@@ -188,7 +213,7 @@ SurfaceSensors joined(Voxel size, std::vector<Stretch> stretches) {
       for (std::uint32_t k = 0; k < mine.counts[i]; ++k, ++next) {
         const Tap t = mine.taps[next - tap[p]];
         const Voxel place = tiled.voxel + unpacked(t.place);
-        sensors.taps[next] = {static_cast<std::uint32_t>(sensors.places->number(place)), t.weight};
+        sensors.taps[next] = {numbers(place), t.weight};
       }
     }
   });

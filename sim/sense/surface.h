@@ -40,8 +40,8 @@ SurfaceSensors surfaceSensors(const World& world);
 SurfaceSensors surfaceSensors(const World& world, std::vector<TiledVoxel> surfaces);
 
 /// What a receiver with this unit normal gets of a sky that nothing hides but the receiver's own back and the
-/// ground: 1 facing up, 0 facing down. By closed forms: (1 + n.y) / 2 for uniform and cosine; Moon and
-/// Spencer's (1942) sky integrated over the tilted receiver for the overcast one.
+/// ground: 1 facing up, 0 facing down. By closed forms: 1 - tilt / pi for uniform, (1 + n.y) / 2 for cosine,
+/// and Moon and Spencer's (1942) sky integrated over the tilted receiver for the overcast one.
 double openSky(Weighting weighting, Vec3 normal);
 
 /// For each surface what it receives of the sky (sim/sky.h) by its own normal, 0..1: openSky where nothing

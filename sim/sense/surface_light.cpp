@@ -84,7 +84,7 @@ class Judge {
   };
 
   Light at(std::span<const Tap> taps, Vec3f normal) {
-    const std::size_t slot = slotOf(normal) % kFronts;
+    const std::size_t hash = hashOf(normal), slot = hash % kFronts;
     std::uint64_t* const mask = masks_.data() + slot * givers_.words();
     Front& front = fronts_[slot];
     if (front.normal != normal) {
@@ -92,14 +92,15 @@ class Judge {
       givers_.front(normal, mask);
       front.most = givers_.given(mask, mask, normal);
     }
-    float sum = 0.0f;
+    // The weights add up to 1 but for rounding: what is missing is counted, so that nothing missing is exact.
+    float missing = 0.0f;
     for (const Tap& tap : taps) {
-      Known& known = known_[(tap.place + slotOf(normal)) % kKnown];
+      Known& known = known_[(tap.place + hash) % kKnown];
       if (known.place != tap.place || known.normal != normal)
         known = {tap.place, normal, givers_.given(open_.row(tap.place).data(), mask, normal)};
-      sum += tap.weight * known.value;
+      missing += tap.weight * (front.most - known.value);
     }
-    return {sum, front.most};
+    return {front.most - missing, front.most};
   }
 
  private:
@@ -114,7 +115,7 @@ class Judge {
     float value = 0.0f;
   };
 
-  static std::size_t slotOf(Vec3f n) {
+  static std::size_t hashOf(Vec3f n) {
     std::uint64_t hash = std::bit_cast<std::uint32_t>(n.x);
     hash = hash * 0x9e3779b97f4a7c15u + std::bit_cast<std::uint32_t>(n.y);
     hash = hash * 0x9e3779b97f4a7c15u + std::bit_cast<std::uint32_t>(n.z);
@@ -162,12 +163,19 @@ std::vector<float> summed(const SurfaceSensors& sensors, const OpenTable& open,
 }  // namespace
 
 double openSky(Weighting weighting, Vec3 normal) {
-  const double y = std::clamp(normal.y, -1.0, 1.0);
-  if (weighting != Weighting::cie_overcast) return (1.0 + y) / 2.0;
-  const double tilt = static_cast<double>(std::acos(static_cast<float>(y)));
-  const double across = std::sqrt(1.0 - y * y);
   constexpr double kPi = std::numbers::pi;
-  return (kPi * (1.0 + y) / 2.0 + 4.0 / 3.0 * ((kPi - tilt) * y + across)) / (7.0 * kPi / 3.0);
+  const double y = std::clamp(normal.y, -1.0, 1.0);
+  const double tilt = static_cast<double>(std::acos(static_cast<float>(y)));
+  const double cosines = kPi * (1.0 + y) / 2.0;
+  switch (weighting) {
+    case Weighting::uniform:
+      return 1.0 - tilt / kPi;
+    case Weighting::cosine:
+      return cosines / kPi;
+    case Weighting::cie_overcast:
+      return (cosines + 4.0 / 3.0 * ((kPi - tilt) * y + std::sqrt(1.0 - y * y))) / (7.0 * kPi / 3.0);
+  }
+  return 0.0;
 }
 
 std::vector<float> surfaceSky(const SurfaceSensors& sensors, const OpenTable& open, const Sky& sky) {

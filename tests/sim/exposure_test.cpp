@@ -2,9 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include <cmath>
-#include <numbers>
-
 #include "sim/sky.h"
 #include "sim/sun.h"
 #include "sim/sweep.h"
@@ -35,39 +32,6 @@ TEST(SkyExposure, TheFootOfAnEndlessWallSeesHalf) {
         sim::lookOut(wall, {1, 1, 200}, sim::receivedBy(sim::makeSky({weighting, 0.005, kDirections})));
     EXPECT_NEAR(outlook.fraction(), 0.5, 0.02);
   }
-}
-
-/// What the middle of the floor sees in a street of `width` voxels with walls of height h * width, long
-/// enough to count as endless. The sensor stands in the lowest free voxel, whose centre is half a voxel above
-/// the floor.
-double canyon(int width, double h, sim::Weighting weighting) {
-  const int height = static_cast<int>(std::lround(h * width));
-  const int length = 60 * std::max(width, height) + 1;
-  sim::BitVolume street({width + 2, height + 1, length});
-  tests::addBox(street, {0, 0, 0}, {width + 1, 0, length - 1});
-  tests::addBox(street, {0, 1, 0}, {0, height, length - 1});
-  tests::addBox(street, {width + 1, 1, 0}, {width + 1, height, length - 1});
-  return sim::lookOut(street, {(width + 1) / 2, 1, length / 2},
-                      sim::receivedBy(sim::makeSky({weighting, 0.005, kDirections})))
-      .fraction();
-}
-
-TEST(SkyExposure, TheFloorOfAStreetCanyonSeesTheClosedForm) {
-  for (const double h : {0.25, 1.0, 2.0}) {
-    const double cosine = std::cos(std::atan(2.0 * h));
-    const double uniform = 1.0 - 2.0 * std::atan(2.0 * h) / std::numbers::pi;
-    // The sensor's own height shortens the walls by half a voxel.
-    EXPECT_NEAR(canyon(41, h, sim::Weighting::cosine), cosine, 0.02) << h;
-    EXPECT_NEAR(canyon(41, h, sim::Weighting::uniform), uniform, 0.02) << h;
-  }
-}
-
-TEST(SkyExposure, ErrorShrinksWithTheVoxel) {
-  const double truth = std::cos(std::atan(2.0));
-  const double coarse = std::abs(canyon(5, 1.0, sim::Weighting::cosine) - truth);
-  const double fine = std::abs(canyon(61, 1.0, sim::Weighting::cosine) - truth);
-  EXPECT_LT(fine, 0.4 * coarse);
-  EXPECT_LT(fine, 0.012);
 }
 
 TEST(SunExposure, ASunThatLeansAwayIsHiddenByTheWall) {

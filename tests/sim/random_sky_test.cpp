@@ -29,7 +29,8 @@ TEST(RandomSky, ScattersItsRaysEvenly) {
       EXPECT_NEAR(glm::length(directions[i]), 1.0, 1e-12);
       EXPECT_GE(directions[i].y, 0.0);
       sum += directions[i] / 5000.0;
-      for (std::size_t j = 0; j < i; ++j) crowded += std::abs(glm::dot(directions[i], directions[j])) > spacing;
+      for (std::size_t j = 0; j < i; ++j)
+        crowded += std::abs(glm::dot(directions[i], directions[j])) > spacing;
     }
   }
   EXPECT_LT(crowded, 50);  // of 247,500 pairs

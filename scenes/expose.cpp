@@ -25,12 +25,24 @@ std::shared_ptr<const sim::VoxelSet> spaceWanted(const sim::World& world, const 
     case ExposureWhere::surfaces:
       return nullptr;
     case ExposureWhere::band:
-      return std::make_shared<const sim::VoxelSet>(
-          sim::freeBand(world.occupied(), spec.band_vx, world.occupied()));
+      return std::make_shared<const sim::VoxelSet>(sim::freeBand(world, world.occupied(), spec.band_vx));
     case ExposureWhere::everything:
       break;
   }
-  return std::make_shared<const sim::VoxelSet>(sim::freeVoxels(world.occupied()));
+  return std::make_shared<const sim::VoxelSet>(sim::freeVoxels(world));
+}
+
+/// Each free voxel takes two bytes a field, four in its grid and four in the file, for three fields.
+void requireSpaceFits(const Scene& scene, const sim::Frame& frame, const sim::VoxelSet& space) {
+  constexpr double kBytes = 3 * (2 + 4 + 4);
+  const double voxels = static_cast<double>(frame.size.x) * frame.size.y * frame.size.z;
+  try {
+    sim::requireFits(frame, {0, kBytes * static_cast<double>(space.count()) / voxels});
+  } catch (const sim::InputError& error) {
+    throw sim::InputError(
+        fmt::format("{}: {}, and so would less of its free space (exposure.where, exposure.band)",
+                    scene.file.string(), error.what()));
+  }
 }
 
 }  // namespace
@@ -46,6 +58,7 @@ ExposeResult exposeScene(Scene scene, const RunOptions& options) {
   std::shared_ptr<const sim::VoxelSet> space;
   const Lighting light = stages.run("lighting", [&] {
     space = spaceWanted(job.world, job.scene.exposure);
+    if (space) requireSpaceFits(job.scene, job.world.frame(), *space);
     LightWanted wanted;
     wanted.brightest = true;
     wanted.space = space;

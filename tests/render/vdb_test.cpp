@@ -41,7 +41,7 @@ class Vdb : public testing::Test {
  protected:
   sim::World world_ = tests::wallPlot({30, 24, 20}, 3);
   sim::VoxelSet stands_{world_.occupied()};
-  sim::VoxelSet near_{sim::freeBand(world_.occupied(), 2, world_.occupied())};
+  sim::VoxelSet near_{sim::freeBand(world_, world_.occupied(), 2)};
 
   static float number(Voxel v) { return static_cast<float>(v.x + 100 * v.y + 10000 * v.z); }
   /// One grid of each kind.

@@ -99,7 +99,7 @@ double middle(double half, double voxel_m) {
 /// and `height` above it. A wall does not hide anything from a point on itself.
 double overWall(double at, double height, double azimuth) {
   const double across = std::cos(azimuth) * at;
-  return across > 1e-5 * height && height > 0.0 ? std::atan(height * std::cos(azimuth) / at) : 0.0;
+  return across > 1e-7 * height && height > 0.0 ? std::atan(height * std::cos(azimuth) / at) : 0.0;
 }
 
 std::string wide(double width_m, double height_m) {

@@ -15,8 +15,8 @@ struct Captioned {
 struct SheetLook {
   int columns = 3;
   int picture_width_px = 480;
-  std::string title;  ///< may be empty
-  std::string note;   ///< below the title, quieter: what the pictures' numbers are; lines by \n
+  std::string title;      ///< may be empty
+  std::string note = {};  ///< below the title, quieter: what the pictures' numbers are; lines by \n
 };
 
 /// Reduced pictures in rows on a quiet ground, each with its caption beneath; display values. All pictures

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "render/vdb.h"
+#include "scenes/certificate.h"
 #include "scenes/expose_pictures.h"
 #include "scenes/exposure_table.h"
 #include "scenes/job.h"
@@ -49,6 +50,7 @@ ExposeResult exposeScene(Scene scene, const RunOptions& options) {
     wanted.brightest = true;
     wanted.space = space;
     wanted.space_hours = true;
+    wanted.random_sky = job.random_sky;
     return lightOf(job.world, job.sky, job.sun, wanted);
   });
   if (light.surfaces.empty() && !space) {
@@ -57,8 +59,10 @@ ExposeResult exposeScene(Scene scene, const RunOptions& options) {
         job.scene.file.string()));
   }
   report.light = light.about;
-  report.exposure = {light.surfaces.size(), light.sideless->count(), space ? space->count() : 0};
+  report.exposure = {light.surfaces.size(), light.gaps->count(), space ? space->count() : 0};
 
+  if (!job.random_sky && !light.surfaces.empty())
+    report.certificate = stages.run("certifying", [&] { return certify(job); });
   const ExposureTable table = stages.run("counting", [&] { return exposureTable(job, light); });
   result.table = toText(table);
   std::vector<OutputFile> files = {
@@ -83,6 +87,23 @@ ExposeResult exposeScene(Scene scene, const RunOptions& options) {
   return result;
 }
 
+namespace {
+
+/// The certificate in a line or two; all of it is in report.json.
+std::string errors(const Certificate& c) {
+  std::string text = fmt::format(
+      "error of sky_exposure, {} weighting: bias {:+.4f}, RMS {:.4f} over known shapes of such voxels\n",
+      sim::nameOf(c.weighting), c.bias, c.rms);
+  if (c.spots) {
+    text += fmt::format(
+        "  and bias {:+.4f}, RMS {:.4f}, 95% within {:.4f} against rays from {} points of the meshes\n",
+        c.spots->bias, c.spots->rms, c.spots->percentile_95, c.spots->points);
+  }
+  return text;
+}
+
+}  // namespace
+
 std::string summary(const ExposeResult& result, const std::filesystem::path& folder) {
   const Report& report = result.report;
   const auto& size = report.frame.size;
@@ -90,13 +111,14 @@ std::string summary(const ExposeResult& result, const std::filesystem::path& fol
                                  size.x, size.y, size.z, report.frame.voxel_m, report.exposure->surfaces);
   if (report.exposure->in_space > 0) text += fmt::format(", {} in free space", report.exposure->in_space);
   text += "\n";
-  for (const auto& [name, about] : report.light) {
-    if (name == "sky" || name == "sun") text += fmt::format("{}: {}\n", name, about);
-  }
+  text += "sky: " + report.light.sky + "\n";
+  if (!report.light.sun.empty()) text += "sun: " + report.light.sun + "\n";
   text += "\n" + result.table + "\n";
-  if (report.exposure->sideless > 0) {
-    text += fmt::format("note: {} voxels have no side to be judged by and are not in the table\n",
-                        report.exposure->sideless);
+  if (report.certificate) text += errors(*report.certificate);
+  if (report.exposure->gaps > 0) {
+    text += fmt::format(
+        "note: {} voxels, deep in corners or gaps, have no place in front and are not in the table\n",
+        report.exposure->gaps);
   }
   return text + endOfSummary(report, folder);
 }

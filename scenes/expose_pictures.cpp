@@ -45,7 +45,8 @@ std::vector<ImageSpec> exposureImages(const Scene& scene, const sim::Sun& sun) {
   std::vector<std::pair<ImageKind, const char*>> kinds = {{ImageKind::sky_exposure, "Sky exposure"}};
   if (!sun.directions.empty()) {
     kinds.insert(kinds.begin(), {ImageKind::sun_exposure, "Sun exposure"});
-    kinds.emplace_back(ImageKind::sun_hours, "Hours of direct sun");
+    // On an arc, which takes twelve hours by definition, hours would be sun_exposure in another unit.
+    if (scene.sun.place) kinds.emplace_back(ImageKind::sun_hours, "Hours of direct sun");
   }
   if (!scene.plants.empty()) kinds.emplace_back(ImageKind::threshold, "Enough light for the plant");
   if (!sun.directions.empty()) kinds.emplace_back(ImageKind::shadow_matte, "Shadows");

@@ -4,9 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <nlohmann/json.hpp>
 #include <numeric>
 
+#include "scenes/light_json.h"
 #include "sim/parallel.h"
 
 namespace espalier::scenes {
@@ -19,6 +19,10 @@ double rounded(double value, double scale) {
   return std::round(value * scale) / scale;
 }
 constexpr double kDecimals = 1e4;
+
+double sixDigits(double value) {
+  return std::stod(fmt::format("{:.6g}", value));
+}
 
 /// The least value at or below which lies so great a share of the area.
 double quantile(const std::vector<std::pair<float, float>>& sorted, double area, double share) {
@@ -99,9 +103,9 @@ ExposureTable exposureTable(const Job& job, const Lighting& light) {
   std::vector<const Received*> received = {&light.sky};
   table.quantities.push_back(
       {"sky_exposure", "1", "what a surface receives of the sky by its own normal; open ground: 1", 1.0});
-  if (light.hours_a_day > 0.0) {
+  if (!light.about.sun.empty()) {
     table.quantities.push_back({"sun_exposure", "1", "weighted share of the sun's way in sight", 1.0});
-    table.quantities.push_back({"sun_hours", "hours a day", "direct sun", light.hours_a_day});
+    table.quantities.push_back({"sun_hours", "hours a day", "direct sun", light.about.sun_hours});
     received.insert(received.end(), {&light.sun, &light.sun_hours});
   }
   const sim::World& world = job.world;
@@ -121,7 +125,7 @@ ExposureTable exposureTable(const Job& job, const Lighting& light) {
     }
     row.voxels = of[p].size();
     for (const std::size_t i : of[p]) row.area_m2 += static_cast<double>(light.surfaces[i].surface.coverage);
-    row.area_m2 = rounded(row.area_m2 * face_m2, 1e6);
+    row.area_m2 = sixDigits(row.area_m2 * face_m2);
     row.spreads.resize(received.size());
     sim::parallelForEach(received.size(), [&](std::size_t q) {
       std::vector<std::pair<float, float>> values;
@@ -136,23 +140,28 @@ ExposureTable exposureTable(const Job& job, const Lighting& light) {
 }
 
 std::string toCsv(const ExposureTable& table) {
-  std::vector<std::string> header = {"scene", "object", "region", "voxels", "area_m2", "quantity", "unit"};
+  std::vector<std::string> header = {"scene",  "voxel_m", "object",   "region",
+                                     "voxels", "area_m2", "quantity", "unit"};
   for (const auto& [name, value] : numbersOf({})) header.emplace_back(name);
   header.emplace_back("histogram_to");
   for (std::size_t bin = 1; bin <= Spread::kBins; ++bin) header.push_back(fmt::format("share_{}", bin));
-  for (const auto& [name, text] : table.about) header.push_back(name);
+  for (const auto& [name, text] : texts(table.about)) header.push_back(name);
   std::string csv = joined(header);
   for (const ExposureRow& row : table.rows) {
     const bool total = row.object.empty();
     for (std::size_t q = 0; q < table.quantities.size(); ++q) {
-      std::vector<std::string> fields = {
-          field(table.scene),         total ? "total" : field(row.object), field(row.region),
-          std::to_string(row.voxels), fmt::format("{}", row.area_m2),      table.quantities[q].name,
-          table.quantities[q].unit};
+      std::vector<std::string> fields = {field(table.scene),
+                                         fmt::format("{:.6g}", table.about.voxel_m),
+                                         total ? "total" : field(row.object),
+                                         field(row.region),
+                                         std::to_string(row.voxels),
+                                         fmt::format("{}", row.area_m2),
+                                         table.quantities[q].name,
+                                         table.quantities[q].unit};
       for (const auto& [name, value] : numbersOf(row.spreads[q])) fields.push_back(fmt::format("{}", value));
       fields.push_back(fmt::format("{}", rounded(table.quantities[q].range, kDecimals)));
       for (const double share : row.spreads[q].histogram) fields.push_back(fmt::format("{}", share));
-      for (const auto& [name, text] : table.about) fields.push_back(field(text));
+      for (const auto& [name, text] : texts(table.about)) fields.push_back(field(text));
       csv += joined(fields);
     }
   }
@@ -162,7 +171,7 @@ std::string toCsv(const ExposureTable& table) {
 std::string toJson(const ExposureTable& table) {
   Json json;
   json["scene"] = table.scene;
-  for (const auto& [name, text] : table.about) json["light"][name] = text;
+  json["light"] = lightJson(table.about);
   for (const auto& quantity : table.quantities) {
     json["quantities"][quantity.name] = {{"unit", quantity.unit},
                                          {"meaning", quantity.meaning},

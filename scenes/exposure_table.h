@@ -33,9 +33,9 @@ struct ExposureTable {
     double range = 1.0;  ///< from 0 to this
   };
   std::string scene;
-  std::vector<std::pair<std::string, std::string>> about;  ///< Lighting::about
-  std::vector<Quantity> quantities;                        ///< those of a sun only where there is one
-  std::vector<ExposureRow> rows;                           ///< regions that have surfaces, then the total
+  LightAbout about;
+  std::vector<Quantity> quantities;  ///< those of a sun only where there is one
+  std::vector<ExposureRow> rows;     ///< regions that have surfaces, then the total
 };
 
 ExposureTable exposureTable(const Job& job, const Lighting& light);

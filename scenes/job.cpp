@@ -170,6 +170,8 @@ sim::GrowthSettings growthSettings(const Job& job) {
   settings.iterations = job.scene.iterations;
   settings.seed = job.scene.seed;
   settings.sky = sim::receivedBy(job.sky);
+  settings.random_sky = job.random_sky;
+  settings.weighting = job.sky.weighting;
   settings.sun = job.sun.directions;
   settings.sky_table = sim::makeSkyTable(9, 36, sim::backgroundOf(job.sky.weighting));  // cells of 10 degrees
   for (const ImageSpec& image : job.scene.images) {

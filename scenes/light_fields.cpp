@@ -27,13 +27,12 @@ VdbPart<float> inSpace(const sim::VoxelSet& where, const sim::ExposureField& fie
 std::vector<VdbField> worldFields(const Lighting& light, const sim::VoxelSet& around) {
   const auto field = [&](const char* name, const char* description, const Received& received,
                          const sim::ExposureField& space) {
-    const auto sideless = std::make_shared<const std::vector<float>>(light.ofSideless(received));
-    return VdbField{
-        name, description, "1",
-        Numbers{onSurfaces(light, received),
-                {light.sideless.get(), [sideless](sim::Voxel, std::size_t n) { return (*sideless)[n]; }},
-                inSpace(around, space)},
-        light.about};
+    const auto gaps = std::make_shared<const std::vector<float>>(light.ofGaps(received));
+    return VdbField{name, description, "1",
+                    Numbers{onSurfaces(light, received),
+                            {light.gaps.get(), [gaps](sim::Voxel, std::size_t n) { return (*gaps)[n]; }},
+                            inSpace(around, space)},
+                    texts(light.about)};
   };
   return {field("sun_exposure", "weighted share of the sun's way in sight", light.sun, *light.space_sun),
           field("sky_exposure",
@@ -42,14 +41,14 @@ std::vector<VdbField> worldFields(const Lighting& light, const sim::VoxelSet& ar
 }
 
 std::vector<VdbField> exposureFields(const Lighting& light, const sim::VoxelSet* space) {
-  const bool sun = light.hours_a_day > 0.0;
+  const bool sun = !light.about.sun.empty();
   const auto surfaces = [&](auto value) {
     return std::vector{VdbPart<decltype(value(std::size_t{}))>{
         light.where.get(), [value](sim::Voxel, std::size_t n) { return value(n); }}};
   };
   std::vector<VdbField> fields;
   const auto add = [&](const char* name, const char* description, const char* unit, auto parts) {
-    fields.push_back({name, description, unit, std::move(parts), light.about});
+    fields.push_back({name, description, unit, std::move(parts), texts(light.about)});
   };
   add("sky_exposure", kSkyMeaning, "1", Numbers{onSurfaces(light, light.sky)});
   if (sun) {
@@ -69,7 +68,7 @@ std::vector<VdbField> exposureFields(const Lighting& light, const sim::VoxelSet*
       add("space_sun_exposure", "weighted share of the sun's way in sight from here", "1",
           Numbers{inSpace(*space, *light.space_sun)});
       add("space_sun_hours", "direct sun here", "hours a day",
-          Numbers{inSpace(*space, *light.space_hours, light.hours_a_day)});
+          Numbers{inSpace(*space, *light.space_hours, light.about.sun_hours)});
     }
   }
   return fields;

@@ -188,29 +188,80 @@ void findInSpace(Lighting& light, const sim::World& world, const sim::Sky& sky, 
         wanted.dense ? sim::sweepExposure(world.opaque(), directions)
                      : sim::sweepExposure(world.opaque(), directions, wanted.space));
   };
-  light.space_sky = field(sim::receivedBy(sky));
+  light.space_sky =
+      wanted.random_sky
+          ? std::make_shared<const sim::ExposureField>(sim::randomExposure(
+                world.opaque(), *wanted.random_sky, sky.weighting, wanted.dense ? nullptr : wanted.space))
+          : field(sim::receivedBy(sky));
   light.space_sun = field(sun.directions);
   if (!wanted.space_hours) return;
   const sim::DirectionSet hours = byHours(sun);
   light.space_hours = sameWeights(hours, sun.directions) ? light.space_sun : field(hours);
 }
 
-std::vector<std::pair<std::string, std::string>> texts(const sim::Frame& frame, const sim::Sky& sky,
-                                                       const sim::Sun& sun) {
-  std::vector<std::pair<std::string, std::string>> about = {
-      {"sky", sim::describe(sky)},
-      {"weighting", std::string(sim::nameOf(sky.weighting))},
-      {"directions", std::to_string(sky.directions.size())},
-      {"standard_error", fmt::format("{:.2g}", sky.standard_error)}};
-  if (!sun.directions.empty()) {
-    about.emplace_back("sun", sim::describe(sun));
-    about.emplace_back("sun_directions", std::to_string(sun.directions.size()));
+LightAbout aboutLight(const sim::Frame& frame, const sim::Sky& sky, const sim::Sun& sun,
+                      const std::optional<sim::RandomSky>& random_sky) {
+  LightAbout about;
+  about.weighting = sim::nameOf(sky.weighting);
+  if (random_sky) {
+    about.sky = sim::describe(*random_sky, sky.weighting);
+    if (sky.weighting != sim::Weighting::uniform) about.sky += ", as by level ground";
+    about.directions = static_cast<std::size_t>(random_sky->rays);
+  } else {
+    about.sky = sim::describe(sky);
+    about.directions = sky.directions.size();
+    about.standard_error = sky.standard_error;
   }
-  about.emplace_back("voxel", fmt::format("{:.6g} m", frame.voxel_m));
+  if (!sun.directions.empty()) {
+    about.sun = sim::describe(sun);
+    about.sun_directions = sun.directions.size();
+    about.sun_error_deg = sun.worst_angle_deg;
+    about.sun_hours = sun.totalHours();
+  }
+  about.voxel_m = frame.voxel_m;
   return about;
 }
 
+/// The field at each receiver's places, by their weights.
+std::vector<float> tapped(const sim::SurfaceSensors& sensors, const sim::ExposureField& field) {
+  std::vector<float> values(sensors.surfaces.size());
+  sim::parallelFor(values.size(), [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      float sum = 0.0f;
+      for (const auto& tap : sensors.of(i))
+        sum += tap.weight * static_cast<float>(field.sums[tap.place]) / sim::ExposureField::kWhole;
+      values[i] = std::clamp(sum, 0.0f, 1.0f);
+    }
+  });
+  return values;
+}
+
+void findSky(Lighting& light, const sim::World& world, const sim::Sky& sky, const LightWanted& wanted,
+             const sim::SurfaceSensors& sensors, std::size_t surfaces) {
+  if (wanted.random_sky) {
+    light.sky.values = tapped(
+        sensors, sim::randomExposure(world.opaque(), *wanted.random_sky, sky.weighting, sensors.places));
+    if (!wanted.brightest) return;
+  }
+  const sim::OpenTable open = sim::sweepOpen(world.opaque(), sky.directions, sensors.places);
+  if (!wanted.random_sky) light.sky.values = sim::surfaceSky(sensors, open, sky);
+  if (wanted.brightest) light.brightest = brightestWays(sensors, surfaces, moments(open, sky));
+}
+
 }  // namespace
+
+std::vector<std::pair<std::string, std::string>> texts(const LightAbout& about) {
+  std::vector<std::pair<std::string, std::string>> texts = {
+      {"sky", about.sky}, {"weighting", about.weighting}, {"directions", std::to_string(about.directions)}};
+  if (about.standard_error > 0.0)
+    texts.emplace_back("standard_error", fmt::format("{:.2g}", about.standard_error));
+  if (!about.sun.empty()) {
+    texts.emplace_back("sun", about.sun);
+    texts.emplace_back("sun_directions", std::to_string(about.sun_directions));
+    texts.emplace_back("sun_error_deg", fmt::format("{:.2g}", about.sun_error_deg));
+  }
+  return texts;
+}
 
 std::uint64_t Lighting::faceKey(Voxel v, std::uint8_t face) const {
   const Voxel size = where->bits().size();
@@ -230,9 +281,9 @@ float Lighting::atFace(const Received& light, Voxel voxel, std::uint8_t face) co
   return light.values[surfaces.size() + static_cast<std::size_t>(at - faces.begin())];
 }
 
-std::vector<float> Lighting::ofSideless(const Received& light) const {
+std::vector<float> Lighting::ofGaps(const Received& light) const {
   std::vector<float> means;
-  means.reserve(sideless->count());
+  means.reserve(gaps->count());
   for (std::size_t i = 0; i < faces.size();) {
     const std::uint64_t voxel = faces[i] / kFaces;
     float sum = 0.0f, count = 0.0f;
@@ -248,26 +299,21 @@ std::vector<float> Lighting::ofSideless(const Received& light) const {
 Lighting lightOf(const sim::World& world, const sim::Sky& sky, const sim::Sun& sun,
                  const LightWanted& wanted) {
   Lighting light;
-  light.about = texts(world.frame(), sky, sun);
-  light.hours_a_day = sun.totalHours();
+  light.about = aboutLight(world.frame(), sky, sun, wanted.random_sky);
   sim::SurfaceSensors sensors = sim::surfaceSensors(world);
   const std::size_t count = sensors.surfaces.size();
   light.where = voxelsOf(sensors.surfaces, world.frame().size);
   light.surfaces.swap(sensors.surfaces);
   if (wanted.faces) light.faces = facesByThemselves(world, light);
-  sim::BitVolume sideless(world.frame().size);
+  sim::BitVolume gaps(world.frame().size);
   for (const std::uint64_t key : light.faces) {
     const Voxel v = voxelOfKey(key, world.frame().size);
-    if (!light.where->has(v)) sideless.set(v);
+    if (!light.where->has(v)) gaps.set(v);
   }
-  light.sideless = std::make_shared<const sim::VoxelSet>(std::move(sideless));
+  light.gaps = std::make_shared<const sim::VoxelSet>(std::move(gaps));
   light.surfaces.swap(sensors.surfaces);
   addFaces(sensors, light.faces);
-  {
-    const sim::OpenTable open = sim::sweepOpen(world.opaque(), sky.directions, sensors.places);
-    light.sky.values = sim::surfaceSky(sensors, open, sky);
-    if (wanted.brightest) light.brightest = brightestWays(sensors, count, moments(open, sky));
-  }
+  findSky(light, world, sky, wanted, sensors, count);
   {
     const sim::OpenTable open = sim::sweepOpen(world.opaque(), sun.directions, sensors.places);
     light.sun.values = sim::surfaceSun(sensors, open, sun);

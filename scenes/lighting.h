@@ -2,11 +2,13 @@
 #include <array>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "sim/field.h"
+#include "sim/sense/random_sky.h"
 #include "sim/sky.h"
 #include "sim/sun.h"
 #include "sim/world.h"
@@ -20,7 +22,25 @@ struct LightWanted {
   std::shared_ptr<const sim::VoxelSet> space = nullptr;
   bool dense = false;        ///< in every voxel of the world, whatever `space` says
   bool space_hours = false;  ///< hours of sun too, there
+  /// Greene's rays for sky_exposure instead of the sky's directions. They know no normals: surfaces then
+  /// receive what level ground would in front of them.
+  std::optional<sim::RandomSky> random_sky = std::nullopt;
 };
+
+/// What the numbers of a light are: named wherever they are shown.
+struct LightAbout {
+  std::string sky;        ///< in words
+  std::string weighting;  ///< of the sky, as scene files name it
+  std::size_t directions = 0;
+  double standard_error = 0.0;     ///< of sky_exposure; 0: not known
+  std::string sun;                 ///< in words; empty: there is none, and no more of the following
+  std::size_t sun_directions = 0;  ///< within sun_error_deg of the sun's places
+  double sun_error_deg = 0.0;
+  double sun_hours = 0.0;  ///< a day, where nothing obstructs
+  double voxel_m = 0.0;
+};
+/// The same as names and texts, for tables and headers.
+std::vector<std::pair<std::string, std::string>> texts(const LightAbout& about);
 
 /// What surfaces receive of one kind of light: the values of Lighting::surfaces, then of Lighting::faces.
 struct Received {
@@ -31,32 +51,31 @@ struct Received {
 /// The light of a world, found once for its pictures, tables and files. Surfaces are judged by their own
 /// normals (sim/sense/surface.h).
 ///
-/// What has no side, or shows its back, is judged face by face: a cube's face receives what a surface with
-/// the face's normal would in the free voxel before it. So stems, and walls of a single sheet seen from
-/// behind, have values too: they are in pictures and .vdb files, and in no table.
+/// What shows its back, or has no place in front (deep in a gap), is judged face by face: a cube's face
+/// receives what a surface with the face's normal would in the free voxel before it. So walls of a single
+/// sheet have values from behind too: they are in pictures and .vdb files, and in no table.
 struct Lighting {
-  std::vector<sim::TiledVoxel> surfaces;          ///< that have a side, in (y, z, x) order
-  std::shared_ptr<const sim::VoxelSet> where;     ///< the same, numbered alike
-  std::vector<std::uint64_t> faces;               ///< judged by themselves: faceKey of each, ascending
-  std::shared_ptr<const sim::VoxelSet> sideless;  ///< voxels with such faces that are no surfaces
+  std::vector<sim::TiledVoxel> surfaces;       ///< with places in front, in (y, z, x) order
+  std::shared_ptr<const sim::VoxelSet> where;  ///< the same, numbered alike
+  std::vector<std::uint64_t> faces;            ///< judged by themselves: faceKey of each, ascending
+  std::shared_ptr<const sim::VoxelSet> gaps;   ///< voxels with such faces that are no surfaces
 
   Received sky, sun;                  ///< 0..1
   Received sun_hours;                 ///< a day
-  double hours_a_day = 0.0;           ///< of sun where nothing obstructs
   std::vector<sim::Vec3f> brightest;  ///< by surface: unit, zero where no sky is seen; empty if not wanted
 
-  /// In free space, as level ground receives it; null where not wanted. Hours are fractions of `hours_a_day`.
+  /// In free space, as level ground receives it; null where not wanted. Hours are fractions of
+  /// about.sun_hours.
   std::shared_ptr<const sim::ExposureField> space_sky, space_sun, space_hours;
 
-  /// What the numbers are, by name: sky, weighting, directions, standard error, sun and so on.
-  std::vector<std::pair<std::string, std::string>> about;
+  LightAbout about;
 
   /// By voxel, in (y, z, x) order, then face: as in render/visibility.h.
   std::uint64_t faceKey(sim::Voxel voxel, std::uint8_t face) const;
   /// Of a face of an occupied voxel with no occupied voxel before it.
   float atFace(const Received& light, sim::Voxel voxel, std::uint8_t face) const;
-  /// Of each voxel of `sideless` the mean over its faces.
-  std::vector<float> ofSideless(const Received& light) const;
+  /// Of each voxel of `gaps` the mean over its faces.
+  std::vector<float> ofGaps(const Received& light) const;
 };
 
 /// Finds the light of a world; a sun without directions gives none. Takes the world's bits, the surfaces, a

@@ -50,7 +50,9 @@ std::optional<Panel> panelOf(ImageKind kind) {
 /// What an image's numbers are, for its header.
 render::Metadata metadataOf(const Finished& finished, const ImageSpec& image) {
   render::Metadata metadata = {{"Title", finished.job.scene.name + ": " + image.name}};
-  for (const auto& [name, text] : finished.light.about) metadata.emplace_back("espalier:" + name, text);
+  metadata.emplace_back("espalier:voxel_m", fmt::format("{:.6g}", finished.light.about.voxel_m));
+  for (const auto& [name, text] : texts(finished.light.about))
+    metadata.emplace_back("espalier:" + name, text);
   return metadata;
 }
 
@@ -123,7 +125,7 @@ Studio::Studio(const Finished& finished)
                return surface ? surface->colour : sim::Colour(0.0f);
              },
              faces(finished.light.sun_hours)} {
-  look_.most_hours = std::max(0.01f, static_cast<float>(finished.light.hours_a_day));
+  look_.most_hours = std::max(0.01f, static_cast<float>(finished.light.about.sun_hours));
   if (!scene_.plants.empty()) {
     const rules::RuleSet& rules = *scene_.plants.front().rules;
     const double sum = rules.light.sun + rules.light.sky;
@@ -157,8 +159,8 @@ std::function<void(Image&)> Studio::legend(Panel panel) const {
       render::drawLegend(picture, render::BarLegend{title, note, most, step}, render::ColourMap(map));
     };
   };
-  const std::string sky = wrapped(sim::describe(finished_.job.sky));
-  const std::string sun = wrapped(sim::describe(finished_.job.sun));
+  const std::string sky = wrapped(finished_.light.about.sky);
+  const std::string sun = wrapped(finished_.light.about.sun);
   switch (panel) {
     case Panel::sun_exposure:
       return bar("sun exposure", "share of the sun's way in sight\n" + sun, look_.sun_map);
@@ -268,9 +270,8 @@ OutputFile png(const std::string& name, std::shared_ptr<const Image> picture, re
   return {name + ".png", [picture, metadata] { return render::encodePng(*picture, metadata); }};
 }
 
-Image contactSheet(const Job& job, const ImageSpec& sheet,
+Image contactSheet(const Scene& scene, const LightAbout& about, const ImageSpec& sheet,
                    const std::map<std::string, std::shared_ptr<const Image>>& pictures) {
-  const Scene& scene = job.scene;
   std::vector<render::Captioned> captioned;
   bool light = false;
   for (const std::string& name : sheet.of) {
@@ -284,7 +285,7 @@ Image contactSheet(const Job& job, const ImageSpec& sheet,
   render::SheetLook look;
   look.columns = captioned.size() <= 4 ? static_cast<int>(captioned.size()) : captioned.size() <= 6 ? 3 : 4;
   look.title = sheet.caption.empty() ? scene.name : sheet.caption;
-  if (light) look.note = "sky: " + sim::describe(job.sky) + "\nsun: " + sim::describe(job.sun);
+  if (light) look.note = "sky: " + about.sky + (about.sun.empty() ? "" : "\nsun: " + about.sun);
   return render::contactSheet(captioned, look);
 }
 
@@ -345,8 +346,9 @@ std::vector<OutputFile> drawPictures(const Finished& finished, const std::stop_t
   }
   for (const ImageSpec& image : scene.images) {
     if (image.kind != ImageKind::contact_sheet) continue;
-    files.push_back({image.name + ".png", [&job = finished.job, image, pictures, about = metadata(image)] {
-                       return render::encodePng(contactSheet(job, image, pictures), about);
+    files.push_back({image.name + ".png",
+                     [&scene, &light = finished.light.about, image, pictures, about = metadata(image)] {
+                       return render::encodePng(contactSheet(scene, light, image, pictures), about);
                      }});
   }
   return files;

@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 #include <sys/resource.h>
 
-#include <nlohmann/json.hpp>
+#include "scenes/light_json.h"
 
 namespace espalier::scenes {
 namespace {
@@ -63,15 +63,14 @@ std::string toJson(const Report& report) {
         {{"object", fill.object}, {"filled_voxels", fill.filled}, {"doubtful_voxels", fill.doubtful}});
   }
   json["world"]["fills"] = fills;
-  Json light = Json::object();
-  for (const auto& [name, text] : report.light) light[name] = text;
-  json["light"] = light;
+  json["light"] = lightJson(report.light);
   if (report.growth) json["growth"] = growth(*report.growth);
   if (report.exposure) {
     json["exposure"] = {{"surface_voxels", report.exposure->surfaces},
-                        {"sideless_voxels", report.exposure->sideless},
+                        {"gap_voxels", report.exposure->gaps},
                         {"free_voxels", report.exposure->in_space}};
   }
+  if (report.certificate) json["certificate"] = Json::parse(toJson(*report.certificate));
   json["files"] = report.files;
   Json stages = Json::object();
   for (const auto& [stage, seconds] : report.run.stages_s) stages[stage] = seconds;

@@ -6,7 +6,9 @@
 #include <utility>
 #include <vector>
 
+#include "scenes/certificate.h"
 #include "scenes/job.h"
+#include "scenes/lighting.h"
 #include "sim/grow.h"
 
 namespace espalier::scenes {
@@ -19,8 +21,7 @@ struct Report {
   std::size_t scene_voxels = 0;     ///< before they grew
   std::size_t degenerate_triangles = 0;
   std::vector<sim::FillReport> fills;
-  /// What the numbers of its light are, by name (Lighting::about).
-  std::vector<std::pair<std::string, std::string>> light;
+  LightAbout light;
 
   struct Growth {
     int iterations = 0;
@@ -30,12 +31,13 @@ struct Report {
   };
   std::optional<Growth> growth;  ///< where plants grew
 
-  /// Surface voxels whose exposure was found, and those that have no side to be judged by.
+  /// Surface voxels whose exposure was found, and those that have no place in front (Lighting::gaps).
   struct Exposure {
-    std::size_t surfaces = 0, sideless = 0;
+    std::size_t surfaces = 0, gaps = 0;
     std::size_t in_space = 0;  ///< free voxels whose exposure was found
   };
   std::optional<Exposure> exposure;  ///< where it was what the run was for
+  std::optional<Certificate> certificate;
 
   std::vector<std::string> files;  ///< that were written, in the output folder
 

@@ -87,6 +87,7 @@ Report runScene(Scene scene, const RunOptions& options) {
     LightWanted wanted;
     wanted.space = layers;
     wanted.dense = options.pictures && drawsVines(job.scene);  // leaves are lit by what is around them
+    wanted.random_sky = job.random_sky;
     return lightOf(job.world, job.sky, job.sun, wanted);
   });
   report.light = light.about;

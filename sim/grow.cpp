@@ -166,14 +166,21 @@ Growth grow(World& world, const std::vector<Planting>& plantings, const GrowthSe
   Growth growth;
   State state = plantSeeds(world, plantings);
   Claims claims(world.frame().size);
-  const LightSensor sensor(world.opaque(), settings.sky, settings.sun);
+  const LightSensor sensor(world.opaque(), settings.random_sky ? DirectionSet{} : settings.sky, settings.sun);
   std::size_t segments = 0;
 
   for (int iteration = 0; iteration < settings.iterations && !state.buds.empty(); ++iteration) {
     std::vector<Bud> due, next;
     for (const Bud& bud : state.buds) (bud.due <= iteration ? due : next).push_back(bud);
 
-    const std::vector<Light> lights = sensor.at(world.opaque(), voxelsOf(due, state));
+    const std::vector<Voxel> places = voxelsOf(due, state);
+    std::vector<Light> lights = sensor.at(world.opaque(), places);
+    if (settings.random_sky) {
+      parallelFor(places.size(), 4, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i)
+          lights[i].sky = lookOut(world.opaque(), places[i], *settings.random_sky, settings.weighting);
+      });
+    }
     std::vector<Proposal> proposals(due.size());
     parallelFor(due.size(), 4, [&](std::size_t begin, std::size_t end) {
       for (std::size_t i = begin; i < end && !settings.stop.stop_requested(); ++i) {

@@ -1,6 +1,7 @@
 #pragma once
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <stop_token>
 #include <string>
 #include <vector>
@@ -8,6 +9,7 @@
 #include "sim/directions.h"
 #include "sim/rule.h"
 #include "sim/sense/brightest.h"
+#include "sim/sense/random_sky.h"
 
 namespace espalier::sim {
 
@@ -29,7 +31,9 @@ struct GrowthSettings {
   int iterations = 50;
   std::uint64_t seed = 1;
   DirectionSet sky, sun;
-  SkyTable sky_table;  ///< may be empty where no rule looks for the brightest spot
+  std::optional<RandomSky> random_sky;       ///< Greene's rays, instead of the sky's directions
+  Weighting weighting = Weighting::uniform;  ///< of the random rays
+  SkyTable sky_table;                        ///< may be empty where no rule looks for the brightest spot
   bool record_attempts = false;
   std::stop_token stop;
   std::function<void(const GrowthProgress&)> progress;  ///< after each iteration

@@ -23,12 +23,12 @@ using Words = hn::ScalableTag<std::uint64_t>;
 using Vector = hn::Vec<Words>;
 
 /// Bits `shift` .. 63 of low, then bits 0 .. shift - 1 of high.
-HWY_INLINE Vector funnel(Vector low, Vector high, const std::uint64_t* shift) {
+HWY_INLINE Vector funnel(Vector low, Vector high, std::uint64_t shift) {
   const Words d;
 #if HWY_TARGET == HWY_AVX3_DL
-  return Vector{_mm512_shrdv_epi64(low.raw, high.raw, hn::Set(d, *shift).raw)};
+  return Vector{_mm512_shrdv_epi64(low.raw, high.raw, hn::Set(d, shift).raw)};
 #else
-  const Vector count = hn::Set(d, *shift);
+  const Vector count = hn::Set(d, shift);
   return hn::Or(hn::Shr(low, count), hn::Shl(high, hn::Sub(hn::Set(d, std::uint64_t{64}), count)));
 #endif
 }
@@ -70,7 +70,7 @@ HWY_INLINE void uniteDense(std::span<const Read> reads, std::size_t line, Word* 
       }
       for (std::uint32_t s = 0; s < read.count; ++s) {
         for (std::size_t i = 0; i < kWords; ++i)
-          all[i] = hn::Or(all[i], funnel(words[i], words[i + 1], read.shifts + s));
+          all[i] = hn::Or(all[i], funnel(words[i], words[i + 1], read.shifts[s]));
       }
     }
     for (std::size_t i = 0; i < kWords; ++i) hn::Store(all[i], d, out + at + i * line);
@@ -88,15 +88,25 @@ HWY_INLINE void uniteSparse(std::span<const Read> reads, const Blocks* filled, B
   }
   for (std::size_t r = 0; r < reads.size(); ++r) {
     const Read& read = reads[r];
-    for (Blocks left = filled[r]; left != 0; left &= left - 1) {
-      const std::size_t first = w * line + kRows * lowest(left);
-      for (std::size_t at = first; at < first + kRows; at += n) {
-        const Vector low = hn::LoadU(d, read.from + at), high = hn::LoadU(d, read.from + line + at);
-        Vector all = hn::Load(d, out + at);
-        if (read.unmoved) all = hn::Or(all, low);
-        for (std::uint32_t s = 0; s < read.count; ++s) all = hn::Or(all, funnel(low, high, read.shifts + s));
-        hn::Store(all, d, out + at);
+    const auto forEachVector = [&](const auto& add) {
+      for (Blocks left = filled[r]; left != 0; left &= left - 1) {
+        const std::size_t first = w * line + kRows * lowest(left);
+        for (std::size_t at = first; at < first + kRows; at += n) {
+          const Vector low = hn::LoadU(d, read.from + at), high = hn::LoadU(d, read.from + line + at);
+          hn::Store(add(hn::Load(d, out + at), low, high), d, out + at);
+        }
       }
+    };
+    if (read.count == 1 && !read.unmoved) {  // by far the most common
+      const std::uint64_t shift = *read.shifts;
+      forEachVector(
+          [&](Vector all, Vector low, Vector high) { return hn::Or(all, funnel(low, high, shift)); });
+    } else {
+      forEachVector([&](Vector all, Vector low, Vector high) {
+        if (read.unmoved) all = hn::Or(all, low);
+        for (std::uint32_t s = 0; s < read.count; ++s) all = hn::Or(all, funnel(low, high, read.shifts[s]));
+        return all;
+      });
     }
   }
 }

@@ -32,10 +32,11 @@ bool before(Voxel a, Voxel b) {
 
 /// Vectors along points evenly spread over the sky. A longer vector lies nearer to its point, but a sweep
 /// along it costs more: each takes the least of (angle in spacings)^2 + length_cost * length. With this cost
-/// the error of the sky is that of the points themselves, while the vectors are a third shorter than those
-/// that would lie nearest; shorter ones still crowd on the planes of symmetry, which is where walls stand.
+/// the error of the sky is that of the points themselves, while the vectors are two fifths shorter than those
+/// that would lie nearest; shorter ones crowd on planes of simple slopes, which is where edges of walls
+/// stand.
 std::vector<Voxel> spreadVectors(int count) {
-  const double length_cost = 0.0004 * std::min(1.0, 512.0 / count);
+  const double length_cost = 0.0008 * std::min(1.0, 512.0 / count);
   const double spacing2 = 2.0 * std::numbers::pi / count;
   const auto earlier = [](Voxel a, Voxel b) { return before(a, b); };
   std::set<Voxel, decltype(earlier)> taken(earlier);

@@ -44,15 +44,31 @@ struct Block {
   }
 };
 
+/// Those in which anything is asked for: low > high if there are none.
+struct Slices {
+  int low, high;
+};
+
+Slices slicesOf(const VoxelSet& where) {
+  const auto none = [&](int y) {
+    const std::size_t next = y + 1 < where.bits().size().y ? where.firstOfRow(y + 1, 0) : where.count();
+    return next == where.firstOfRow(y, 0);
+  };
+  Slices slices{0, where.bits().size().y - 1};
+  while (slices.low <= slices.high && none(slices.low)) ++slices.low;
+  while (slices.low <= slices.high && none(slices.high)) --slices.high;
+  return slices;
+}
+
 /// Calls prepare(numbers of its directions) for each batch, and what that returns for each block.
 template <typename Prepare>
 void sweepBlocks(const BitVolume& occupied, const DirectionSet& directions, std::size_t batch_size,
-                 const Prepare& prepare) {
+                 Slices slices, const Prepare& prepare) {
   forEachBatch(occupied, directions, batch_size, [&](std::span<const std::size_t> numbers) {
     std::vector<const LatticeDirection*> batch;
     for (const std::size_t i : numbers) batch.push_back(&directions[i]);
     const auto work = prepare(numbers);
-    sweepBatch(occupied, batch, [&](const Band& band) {
+    sweepBatch(occupied, batch, slices.low, slices.high, [&](const Band& band) {
       for (int z = band.z0; z < band.z1; z += static_cast<int>(kRows)) {
         work({band.y, z, static_cast<std::size_t>(std::min(static_cast<int>(kRows), band.z1 - z)), band});
       }
@@ -103,7 +119,7 @@ ExposureField sweepExposure(const BitVolume& occupied, const DirectionSet& direc
   const std::size_t voxels = nx * static_cast<std::size_t>(size.y) * static_cast<std::size_t>(size.z);
   ExposureField field{size, std::vector<std::uint16_t>(voxels, wholeSum(directions))};
   const DirectionSet counting = thatCount(directions);
-  sweepBlocks(occupied, counting, kSummedAtOnce, [&](std::span<const std::size_t> numbers) {
+  sweepBlocks(occupied, counting, kSummedAtOnce, {0, size.y - 1}, [&](std::span<const std::size_t> numbers) {
     return [&, adders = addersOf(counting, numbers)](const Block& block) {
       std::array<std::uint16_t, 64 * kRows> blocked;
       for (std::size_t x = 0; x < nx; x += 64) {
@@ -127,7 +143,7 @@ ExposureField sweepExposure(const BitVolume& occupied, const DirectionSet& direc
   ExposureField field{occupied.size(), std::vector<std::uint16_t>(where->count(), wholeSum(directions)),
                       where};
   const DirectionSet counting = thatCount(directions);
-  sweepBlocks(occupied, counting, kSummedAtOnce, [&](std::span<const std::size_t> numbers) {
+  sweepBlocks(occupied, counting, kSummedAtOnce, slicesOf(*where), [&](std::span<const std::size_t> numbers) {
     return [&, adders = addersOf(counting, numbers)](const Block& block) {
       std::array<std::uint16_t, 64 * kRows> blocked;
       forEachAsked(
@@ -152,7 +168,7 @@ OpenTable sweepOpen(const BitVolume& occupied, const DirectionSet& directions,
     const std::size_t left = directions.size() - 64 * (i % table.words());
     table.bits[i] = left >= 64 ? ~Word{0} : (Word{1} << left) - 1;
   }
-  sweepBlocks(occupied, directions, 64, [&](std::span<const std::size_t> numbers) {
+  sweepBlocks(occupied, directions, 64, slicesOf(*where), [&](std::span<const std::size_t> numbers) {
     return [&, numbers](const Block& block) {
       forEachAsked(
           *where, block, [](std::size_t) {},

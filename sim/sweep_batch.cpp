@@ -179,8 +179,8 @@ bool anything(const BitVolume& occupied, int y) {
 
 }  // namespace
 
-void sweepBatch(const BitVolume& occupied, std::span<const LatticeDirection* const> batch,
-                const std::function<void(const Band&)>& count) {
+void sweepBatch(const BitVolume& occupied, std::span<const LatticeDirection* const> batch, int low_y,
+                int high_y, const std::function<void(const Band&)>& count) {
   const Voxel size = occupied.size();
   const bool up = std::all_of(batch.begin(), batch.end(), [](const auto* d) { return d->v.y >= 0; });
   const auto yOf = [&](int slice) { return up ? size.y - 1 - slice : slice; };
@@ -203,7 +203,8 @@ void sweepBatch(const BitVolume& occupied, std::span<const LatticeDirection* con
   const std::size_t blocks =
       std::clamp<std::size_t>(kCacheWords / (layout.words * batch.size() * kRows), 1, shared);
   const std::size_t bands = (layout.blocks + blocks - 1) / blocks;
-  for (int slice = begin; slice < size.y; ++slice) {
+  const int end = up ? size.y - low_y : high_y + 1;
+  for (int slice = begin; slice < end; ++slice) {
     layOut(occupied, yOf(slice), layout, world, slice);
     parallelForEach(level.size(), [&](std::size_t i) { level[i]->runLevel(world, slice); });
     parallelForEach(bands, [&](std::size_t b) {
@@ -222,6 +223,7 @@ void sweepBatch(const BitVolume& occupied, std::span<const LatticeDirection* con
         blocked.push_back(sweep.blocked().slice(slice));
         for (std::size_t w = 0; w < layout.words; ++w) filled[w] |= of_one[w];
       }
+      if (yOf(slice) < low_y || yOf(slice) > high_y) return;
       const auto row = [&](std::size_t block) { return std::min(size.z, static_cast<int>(block * kRows)); };
       count({yOf(slice), row(first), row(first + n), blocked, layout.line(), filled});
     });

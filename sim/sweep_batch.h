@@ -19,9 +19,10 @@ struct Band {
 };
 
 /// Sweeps directions that all go up or stay level, or all go down. Calls count(band) from several threads for
-/// the bands that make up the world, slice after slice, without those in which nothing can be blocked.
-void sweepBatch(const BitVolume& occupied, std::span<const LatticeDirection* const> batch,
-                const std::function<void(const Band&)>& count);
+/// the bands of the slices low_y <= y <= high_y, one slice after another, without those in which nothing can
+/// be blocked.
+void sweepBatch(const BitVolume& occupied, std::span<const LatticeDirection* const> batch, int low_y,
+                int high_y, const std::function<void(const Band&)>& count);
 
 /// Parts a set into batches of at least so many directions, and no more than stay in a core's cache while
 /// they are swept. `take` gets the numbers of a batch's directions.

@@ -88,7 +88,7 @@ void Report::add(const Figure& figure) {
     target = fmt::format("{} {}", at_least ? "at least" : "at most", number(goal));
     met = (at_least ? figure.value >= goal : figure.value <= goal) ? "met" : "missed";
   }
-  print(fmt::format("  {:<62} {:>13} {:<7} {}{}", figure.what, number(figure.value), figure.unit,
+  print(fmt::format("  {:<70} {:>13} {:<7} {}{}", figure.what, number(figure.value), figure.unit,
                     figure.state == 0 ? "" : fmt::format("{:016x}", figure.state),
                     met.empty() ? "" : fmt::format("  target {}: {}", target, met)));
   csv_ += fmt::format("{},{},{:.9g},{},{},{},{:016x},{}\n", quoted(figure.row), quoted(figure.what),

@@ -32,7 +32,7 @@ sim::BitVolume town(sim::Voxel size) {
   fillBox(bits, {0, 0, 0}, {size.x - 1, ground - 1, size.z - 1});
   for (int z = 0; z < size.z; z += kPlot) {
     for (int x = 0; x < size.x; x += kPlot) {
-      const int height = std::min(size.y - 1, ground + 10 + static_cast<int>(random() % 90u));
+      const int height = ground + static_cast<int>(random() % static_cast<unsigned>(size.y - ground));
       const sim::Voxel far(std::min(size.x, x + kPlot - kStreet) - 1, height,
                            std::min(size.z, z + kPlot - kStreet) - 1);
       fillBox(bits, {x, ground, z}, far);

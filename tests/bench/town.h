@@ -3,7 +3,7 @@
 
 namespace espalier::bench {
 
-/// A town in a world of this size: ground, and houses of many heights along streets. The same for the same
+/// A town in a world of this size: ground, and houses of all heights along streets. The same for the same
 /// size.
 sim::BitVolume town(sim::Voxel size);
 

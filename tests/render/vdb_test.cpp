@@ -7,12 +7,9 @@
 #include <map>
 #include <sstream>
 
+#include "sim/band.h"
 #include "sim/error.h"
 #include "sim/parallel.h"
-#include "sim/sense/exposure.h"
-#include "sim/sky.h"
-#include "sim/sun.h"
-#include "sim/sweep.h"
 #include "tests/support/plots.h"
 
 namespace espalier {
@@ -43,9 +40,26 @@ ReadBack readBack(const std::string& bytes) {
 class Vdb : public testing::Test {
  protected:
   sim::World world_ = tests::wallPlot({30, 24, 20}, 3);
-  sim::ExposureField sky_ =
-      sim::sweepExposure(world_.occupied(), sim::makeSky({.directions = 32}).directions);
-  sim::ExposureField sun_ = sim::sweepExposure(world_.occupied(), sim::makeSun(sim::SunArc{}).directions);
+  sim::VoxelSet stands_{world_.occupied()};
+  sim::VoxelSet near_{sim::freeBand(world_.occupied(), 2, world_.occupied())};
+
+  static float number(Voxel v) { return static_cast<float>(v.x + 100 * v.y + 10000 * v.z); }
+  /// One grid of each kind.
+  std::vector<render::VdbField> fields() const {
+    using Numbers = std::vector<render::VdbPart<float>>;
+    const auto here = [](Voxel v, std::size_t) { return number(v); };
+    return {{"place",
+             "where it is",
+             "1",
+             Numbers{{&stands_, here}, {&near_, [](Voxel v, std::size_t) { return -number(v); }}},
+             {{"weighting", "none"}}},
+            {"count", "its number", "1",
+             std::vector<render::VdbPart<std::int32_t>>{
+                 {&near_, [](Voxel, std::size_t n) { return static_cast<std::int32_t>(n); }}}},
+            {"way", "up", "1", std::vector<render::VdbPart<sim::Vec3f>>{{&stands_, [](Voxel v, std::size_t) {
+                                                                           return sim::Vec3f(0, v.y, 1);
+                                                                         }}}}};
+  }
 
   template <class Check>
   void forEachVoxel(Check check) const {
@@ -59,18 +73,16 @@ class Vdb : public testing::Test {
 };
 
 TEST_F(Vdb, HoldsTheWorldVoxelForVoxel) {
-  const ReadBack file = readBack(render::vdbBytes(world_, {&sun_, &sky_}));
-  EXPECT_EQ(file.grids.size(), 10u);
+  const ReadBack file = readBack(render::vdbBytes(world_));
+  EXPECT_EQ(file.grids.size(), 8u);
   const auto density = file.grid<openvdb::FloatGrid>("density"),
              distance = file.grid<openvdb::FloatGrid>("distance"),
-             coverage = file.grid<openvdb::FloatGrid>("coverage"),
-             sun = file.grid<openvdb::FloatGrid>("sun_exposure"),
-             sky = file.grid<openvdb::FloatGrid>("sky_exposure");
+             coverage = file.grid<openvdb::FloatGrid>("coverage");
   const auto part = file.grid<openvdb::Int32Grid>("part"), layer = file.grid<openvdb::Int32Grid>("layer"),
              nearest = file.grid<openvdb::Int32Grid>("nearest");
   const auto colour = file.grid<openvdb::Vec3SGrid>("colour"),
              normal = file.grid<openvdb::Vec3SGrid>("normal");
-  ASSERT_TRUE(density && distance && coverage && sun && sky && part && layer && nearest && colour && normal);
+  ASSERT_TRUE(density && distance && coverage && part && layer && nearest && colour && normal);
   std::size_t band = 0;
   forEachVoxel([&](Voxel v, openvdb::Coord at) {
     const bool occupied = world_.occupied().at(v);
@@ -81,23 +93,41 @@ TEST_F(Vdb, HoldsTheWorldVoxelForVoxel) {
       EXPECT_EQ(coverage->tree().getValue(at), surface->coverage);
       EXPECT_EQ(colour->tree().getValue(at).x(), surface->colour.r);
       EXPECT_EQ(normal->tree().getValue(at).y(), surface->normal.y);
-      EXPECT_EQ(sky->tree().getValue(at), sim::surfaceExposure(world_.occupied(), sky_, v, surface->normal));
     }
     const auto near = world_.nearnessAt(v);
     EXPECT_EQ(layer->tree().isValueOn(at), near.has_value());
-    EXPECT_EQ(sky->tree().isValueOn(at), near.has_value() || occupied);
     if (near) {
       EXPECT_EQ(layer->tree().getValue(at), near->layer);
       EXPECT_EQ(nearest->tree().getValue(at), near->part);
       EXPECT_EQ(distance->tree().getValue(at), near->distance_vx);
-      if (!occupied) {
-        EXPECT_EQ(sky->tree().getValue(at), sky_.at(v));
-        EXPECT_EQ(sun->tree().getValue(at), sun_.at(v));
-        ++band;
-      }
+      band += !occupied;
     }
   });
   EXPECT_GT(band, 1000u);
+}
+
+TEST_F(Vdb, FieldsAreActiveWhereTheyAreKnownAndNowhereElse) {
+  const ReadBack file = readBack(render::fieldVdbBytes(world_, fields()));
+  ASSERT_EQ(file.grids.size(), 3u);
+  const auto place = file.grid<openvdb::FloatGrid>("place");
+  const auto count = file.grid<openvdb::Int32Grid>("count");
+  const auto way = file.grid<openvdb::Vec3SGrid>("way");
+  ASSERT_TRUE(place && count && way);
+  EXPECT_EQ(place->activeVoxelCount(), stands_.count() + near_.count());
+  EXPECT_EQ(count->activeVoxelCount(), near_.count());
+  EXPECT_EQ(way->activeVoxelCount(), stands_.count());
+  EXPECT_EQ(place->metaValue<std::string>("weighting"), "none");
+  forEachVoxel([&](Voxel v, openvdb::Coord at) {
+    const float sign = stands_.has(v) ? 1.0f : near_.has(v) ? -1.0f : 0.0f;
+    ASSERT_EQ(place->tree().getValue(at), sign * number(v));
+    ASSERT_EQ(count->tree().isValueOn(at), near_.has(v));
+    if (near_.has(v)) {
+      ASSERT_EQ(count->tree().getValue(at), static_cast<int>(near_.number(v)));
+    }
+    if (stands_.has(v)) {
+      ASSERT_EQ(way->tree().getValue(at), openvdb::Vec3f(0, static_cast<float>(v.y), 1));
+    }
+  });
 }
 
 TEST_F(Vdb, SaysWhatItHolds) {
@@ -119,9 +149,7 @@ TEST_F(Vdb, SaysWhatItHolds) {
 TEST_F(Vdb, TheSameBytesOnAnyNumberOfThreads) {
   const auto write = [&](int threads) {
     std::string bytes;
-    sim::onThreads(threads, [&] {
-      bytes = render::vdbBytes(tests::wallPlot({30, 24, 20}, 3), {&sun_, &sky_});
-    });
+    sim::onThreads(threads, [&] { bytes = render::vdbBytes(tests::wallPlot({30, 24, 20}, 3), fields()); });
     return bytes;
   };
   const std::string one = write(1);
@@ -130,7 +158,7 @@ TEST_F(Vdb, TheSameBytesOnAnyNumberOfThreads) {
 }
 
 TEST_F(Vdb, TheFileIdIsAUuidAndFollowsFromTheContents) {
-  const std::string with = render::vdbBytes(world_, {&sun_, &sky_}), without = render::vdbBytes(world_);
+  const std::string with = render::vdbBytes(world_, fields()), without = render::vdbBytes(world_);
   const auto id = [](const std::string& bytes) { return bytes.substr(21, 36); };
   for (const std::string& text : {id(with), id(without)}) {
     for (std::size_t i = 0; i < text.size(); ++i) {
@@ -142,8 +170,11 @@ TEST_F(Vdb, TheFileIdIsAUuidAndFollowsFromTheContents) {
 }
 
 TEST_F(Vdb, AFieldOfAnotherSizeIsRefused) {
-  const sim::ExposureField small{Voxel(2), std::vector<std::uint16_t>(8)};
-  EXPECT_THROW(render::vdbBytes(world_, {nullptr, &small}), sim::InputError);
+  const sim::VoxelSet small{sim::BitVolume(Voxel(2))};
+  const render::VdbField field{
+      "small", "", "1",
+      std::vector<render::VdbPart<float>>{{&small, [](Voxel, std::size_t) { return 0.0f; }}}};
+  EXPECT_THROW(render::vdbBytes(world_, {field}), sim::InputError);
 }
 
 }  // namespace

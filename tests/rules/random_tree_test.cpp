@@ -154,7 +154,21 @@ TEST(RandomTree, TheSameBytesOnAnyNumberOfThreads) {
   ASSERT_EQ(hashes.size(), 1u);
   // The state itself, so that a change of behaviour, of compiler or of processor shows: change it on purpose
   // only.
-  EXPECT_EQ(*hashes.begin(), 0x7bb341093375f485u);
+  EXPECT_EQ(*hashes.begin(), 0x3ea1fa831a777f65u);
+}
+
+TEST(RandomTree, GrowsAlikeUnderGreenesRandomRays) {
+  sim::World even_world = tests::wallPlot(), random_world = tests::wallPlot();
+  auto s = settings(20);
+  const auto even = growIn(even_world, vine(), kBothSides, s);
+  s.random_sky = sim::RandomSky{};
+  const auto random = growIn(random_world, vine(), kBothSides, s);
+  EXPECT_NE(sim::stateHash(even_world, even.plants), sim::stateHash(random_world, random.plants));
+  for (std::size_t i = 0; i < even.plants.size(); ++i) {
+    EXPECT_GT(random.plants[i].skeleton.size(), even.plants[i].skeleton.size() / 2);
+    EXPECT_LT(random.plants[i].skeleton.size(), even.plants[i].skeleton.size() * 2);
+    EXPECT_NEAR(random.plants[i].skeleton.sky_exposure[1], even.plants[i].skeleton.sky_exposure[1], 0.15f);
+  }
 }
 
 TEST(RandomTree, AnotherSeedIsAnotherPlant) {

@@ -145,9 +145,6 @@ const std::vector<BadFile> kBadScenes = {
      "sun:\n  place: {latitude: 47, longitude: 8, utc_offset: 1}\n  date: 2026-06-21\n  shadow_hour: 23\n",
      {"6:16: the sun is not up at 23 h on 2026-06-21, where the shadows of pictures are drawn; expected "
       "shadow_hour: "}},
-    {"a sun that is too exact",
-     "sun:\n  place: {latitude: 47, longitude: 8, utc_offset: 1}\n  date: 2026-06-21\n  accuracy: 0.1\n",
-     {"4:3: no direction lies within 0.1 degrees of the sun"}},
     {"a plant without rules",
      "plants: [{seeds: [[0, 0, 0]]}]\n",
      {"3:10: the key 'rules' is missing here; expected the path of a rule file, or a mapping of rule keys"}},

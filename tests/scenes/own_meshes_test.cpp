@@ -3,7 +3,8 @@
 #include "scenes/mesh_import.h"
 #include "tests/scenes/mesh_files.h"
 
-/// The meshes in scenes/meshes. After a change to make_courtyard.py: python3 scenes/meshes/make_courtyard.py
+/// The meshes in scenes/meshes. After a change to one of the scripts there: python3
+/// scenes/meshes/make_<name>.py
 namespace espalier::scenes {
 namespace {
 
@@ -23,14 +24,18 @@ TEST_F(OwnMeshes, HaveTheRegionsThatScenesName) {
   }
   EXPECT_EQ(importMesh(kMeshes / "column.obj", RegionsFrom::group).regions, (Names{"plinth", "column"}));
   EXPECT_EQ(importMesh(kMeshes / "maze_walls.obj", RegionsFrom::group).regions, (Names{"frame", "bars"}));
+  EXPECT_EQ(importMesh(kMeshes / "street.obj", RegionsFrom::group).regions,
+            (Names{"arcade", "facade_south", "facade_north", "facade_east", "facade_west", "roofs", "tower",
+                   "street", "square", "pavement"}));
 }
 
 TEST_F(OwnMeshes, AreWhatTheirScriptMakes) {
   if (std::system("python3 --version >/dev/null 2>&1") != 0) GTEST_SKIP() << "python3 is not here";
-  fs::copy_file(kMeshes / "make_courtyard.py", folder_ / "make_courtyard.py");
-  ASSERT_EQ(std::system(("python3 '" + (folder_ / "make_courtyard.py").string() + "' >/dev/null").c_str()),
-            0);
-  for (const char* name : {"courtyard", "column", "maze_walls"}) {
+  for (const char* script : {"make_courtyard.py", "make_street.py"}) {  // the second uses the first
+    fs::copy_file(kMeshes / script, folder_ / script);
+    ASSERT_EQ(std::system(("python3 '" + (folder_ / script).string() + "' >/dev/null").c_str()), 0);
+  }
+  for (const char* name : {"courtyard", "column", "maze_walls", "street"}) {
     for (const char* ending : {".obj", ".mtl"}) {
       const auto made = folder_ / (std::string(name) + ending);
       EXPECT_TRUE(testing::readAll(made) == testing::readAll(kMeshes / made.filename())) << made.filename();

@@ -3,9 +3,10 @@
 #include <algorithm>
 #include <array>
 #include <bit>
-#include <iterator>
+#include <numeric>
 
 #include "sim/lanes.h"
+#include "sim/parallel.h"
 #include "sim/sweep_batch.h"
 
 // Everything begins as open, and each batch of directions takes away what it finds blocked.
@@ -17,11 +18,13 @@ using lanes::Word;
 
 constexpr std::size_t kSummedAtOnce = 24;  // directions whose sweep is worth a pass over the sums
 
-DirectionSet thatCount(const DirectionSet& directions) {
-  DirectionSet counting;
-  std::copy_if(directions.begin(), directions.end(), std::back_inserter(counting),
-               [](const LatticeDirection& d) { return d.weight > 0; });
-  return counting;
+/// The numbers of the directions that have a weight.
+Batch thatCount(const DirectionSet& directions) {
+  Batch numbers;
+  for (std::size_t i = 0; i < directions.size(); ++i) {
+    if (directions[i].weight > 0) numbers.push_back(i);
+  }
+  return numbers;
 }
 
 std::uint16_t wholeSum(const DirectionSet& directions) {
@@ -44,42 +47,68 @@ struct Block {
   }
 };
 
-/// Those in which anything is asked for: low > high if there are none.
-struct Slices {
-  int low, high;
-};
-
-Slices slicesOf(const VoxelSet& where) {
+/// Where anything is asked for: low_y > high_y if nowhere.
+Extent extentOf(const VoxelSet& where) {
   const auto none = [&](int y) {
     const std::size_t next = y + 1 < where.bits().size().y ? where.firstOfRow(y + 1, 0) : where.count();
     return next == where.firstOfRow(y, 0);
   };
-  Slices slices{0, where.bits().size().y - 1};
-  while (slices.low <= slices.high && none(slices.low)) ++slices.low;
-  while (slices.low <= slices.high && none(slices.high)) --slices.high;
-  return slices;
+  Extent extent{0, where.bits().size().y - 1};
+  while (extent.low_y <= extent.high_y && none(extent.low_y)) ++extent.low_y;
+  while (extent.low_y <= extent.high_y && none(extent.high_y)) --extent.high_y;
+  return extent;
 }
 
-/// Calls prepare(numbers of its directions) for each batch, and what that returns for each block.
-template <typename Prepare>
-void sweepBlocks(const BitVolume& occupied, const DirectionSet& directions, std::size_t batch_size,
-                 Slices slices, const Prepare& prepare) {
-  forEachBatch(occupied, directions, batch_size, [&](std::span<const std::size_t> numbers) {
-    std::vector<const LatticeDirection*> batch;
-    for (const std::size_t i : numbers) batch.push_back(&directions[i]);
-    const auto work = prepare(numbers);
-    sweepBatch(occupied, batch, slices.low, slices.high, [&](const Band& band) {
-      for (int z = band.z0; z < band.z1; z += static_cast<int>(kRows)) {
-        work({band.y, z, static_cast<std::size_t>(std::min(static_cast<int>(kRows), band.z1 - z)), band});
-      }
-    });
+/// Calls work(block) for each block of a batch.
+template <typename Work>
+void sweepBlocks(const BitVolume& occupied, const DirectionSet& directions, const Batch& batch,
+                 const Extent& extent, const Work& work) {
+  std::vector<const LatticeDirection*> chosen;
+  for (const std::size_t i : batch) chosen.push_back(&directions[i]);
+  sweepBatch(occupied, chosen, extent, [&](const Band& band) {
+    for (int z = band.z0; z < band.z1; z += static_cast<int>(kRows)) {
+      work(Block{band.y, z, static_cast<std::size_t>(std::min(static_cast<int>(kRows), band.z1 - z)), band});
+    }
   });
 }
 
-lanes::Adders addersOf(const DirectionSet& directions, std::span<const std::size_t> numbers) {
+lanes::Adders addersOf(const DirectionSet& directions, const Batch& batch) {
   std::vector<std::uint16_t> weights;
-  for (const std::size_t i : numbers) weights.push_back(directions[i].weight);
+  for (const std::size_t i : batch) weights.push_back(directions[i].weight);
   return lanes::Adders(weights);
+}
+
+/// Lets subtract(sums, adders, block) take what is blocked away from the sums. In small worlds each thread
+/// takes its share of the directions into sums of its own, so that none waits for another after each slice.
+template <typename Subtract>
+void sumUp(const BitVolume& occupied, const DirectionSet& directions, Extent extent,
+           std::vector<std::uint16_t>& sums, const Subtract& subtract) {
+  const auto sweep = [&](const Batch& numbers, const Extent& within, std::uint16_t* into) {
+    for (const Batch& batch : batchesOf(occupied, directions, numbers, kSummedAtOnce)) {
+      const lanes::Adders adders = addersOf(directions, batch);
+      sweepBlocks(occupied, directions, batch, within,
+                  [&](const Block& block) { subtract(into, adders, block); });
+    }
+  };
+  const Batch counting = thatCount(directions);
+  const auto threads = static_cast<std::size_t>(threadCount());
+  if (!isSmall(occupied) || threads == 1) {
+    sweep(counting, extent, sums.data());
+    return;
+  }
+  extent.shared = false;
+  std::vector<std::vector<std::uint16_t>> shares(threads);
+  parallelForEach(threads, [&](std::size_t t) {
+    Batch dealt;
+    for (std::size_t i = t; i < counting.size(); i += threads) dealt.push_back(counting[i]);
+    shares[t].resize(sums.size());
+    sweep(dealt, extent, shares[t].data());
+  });
+  parallelFor(sums.size(), [&](std::size_t begin, std::size_t end) {
+    for (const auto& share : shares) {
+      for (std::size_t i = begin; i < end; ++i) sums[i] = static_cast<std::uint16_t>(sums[i] + share[i]);
+    }
+  });
 }
 
 /// Calls take(w, r, word) for the words of a block with places in them, w by w, and `begin(w)` before those
@@ -118,23 +147,21 @@ ExposureField sweepExposure(const BitVolume& occupied, const DirectionSet& direc
   const auto nx = static_cast<std::size_t>(size.x);
   const std::size_t voxels = nx * static_cast<std::size_t>(size.y) * static_cast<std::size_t>(size.z);
   ExposureField field{size, std::vector<std::uint16_t>(voxels, wholeSum(directions))};
-  const DirectionSet counting = thatCount(directions);
-  sweepBlocks(occupied, counting, kSummedAtOnce, {0, size.y - 1}, [&](std::span<const std::size_t> numbers) {
-    return [&, adders = addersOf(counting, numbers)](const Block& block) {
-      std::array<std::uint16_t, 64 * kRows> blocked;
-      for (std::size_t x = 0; x < nx; x += 64) {
-        if (!block.anything(x / 64)) continue;
-        adders.sums(block.band.blocked.data(), block.at(x / 64), blocked.data());
-        for (std::size_t r = 0; r < block.rows; ++r) {
-          std::uint16_t* const sums =
-              field.sums.data() + field.index({static_cast<int>(x), block.y, block.z + static_cast<int>(r)});
-          const std::size_t n = std::min<std::size_t>(64, nx - x);
-          for (std::size_t i = 0; i < n; ++i)
-            sums[i] = static_cast<std::uint16_t>(sums[i] - blocked[64 * r + i]);
-        }
+  const auto subtract = [&](std::uint16_t* all, const lanes::Adders& adders, const Block& block) {
+    std::array<std::uint16_t, 64 * kRows> blocked;
+    for (std::size_t x = 0; x < nx; x += 64) {
+      if (!block.anything(x / 64)) continue;
+      adders.sums(block.band.blocked.data(), block.at(x / 64), blocked.data());
+      for (std::size_t r = 0; r < block.rows; ++r) {
+        std::uint16_t* const sums =
+            all + field.index({static_cast<int>(x), block.y, block.z + static_cast<int>(r)});
+        const std::size_t n = std::min<std::size_t>(64, nx - x);
+        for (std::size_t i = 0; i < n; ++i)
+          sums[i] = static_cast<std::uint16_t>(sums[i] - blocked[64 * r + i]);
       }
-    };
-  });
+    }
+  };
+  sumUp(occupied, directions, {0, size.y - 1}, field.sums, subtract);
   return field;
 }
 
@@ -142,21 +169,19 @@ ExposureField sweepExposure(const BitVolume& occupied, const DirectionSet& direc
                             std::shared_ptr<const VoxelSet> where) {
   ExposureField field{occupied.size(), std::vector<std::uint16_t>(where->count(), wholeSum(directions)),
                       where};
-  const DirectionSet counting = thatCount(directions);
-  sweepBlocks(occupied, counting, kSummedAtOnce, slicesOf(*where), [&](std::span<const std::size_t> numbers) {
-    return [&, adders = addersOf(counting, numbers)](const Block& block) {
-      std::array<std::uint16_t, 64 * kRows> blocked;
-      forEachAsked(
-          *where, block,
-          [&](std::size_t w) { adders.sums(block.band.blocked.data(), block.at(w), blocked.data()); },
-          [&](std::size_t, std::size_t r, Word asked, std::size_t place) {
-            for (; asked != 0; asked &= asked - 1, ++place) {
-              field.sums[place] = static_cast<std::uint16_t>(
-                  field.sums[place] - blocked[64 * r + static_cast<std::size_t>(std::countr_zero(asked))]);
-            }
-          });
-    };
-  });
+  const auto subtract = [&](std::uint16_t* sums, const lanes::Adders& adders, const Block& block) {
+    std::array<std::uint16_t, 64 * kRows> blocked;
+    forEachAsked(
+        *where, block,
+        [&](std::size_t w) { adders.sums(block.band.blocked.data(), block.at(w), blocked.data()); },
+        [&](std::size_t, std::size_t r, Word asked, std::size_t place) {
+          for (; asked != 0; asked &= asked - 1, ++place) {
+            sums[place] = static_cast<std::uint16_t>(
+                sums[place] - blocked[64 * r + static_cast<std::size_t>(std::countr_zero(asked))]);
+          }
+        });
+  };
+  sumUp(occupied, directions, extentOf(*where), field.sums, subtract);
   return field;
 }
 
@@ -168,26 +193,41 @@ OpenTable sweepOpen(const BitVolume& occupied, const DirectionSet& directions,
     const std::size_t left = directions.size() - 64 * (i % table.words());
     table.bits[i] = left >= 64 ? ~Word{0} : (Word{1} << left) - 1;
   }
-  sweepBlocks(occupied, directions, 64, slicesOf(*where), [&](std::span<const std::size_t> numbers) {
-    return [&, numbers](const Block& block) {
-      forEachAsked(
-          *where, block, [](std::size_t) {},
-          [&](std::size_t w, std::size_t r, Word asked, std::size_t place) {
-            const std::size_t at = block.at(w) + r;
-            for (std::size_t n = 0;
-                 n < numbers.size();) {  // 64 directions by 64 voxels change rows for columns
-              const std::size_t column = numbers[n] / 64;
-              std::array<Word, 64> square{};
-              for (; n < numbers.size() && numbers[n] / 64 == column; ++n)
-                square[numbers[n] % 64] = block.band.blocked[n][at];
-              lanes::transpose(square.data());
-              Word* row = table.bits.data() + place * table.words() + column;
-              for (Word left = asked; left != 0; left &= left - 1, row += table.words())
-                *row &= ~square[static_cast<std::size_t>(std::countr_zero(left))];
-            }
-          });
-    };
-  });
+  // 64 directions by 64 voxels change rows for columns.
+  const auto clear = [&](const Batch& batch, const Block& block) {
+    forEachAsked(
+        *where, block, [](std::size_t) {},
+        [&](std::size_t w, std::size_t r, Word asked, std::size_t place) {
+          for (std::size_t n = 0; n < batch.size();) {
+            const std::size_t column = batch[n] / 64;
+            std::array<Word, 64> square{};
+            for (; n < batch.size() && batch[n] / 64 == column; ++n)
+              square[batch[n] % 64] = block.band.blocked[n][block.at(w) + r];
+            lanes::transpose(square.data());
+            Word* row = table.bits.data() + place * table.words() + column;
+            for (Word left = asked; left != 0; left &= left - 1, row += table.words())
+              *row &= ~square[static_cast<std::size_t>(std::countr_zero(left))];
+          }
+        });
+  };
+  Batch all(directions.size());
+  std::iota(all.begin(), all.end(), std::size_t{0});
+  Extent extent = extentOf(*where);
+  const auto batches = batchesOf(occupied, directions, all, 64);
+  const auto sweep = [&](std::size_t b) {
+    sweepBlocks(occupied, directions, batches[b], extent,
+                [&](const Block& block) { clear(batches[b], block); });
+  };
+  // Batches whose directions have no word of the table in common can be swept at the same time.
+  extent.shared = !isSmall(occupied) ||
+                  std::adjacent_find(batches.begin(), batches.end(), [](const Batch& a, const Batch& b) {
+                    return a.back() / 64 >= b.front() / 64;
+                  }) != batches.end();
+  if (extent.shared) {
+    for (std::size_t b = 0; b < batches.size(); ++b) sweep(b);
+  } else {
+    parallelForEach(batches.size(), sweep);
+  }
   return table;
 }
 

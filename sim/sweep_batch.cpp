@@ -64,14 +64,14 @@ class Sweep {
   const SliceRing& blocked() const { return ring_; }
 
   /// Some blocks of rows of a slice; filled[w] becomes those in which anything is blocked.
-  void run(const SliceRing& occupied, int slice, std::size_t first, std::size_t count,
-           std::vector<Blocks>& filled) {
+  void run(const SliceRing& occupied, int slice, std::size_t first, std::size_t count, Blocks* filled,
+           Blocks* before) {
     Reads reads;
     const std::size_t n = gather(occupied, slice, first, reads);
-    for (std::size_t w = 0; w < layout_.words; ++w) filled[w] = ring_.filled(slice, w, first, count);
-    const std::vector<Blocks> before(filled);
+    for (std::size_t w = 0; w < layout_.words; ++w)
+      filled[w] = before[w] = ring_.filled(slice, w, first, count);
     lanes::unite(std::span(reads).first(n), {layout_.line(), layout_.flagLine()},
-                 ring_.slice(slice) + first * kRows, layout_.words, count, filled.data());
+                 ring_.slice(slice) + first * kRows, layout_.words, count, filled);
     for (std::size_t w = 0; w < layout_.words; ++w) ring_.change(slice, w, first, before[w] ^ filled[w]);
   }
 
@@ -160,15 +160,17 @@ class Sweep {
 };
 
 /// Brings a slice of the world into a ring.
-void layOut(const BitVolume& occupied, int y, const SliceLayout& layout, SliceRing& ring, int slice) {
+void layOut(const BitVolume& occupied, int y, const SliceLayout& layout, SliceRing& ring, int slice,
+            bool shared) {
   const std::size_t lines_at_once = std::max<std::size_t>(1, 8192 / (layout.blocks * kRows));
-  parallelFor(layout.words, lines_at_once, [&](std::size_t begin, std::size_t end) {
+  const auto copy = [&](std::size_t begin, std::size_t end) {
     for (std::size_t w = begin; w < end; ++w) {
       Word* const line = ring.slice(slice) + w * layout.line();
       for (int z = 0; z < occupied.size().z; ++z) line[z] = occupied.row(y, z)[w];
       ring.look(slice, w);
     }
-  });
+  };
+  shared ? parallelFor(layout.words, lines_at_once, copy) : copy(0, layout.words);
 }
 
 bool anything(const BitVolume& occupied, int y) {
@@ -179,8 +181,8 @@ bool anything(const BitVolume& occupied, int y) {
 
 }  // namespace
 
-void sweepBatch(const BitVolume& occupied, std::span<const LatticeDirection* const> batch, int low_y,
-                int high_y, const std::function<void(const Band&)>& count) {
+void sweepBatch(const BitVolume& occupied, std::span<const LatticeDirection* const> batch,
+                const Extent& extent, const std::function<void(const Band&)>& count) {
   const Voxel size = occupied.size();
   const bool up = std::all_of(batch.begin(), batch.end(), [](const auto* d) { return d->v.y >= 0; });
   const auto yOf = [&](int slice) { return up ? size.y - 1 - slice : slice; };
@@ -198,57 +200,71 @@ void sweepBatch(const BitVolume& occupied, std::span<const LatticeDirection* con
     slots = std::max(slots, slotsFor(occupied, direction->v));
   }
   SliceRing world(layout, slots);
-  const auto threads = static_cast<std::size_t>(threadCount());
+  const auto threads = extent.shared ? static_cast<std::size_t>(threadCount()) : 1;
   const std::size_t shared = std::min(lanes::kMostBlocks, (layout.blocks + threads - 1) / threads);
   const std::size_t blocks =
       std::clamp<std::size_t>(kCacheWords / (layout.words * batch.size() * kRows), 1, shared);
   const std::size_t bands = (layout.blocks + blocks - 1) / blocks;
-  const int end = up ? size.y - low_y : high_y + 1;
+  const int end = up ? size.y - extent.low_y : extent.high_y + 1;
   for (int slice = begin; slice < end; ++slice) {
-    layOut(occupied, yOf(slice), layout, world, slice);
+    layOut(occupied, yOf(slice), layout, world, slice, extent.shared);
     parallelForEach(level.size(), [&](std::size_t i) { level[i]->runLevel(world, slice); });
-    parallelForEach(bands, [&](std::size_t b) {
+    const auto band = [&](std::size_t b) {
       const std::size_t first = b * blocks, n = std::min(blocks, layout.blocks - first);
       std::vector<const Word*> blocked;
       blocked.reserve(sweeps.size());
       std::vector<Blocks> filled(layout.words);
-      std::vector<Blocks> of_one(layout.words);
+      std::vector<Blocks> of_one(layout.words), before(layout.words);
       for (Sweep& sweep : sweeps) {
         if (sweep.level()) {
           for (std::size_t w = 0; w < layout.words; ++w)
             of_one[w] = sweep.blocked().filled(slice, w, first, n);
         } else {
-          sweep.run(world, slice, first, n, of_one);
+          sweep.run(world, slice, first, n, of_one.data(), before.data());
         }
         blocked.push_back(sweep.blocked().slice(slice));
         for (std::size_t w = 0; w < layout.words; ++w) filled[w] |= of_one[w];
       }
-      if (yOf(slice) < low_y || yOf(slice) > high_y) return;
+      if (yOf(slice) < extent.low_y || yOf(slice) > extent.high_y) return;
       const auto row = [&](std::size_t block) { return std::min(size.z, static_cast<int>(block * kRows)); };
       count({yOf(slice), row(first), row(first + n), blocked, layout.line(), filled});
-    });
+    };
+    if (extent.shared) {
+      parallelForEach(bands, band);
+    } else {
+      for (std::size_t b = 0; b < bands; ++b) band(b);
+    }
   }
 }
 
-void forEachBatch(const BitVolume& occupied, const DirectionSet& directions, std::size_t least,
-                  const std::function<void(std::span<const std::size_t>)>& take) {
+bool isSmall(const BitVolume& occupied) {
+  constexpr std::size_t kSmallSlice = std::size_t{64} << 10;  // bytes
+  return static_cast<std::size_t>(occupied.rowWords()) * static_cast<std::size_t>(occupied.size().z) *
+             sizeof(Word) <
+         kSmallSlice;
+}
+
+std::vector<Batch> batchesOf(const BitVolume& occupied, const DirectionSet& directions, const Batch& numbers,
+                             std::size_t least) {
+  std::vector<Batch> batches;
   for (const bool up : {true, false}) {
-    std::vector<std::size_t> batch;
+    Batch batch;
     std::size_t bytes = 0;
-    for (std::size_t i = 0; i < directions.size(); ++i) {
+    for (const std::size_t i : numbers) {
       if ((directions[i].v.y >= 0) != up) continue;
       const std::array<const LatticeDirection*, 1> alone{&directions[i]};
       batch.push_back(i);
       bytes += layoutFor(occupied, alone).slice() * sizeof(Word) *
                static_cast<std::size_t>(slotsFor(occupied, directions[i].v));
       if (bytes >= kRingBytes && batch.size() >= least) {
-        take(batch);
+        batches.push_back(std::move(batch));
         batch.clear();
         bytes = 0;
       }
     }
-    if (!batch.empty()) take(batch);
+    if (!batch.empty()) batches.push_back(std::move(batch));
   }
+  return batches;
 }
 
 }  // namespace espalier::sim

@@ -18,15 +18,28 @@ struct Band {
   std::span<const lanes::Blocks> filled;        ///< for each w the band's blocks in which anything is blocked
 };
 
-/// Sweeps directions that all go up or stay level, or all go down. Calls count(band) from several threads for
-/// the bands of the slices low_y <= y <= high_y, one slice after another, without those in which nothing can
-/// be blocked.
-void sweepBatch(const BitVolume& occupied, std::span<const LatticeDirection* const> batch, int low_y,
-                int high_y, const std::function<void(const Band&)>& count);
+/// Which slices are asked for, and whether the bands of a slice are shared out among the threads: not where
+/// each thread has a batch of its own.
+struct Extent {
+  int low_y, high_y;
+  bool shared = true;
+};
 
-/// Parts a set into batches of at least so many directions, and no more than stay in a core's cache while
-/// they are swept. `take` gets the numbers of a batch's directions.
-void forEachBatch(const BitVolume& occupied, const DirectionSet& directions, std::size_t least,
-                  const std::function<void(std::span<const std::size_t>)>& take);
+/// Sweeps directions that all go up or stay level, or all go down. Calls count(band) for the bands of the
+/// slices low_y <= y <= high_y, one slice after another, without those in which nothing can be blocked; from
+/// several threads if they are shared.
+void sweepBatch(const BitVolume& occupied, std::span<const LatticeDirection* const> batch,
+                const Extent& extent, const std::function<void(const Band&)>& count);
+
+/// Numbers of directions that are swept at once.
+using Batch = std::vector<std::size_t>;
+
+/// Parts directions, by their numbers, into batches of one kind, of at least so many and no more than stay in
+/// a core's cache while they are swept.
+std::vector<Batch> batchesOf(const BitVolume& occupied, const DirectionSet& directions, const Batch& numbers,
+                             std::size_t least);
+
+/// Whether a slice is so small that sharing it out takes longer than sweeping it.
+bool isSmall(const BitVolume& occupied);
 
 }  // namespace espalier::sim

@@ -88,7 +88,7 @@ ExposeResult exposeScene(Scene scene, const RunOptions& options) {
     stages.run("drawing", [&] {
       if (job.scene.cameras.empty()) {
         const double aspect = static_cast<double>(job.scene.image_width) / job.scene.image_height;
-        job.scene.cameras.push_back(overview(job.world, job.sun, aspect));
+        job.scene.cameras.push_back(overview(job.world.frame(), light.surfaces, job.sun, aspect));
       }
       job.scene.images = exposureImages(job.scene, job.sun);
       for (OutputFile& file : drawPictures({job, nothing, light, no_models}, options.stop))

@@ -125,7 +125,7 @@ std::string summary(const ExposeResult& result, const std::filesystem::path& fol
   if (report.exposure->in_space > 0) text += fmt::format(", {} in free space", report.exposure->in_space);
   text += "\n";
   text += "sky: " + report.light.sky + "\n";
-  if (!report.light.sun.empty()) text += "sun: " + report.light.sun + "\n";
+  if (!report.light.sun.empty()) text += report.light.sun + "\n";
   text += "\n" + result.table + "\n";
   if (report.certificate) text += errors(*report.certificate);
   if (report.exposure->gaps > 0) {

@@ -88,7 +88,7 @@ ExposeResult exposeScene(Scene scene, const RunOptions& options) {
     stages.run("drawing", [&] {
       if (job.scene.cameras.empty()) {
         const double aspect = static_cast<double>(job.scene.image_width) / job.scene.image_height;
-        job.scene.cameras.push_back(overview(job.world, job.sun, aspect));
+        job.scene.cameras.push_back(overview(job.world.frame(), light.surfaces, job.sun, aspect));
       }
       job.scene.images = exposureImages(job.scene, job.sun);
       for (OutputFile& file : drawPictures({job, nothing, light, no_models}, options.stop))
@@ -125,7 +125,7 @@ std::string summary(const ExposeResult& result, const std::filesystem::path& fol
   if (report.exposure->in_space > 0) text += fmt::format(", {} in free space", report.exposure->in_space);
   text += "\n";
   text += "sky: " + report.light.sky + "\n";
-  if (!report.light.sun.empty()) text += "sun: " + report.light.sun + "\n";
+  if (!report.light.sun.empty()) text += report.light.sun + "\n";
   text += "\n" + result.table + "\n";
   if (report.certificate) text += errors(*report.certificate);
   if (report.exposure->gaps > 0) {

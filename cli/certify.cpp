@@ -7,6 +7,7 @@
 #include <memory>
 
 #include "cli/commands.h"
+#include "scenes/accuracy_study.h"
 #include "scenes/certificate.h"
 #include "scenes/read_scene.h"
 
@@ -19,6 +20,10 @@ struct CertifyArguments {
 };
 
 int certify(const CertifyArguments& arguments) {
+  if (arguments.scene.empty()) {
+    fmt::print("{}", scenes::accuracyStudy());
+    return 0;
+  }
   auto scene = scenes::readScene(arguments.scene);
   if (!scene) {
     fmt::print(stderr, "{}\n", scenes::format(scene.problems()));
@@ -40,8 +45,10 @@ void addCertify(CLI::App& app, int& exit_status) {
       "certify",
       "Print the error of a scene's exposure maps: against shapes that are known, and against rays");
   const auto arguments = std::make_shared<CertifyArguments>();
-  command->add_option("scene", arguments->scene, "Scene file")->required();
-  command->add_flag("--json", arguments->json, "Print JSON");
+  auto* const scene =
+      command->add_option("scene", arguments->scene,
+                          "Scene file (without one: the whole study of docs/accuracy.md, as Markdown)");
+  command->add_flag("--json", arguments->json, "Print JSON")->needs(scene);
   command->callback([arguments, &exit_status] { exit_status = certify(*arguments); });
 }
 

@@ -2,89 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 
+#include "scenes/compare_shape.h"
 #include "scenes/known_shapes.h"
 #include "scenes/spot_check.h"
-#include "sim/parallel.h"
-#include "sim/sense/surface.h"
-#include "sim/sweep.h"
 
 namespace espalier::scenes {
-namespace {
-
-using sim::Vec3;
-
-/// A frame that is not in step with the shape: a scene's walls do not lie on the borders of voxels either.
-sim::Frame frameOf(const KnownShape& shape, double voxel_m) {
-  sim::Frame frame = sim::frameAround({shape.mesh}, voxel_m, 2.0 * voxel_m);
-  frame.origin_m -= voxel_m * Vec3(0.37, 0.21, 0.43);
-  return frame;
-}
-
-constexpr std::size_t kMostVoxels = 400;  // at one place: truths take their time
-
-/// Where on the surface a voxel's value counts: the foot of its centre.
-Vec3 spotOf(const sim::Frame& frame, const sim::TiledVoxel& t) {
-  return sim::worldFromVoxel(frame, Vec3(t.voxel) + Vec3(t.surface.normal * t.surface.offset_vx));
-}
-
-/// Some voxels of each place, evenly.
-std::map<std::string, std::vector<sim::TiledVoxel>> byPlace(const KnownShape& shape,
-                                                            const sim::World& world) {
-  std::map<std::string, std::vector<sim::TiledVoxel>> places;
-  for (const sim::TiledVoxel& t : world.surfaces()) {
-    if (t.surface.normal == sim::Vec3f(0.0f)) continue;
-    const std::string place = shape.place(spotOf(world.frame(), t), Vec3(t.surface.normal));
-    if (!place.empty()) places[place].push_back(t);
-  }
-  for (auto& [place, voxels] : places) {
-    const std::size_t step = (voxels.size() + kMostVoxels - 1) / kMostVoxels;
-    for (std::size_t i = 0; i * step < voxels.size(); ++i) voxels[i] = voxels[i * step];
-    voxels.resize((voxels.size() + step - 1) / step);
-  }
-  return places;
-}
-
-Certificate::Line compared(const KnownShape& shape, const sim::World& world, const sim::Sky& sky,
-                           const std::string& place, const std::vector<sim::TiledVoxel>& voxels) {
-  const sim::SurfaceSensors sensors = sim::surfaceSensors(world, voxels);
-  const auto open = sim::sweepOpen(world.opaque(), sky.directions, sensors.places);
-  const std::vector<float> values = sim::surfaceSky(sensors, open, sky);
-  std::vector<double> truths(values.size());
-  sim::parallelForEach(truths.size(), [&](std::size_t i) {
-    const sim::TiledVoxel& t = sensors.surfaces[i];
-    truths[i] = shape.truth(sky.weighting, spotOf(world.frame(), t), Vec3(t.surface.normal));
-  });
-  Certificate::Line line;
-  line.shape = shape.name;
-  line.place = place;
-  line.size_m = shape.size_m;
-  line.voxels = static_cast<int>(std::lround(shape.size_m / world.frame().voxel_m));
-  double squares = 0.0;
-  for (std::size_t i = 0; i < values.size(); ++i) {
-    const double error = static_cast<double>(values[i]) - truths[i];
-    line.truth += truths[i];
-    line.value += static_cast<double>(values[i]);
-    squares += error * error;
-    if (std::abs(error) > std::abs(line.worst)) line.worst = error;
-  }
-  const auto n = static_cast<double>(values.size());
-  line.truth /= n;
-  line.value /= n;
-  line.rms = std::sqrt(squares / n);
-  return line;
-}
-
-std::vector<Certificate::Line> compare(const KnownShape& shape, const sim::Sky& sky, double voxel_m) {
-  const sim::World world = sim::buildWorld(frameOf(shape, voxel_m), {shape.mesh}, 0);
-  std::vector<Certificate::Line> lines;
-  for (const auto& [place, voxels] : byPlace(shape, world))
-    lines.push_back(compared(shape, world, sky, place, voxels));
-  return lines;
-}
-
-}  // namespace
 
 Certificate certifyShapes(const sim::Sky& sky, double voxel_m, const std::vector<int>& widths) {
   constexpr int kLongestStreet = 32;
@@ -94,7 +17,7 @@ Certificate certifyShapes(const sim::Sky& sky, double voxel_m, const std::vector
     shapes.push_back(slope(tilt, kTurn, 24.0 * voxel_m));
   for (const int width : widths) {
     const double size_m = width * voxel_m;
-    if (width <= kLongestStreet) shapes.push_back(street(size_m, size_m, voxel_m));
+    if (width <= kLongestStreet) shapes.push_back(street(size_m, size_m, 0.0, voxel_m));
     shapes.push_back(court(size_m, size_m, kTurn, voxel_m));
     shapes.push_back(pit(size_m, size_m / 2.0, voxel_m));
   }
@@ -103,8 +26,9 @@ Certificate certifyShapes(const sim::Sky& sky, double voxel_m, const std::vector
   certificate.directions = sky.directions.size();
   certificate.voxel_m = voxel_m;
   double squares = 0.0;
+  int place = 0;
   for (const KnownShape& shape : shapes) {
-    for (Certificate::Line& line : compare(shape, sky, voxel_m)) {
+    for (Certificate::Line& line : compareShape(shape, sky, voxel_m, ++place)) {
       certificate.bias += line.error();
       squares += line.rms * line.rms;
       certificate.lines.push_back(std::move(line));

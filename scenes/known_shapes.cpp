@@ -83,7 +83,7 @@ std::function<Vec3(Vec3)> turn(double degrees) {
 }
 
 const auto kUnturned = [](Vec3 p) { return p; };
-constexpr double kThick = 2.4;  // of walls and floors, in voxels
+constexpr double kThick = 3.0;  // of walls and floors, in voxels
 constexpr double kSame = 1e-3;  // how far a normal may be off: at edges it belongs to two faces
 
 bool looksUp(Vec3 normal) {
@@ -99,7 +99,7 @@ double middle(double half, double voxel_m) {
 /// and `height` above it. A wall does not hide anything from a point on itself.
 double overWall(double at, double height, double azimuth) {
   const double across = std::cos(azimuth) * at;
-  return across > 1e-5 * height && height > 0.0 ? std::atan(height * std::cos(azimuth) / at) : 0.0;
+  return across > 1e-7 * height && height > 0.0 ? std::atan(height * std::cos(azimuth) / at) : 0.0;
 }
 
 std::string wide(double width_m, double height_m) {
@@ -121,27 +121,28 @@ double skySeen(sim::Weighting weighting, const Skyline& skyline, Vec3 normal) {
   return sum * 2.0 * kPi / kSteps;
 }
 
-KnownShape street(double width_m, double height_m, double voxel_m) {
+KnownShape street(double width_m, double height_m, double turn_deg, double voxel_m) {
   Builder builder("street");
   const double half = width_m / 2.0, thick = kThick * voxel_m, end = 30.0 * std::max(width_m, height_m);
-  builder.box({-half - thick, -thick, -end}, {half + thick, 0.0, end}, kUnturned);
-  for (const double side : {-1.0, 1.0}) {
-    const double inner = side * half, outer = side * (half + thick);
-    builder.box({std::min(inner, outer), -thick, -end}, {std::max(inner, outer), height_m, end}, kUnturned);
-  }
+  const auto turned = turn(turn_deg), back = turn(-turn_deg);
+  builder.box({-half - thick, -thick, -end}, {half + thick, 0.0, end}, turned);
+  builder.box({-half - thick, -thick, -end}, {-half, height_m, end}, turned);
+  builder.box({half, -thick, -end}, {half + thick, height_m, end}, turned);
   const auto place = [=](Vec3 p, Vec3 n) -> std::string {
-    if (std::abs(p.z) > 3.0 * voxel_m) return "";
-    if (looksUp(n) && std::abs(p.x) < half - voxel_m / 2.0 && p.y < height_m / 2.0)
-      return std::abs(p.x) < middle(half, voxel_m) ? "middle of the floor" : "floor";
-    const bool inwards = std::abs(std::abs(n.x) - 1.0) < kSame && n.x * p.x < 0.0;
-    return inwards && p.y > voxel_m / 2.0 && p.y < height_m - voxel_m / 2.0 ? "walls" : "";
+    const Vec3 q = back(p), m = back(n);
+    if (std::abs(q.z) > 3.0 * voxel_m) return "";
+    if (looksUp(n) && std::abs(q.x) < half - voxel_m / 2.0 && p.y < height_m / 2.0)
+      return std::abs(q.x) < middle(half, voxel_m) ? kMiddleOfTheFloor : kFloor;
+    const bool inwards = std::abs(std::abs(m.x) - 1.0) < kSame && m.x * q.x < 0.0;
+    return inwards && p.y > voxel_m / 2.0 && p.y < height_m - voxel_m / 2.0 ? kWalls : "";
   };
   const auto truth = [=](sim::Weighting weighting, Vec3 p, Vec3 n) {
+    const double x = back(p).x, turn_rad = turn_deg * kPi / 180.0;
     return skySeen(
         weighting,
         [&](double azimuth) {
-          return std::max(overWall(half - p.x, height_m - p.y, azimuth),
-                          overWall(-half - p.x, height_m - p.y, azimuth));
+          return std::max(overWall(half - x, height_m - p.y, azimuth - turn_rad),
+                          overWall(-half - x, height_m - p.y, azimuth - turn_rad));
         },
         n);
   };
@@ -166,10 +167,10 @@ KnownShape court(double width_m, double height_m, double turn_deg, double voxel_
     const Vec3 q = back(p), m = back(n);
     const double rim = voxel_m / 2.0, across = std::max(std::abs(q.x), std::abs(q.z));
     if (looksUp(n) && across < half - rim && p.y < height_m / 2.0)
-      return across < middle(half, voxel_m) ? "middle of the floor" : "floor";
+      return across < middle(half, voxel_m) ? kMiddleOfTheFloor : kFloor;
     for (const int axis : {0, 2}) {
       const bool inwards = std::abs(std::abs(m[axis]) - 1.0) < kSame && m[axis] * q[axis] < 0.0;
-      if (inwards && std::abs(q[2 - axis]) < half - rim && p.y > rim && p.y < height_m - rim) return "walls";
+      if (inwards && std::abs(q[2 - axis]) < half - rim && p.y > rim && p.y < height_m - rim) return kWalls;
     }
     return "";
   };
@@ -220,7 +221,7 @@ KnownShape pit(double diameter_m, double depth_m, double voxel_m) {
   const auto place = [=](Vec3 p, Vec3 n) -> std::string {
     const double out = std::hypot(p.x, p.z);
     if (!looksUp(n) || p.y > depth_m / 2.0 || out > r - voxel_m) return "";
-    return out < middle(r, voxel_m) ? "middle of the floor" : "floor";
+    return out < middle(r, voxel_m) ? kMiddleOfTheFloor : kFloor;
   };
   const auto truth = [=](sim::Weighting weighting, Vec3 p, Vec3 n) {
     return skySeen(
@@ -239,6 +240,36 @@ KnownShape pit(double diameter_m, double depth_m, double voxel_m) {
           truth};
 }
 
+KnownShape canopy(double width_m, double height_m, double voxel_m) {
+  Builder builder("canopy");
+  const double half = width_m / 2.0, thick = kThick * voxel_m;
+  builder.box({-width_m, -thick, -width_m}, {width_m, 0.0, width_m}, kUnturned);
+  builder.box({-half, height_m, -half}, {half, height_m + thick, half}, kUnturned);
+  const auto place = [=](Vec3 p, Vec3 n) -> std::string {
+    const double out = std::max(std::abs(p.x), std::abs(p.z));
+    if (!looksUp(n) || p.y > height_m / 2.0 || out > half - voxel_m / 2.0) return "";
+    return out < middle(half, voxel_m) ? kMiddleOfTheFloor : kFloor;
+  };
+  const auto truth = [=](sim::Weighting weighting, Vec3 p, Vec3 n) {
+    // What lies above the roof's edges is hidden, and no more.
+    const double above = skySeen(
+        weighting,
+        [&](double azimuth) {
+          const double c = std::cos(azimuth), s = std::sin(azimuth);
+          const double to_x = ((c > 0.0 ? half : -half) - p.x) / c,
+                       to_z = ((s > 0.0 ? half : -half) - p.z) / s;
+          return std::atan((height_m - p.y) / std::min(to_x, to_z));
+        },
+        n);
+    return 1.0 - above;
+  };
+  return {fmt::format("ground under a roof {:.3g} times as high as it is wide", height_m / width_m),
+          {std::move(builder.mesh), true},
+          width_m,
+          place,
+          truth};
+}
+
 KnownShape slope(double tilt_deg, double toward_deg, double size_m) {
   Builder builder("slope");
   const double half = size_m / 2.0, tilt = tilt_deg * kPi / 180.0;
@@ -253,7 +284,7 @@ KnownShape slope(double tilt_deg, double toward_deg, double size_m) {
           0.0,
           [=](Vec3 p, Vec3 n) -> std::string {
             const bool inner = std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)}) < half / 2.0;
-            return inner && glm::dot(n, normal) > 1.0 - kSame ? "all" : "";
+            return inner && glm::dot(n, normal) > 1.0 - kSame ? kAll : "";
           },
           [](sim::Weighting weighting, Vec3, Vec3 n) { return sim::openSky(weighting, n); }};
 }

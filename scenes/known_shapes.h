@@ -18,6 +18,10 @@ using Skyline = std::function<double(double azimuth)>;
 /// normal must be level or upright. The ground and its own back are hidden from a receiver anyway.
 double skySeen(sim::Weighting weighting, const Skyline& skyline, sim::Vec3 normal);
 
+/// Names of places.
+inline constexpr const char *kMiddleOfTheFloor = "middle of the floor", *kFloor = "floor", *kWalls = "walls",
+                            *kAll = "all";
+
 /// A shape that stands on the plane y = 0 about the origin.
 struct KnownShape {
   std::string name;
@@ -28,12 +32,15 @@ struct KnownShape {
   std::function<double(sim::Weighting, sim::Vec3 p_m, sim::Vec3 normal)> truth;
 };
 
-/// A street without ends: 60 times as long as it is wide or high, which counts as endless. Along z.
-KnownShape street(double width_m, double height_m, double voxel_m);
+/// A street without ends: 60 times as long as it is wide or high, which counts as endless. Along z, or turned
+/// about the vertical. Compared across its middle.
+KnownShape street(double width_m, double height_m, double turn_deg, double voxel_m);
 /// A square court, turned by an angle about the vertical.
 KnownShape court(double width_m, double height_m, double turn_deg, double voxel_m);
 /// A round pit. Compared about its middle.
 KnownShape pit(double diameter_m, double depth_m, double voxel_m);
+/// Level ground under a square roof without walls. Compared under the roof.
+KnownShape canopy(double width_m, double height_m, double voxel_m);
 /// A plane tilted by an angle, falling towards an azimuth. Nothing hides the sky before it.
 KnownShape slope(double tilt_deg, double toward_deg, double size_m);
 

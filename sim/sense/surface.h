@@ -39,9 +39,8 @@ SurfaceSensors surfaceSensors(const World& world);
 /// Some of them.
 SurfaceSensors surfaceSensors(const World& world, std::vector<TiledVoxel> surfaces);
 
-/// What a receiver with this unit normal gets of a sky that nothing hides but the receiver's own back and the
-/// ground: 1 facing up, 0 facing down. By closed forms: 1 - tilt / pi for uniform, (1 + n.y) / 2 for cosine,
-/// and Moon and Spencer's (1942) sky integrated over the tilted receiver for the overcast one.
+/// What a surface with this unit normal gets of a sky that nothing hides but the ground and the surface's own
+/// back: 1 facing up, 0 facing down; as sim::unobstructed, and for uniform 1 - tilt / pi, the lune before it.
 double openSky(Weighting weighting, Vec3 normal);
 
 /// For each surface what it receives of the sky (sim/sky.h) by its own normal, 0..1: openSky where nothing

@@ -163,19 +163,9 @@ std::vector<float> summed(const SurfaceSensors& sensors, const OpenTable& open,
 }  // namespace
 
 double openSky(Weighting weighting, Vec3 normal) {
-  constexpr double kPi = std::numbers::pi;
-  const double y = std::clamp(normal.y, -1.0, 1.0);
-  const double tilt = static_cast<double>(std::acos(static_cast<float>(y)));
-  const double cosines = kPi * (1.0 + y) / 2.0;
-  switch (weighting) {
-    case Weighting::uniform:
-      return 1.0 - tilt / kPi;
-    case Weighting::cosine:
-      return cosines / kPi;
-    case Weighting::cie_overcast:
-      return (cosines + 4.0 / 3.0 * ((kPi - tilt) * y + std::sqrt(1.0 - y * y))) / (7.0 * kPi / 3.0);
-  }
-  return 0.0;
+  if (weighting != Weighting::uniform) return unobstructed(weighting, normal);
+  const auto y = static_cast<float>(std::clamp(normal.y, -1.0, 1.0));
+  return 1.0 - static_cast<double>(std::acos(y)) / std::numbers::pi;
 }
 
 std::vector<float> surfaceSky(const SurfaceSensors& sensors, const OpenTable& open, const Sky& sky) {

@@ -29,7 +29,7 @@ TEST(KnownShapes, AnEndlessStreet) {
                {2.0, 0.24254, 0.23607, 0.19098, 0.15596, 0.27866},
                {4.0, 0.12403, 0.12311, 0.10961, 0.07917, 0.14317}};
   for (const auto& row : kRows) {
-    const KnownShape shape = street(10.0, 10.0 * row.h, 0.1);
+    const KnownShape shape = street(10.0, 10.0 * row.h, 0.0, 0.1);
     EXPECT_NEAR(at(shape, Weighting::cosine, Vec3(0.0)), row.cosine, 2e-4);
     EXPECT_NEAR(at(shape, Weighting::uniform, Vec3(0.0)), row.uniform, 2e-4);
     EXPECT_NEAR(at(shape, Weighting::cie_overcast, Vec3(0.0)), row.overcast, 2e-4);

@@ -13,16 +13,18 @@ work=out/pictures
 images=docs/images
 mkdir -p $work $images
 
-grow() {  # grow SCENE: into a folder of the scene's name
+work_through() {  # work_through COMMAND SCENE: into a folder of the scene's name
   local folder
-  folder=$work/$(basename "$1" .yaml)
-  echo "growing $1"
+  folder=$work/$(basename "$2" .yaml)
+  echo "$1 $2"
   if [ -n "${ESPALIER:-}" ]; then
-    "$ESPALIER" grow "$1" -o "$folder" --quiet
+    "$ESPALIER" "$1" "$2" -o "$folder" --quiet
   else
-    ./run espalier grow "$1" -o "$folder" --quiet
+    ./run espalier "$1" "$2" -o "$folder" --quiet
   fi
 }
+grow() { work_through grow "$1"; }
+expose() { work_through expose "$1"; }
 
 small() {  # small PICTURE NAME WIDTH: docs/images/NAME.png, at most WIDTH pixels wide
   local width
@@ -51,6 +53,11 @@ if [ -f $work/ruin/vines.png ]; then small $work/ruin/vines.png ruin 720; else e
 [ -x build/release/tests/figures ] || ./run build
 build/release/tests/figures $work/lattice_sweep.png
 small $work/lattice_sweep.png lattice_sweep 1040
+
+expose scenes/library/street.yaml
+small $work/street/sun_hours.png street_sun_hours 800
+small $work/street/sky_exposure.png street_sky_exposure 800
+small $work/street/contact_sheet.png street_contact_sheet 960
 
 # The README's first rule file, as it stands and with the three changes that it proposes.
 changed() {  # changed NAME FROM TO [FROM TO ...]

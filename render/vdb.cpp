@@ -1,7 +1,8 @@
 #include "render/vdb.h"
 
 #include <fmt/format.h>
-#include <openvdb/io/Stream.h>
+#include <openvdb/io/Archive.h>
+#include <openvdb/io/GridDescriptor.h>
 #include <openvdb/openvdb.h>
 #include <openvdb/tree/LeafManager.h>
 #include <xxhash.h>
@@ -9,6 +10,7 @@
 #include <algorithm>
 #include <bit>
 #include <concepts>
+#include <functional>
 #include <sstream>
 
 #include "sim/error.h"
@@ -117,22 +119,26 @@ openvdb::GridBase::Ptr gridOf(const std::vector<VdbPart<Value>>& parts, sim::Vox
   return grid;
 }
 
-void addFields(openvdb::GridPtrVec& out, const std::vector<VdbField>& fields, const sim::World& world) {
+using MakeGrid = std::function<openvdb::GridBase::Ptr()>;
+
+void addFields(std::vector<MakeGrid>& out, const std::vector<VdbField>& fields, const sim::World& world) {
   const sim::Voxel size = world.frame().size;
   for (const VdbField& field : fields) {
-    const auto grid = std::visit(
+    std::visit(
         [&](const auto& parts) {
           for (const auto& part : parts) {
             if (part.where->bits().size() != size)
               throw sim::InputError(fmt::format("the field {} has another size than the world", field.name));
           }
-          return gridOf(parts, size);
         },
         field.parts);
-    grid->setTransform(world.grids().part->transform().copy());
-    describe(*grid, {field.name, field.description, field.unit}, world.frame());
-    for (const auto& [name, text] : field.about) grid->insertMeta(name, openvdb::StringMetadata(text));
-    out.push_back(grid);
+    out.push_back([&field, &world, size] {
+      const auto grid = std::visit([&](const auto& parts) { return gridOf(parts, size); }, field.parts);
+      grid->setTransform(world.grids().part->transform().copy());
+      describe(*grid, {field.name, field.description, field.unit}, world.frame());
+      for (const auto& [name, text] : field.about) grid->insertMeta(name, openvdb::StringMetadata(text));
+      return grid;
+    });
   }
 }
 
@@ -162,14 +168,31 @@ void setId(std::string& bytes) {
   bytes.replace(kIdAt, kIdLength, hex);
 }
 
-std::string bytesOf(const openvdb::GridPtrVec& grids, const sim::World& world) {
-  std::ostringstream stream(std::ios::binary);
-  stream.exceptions(std::ios::failbit | std::ios::badbit);
-  openvdb::io::Stream(stream).write(grids, aboutFile(world));
-  std::string bytes = std::move(stream).str();
-  setId(bytes);
-  return bytes;
-}
+/// Writes what openvdb::io::Stream would, but makes each grid only when its turn has come: of a large world
+/// no two of them need to be in memory.
+class Writer : public openvdb::io::Archive {
+ public:
+  std::string bytes(const std::vector<MakeGrid>& grids, const openvdb::MetaMap& about) const {
+    std::ostringstream out(std::ios::binary);
+    out.exceptions(std::ios::failbit | std::ios::badbit);
+    writeHeader(out, false);
+    about.writeMeta(out);
+    const auto count = static_cast<std::int32_t>(grids.size());
+    out.write(reinterpret_cast<const char*>(&count), sizeof count);
+    for (const MakeGrid& make : grids) {
+      const openvdb::GridBase::Ptr grid = make();
+      grid->addStatsMetadata();
+      grid->insertMeta(openvdb::GridBase::META_FILE_COMPRESSION,
+                       openvdb::StringMetadata(openvdb::io::compressionToString(compression())));
+      openvdb::io::GridDescriptor descriptor(grid->getName(), grid->type());
+      writeGrid(descriptor, grid, out, false);
+      openvdb::io::setDataCompression(out, compression());  // a grid's own settings end with it
+    }
+    std::string bytes = std::move(out).str();
+    setId(bytes);
+    return bytes;
+  }
+};
 
 }  // namespace
 
@@ -180,35 +203,51 @@ std::string vdbBytes(const sim::World& world, const std::vector<VdbField>& field
   const sim::Frame& frame = world.frame();
   const auto fog = openvdb::GRID_FOG_VOLUME;
 
-  openvdb::GridPtrVec out;
-  out.push_back(
-      shown<FloatGrid>(density(grids), {"density", "1 where a voxel is occupied", "1"}, frame, fog));
-  out.push_back(shown<Int32Grid>(
-      grids.part, {"part", "number of the part that occupies a voxel, as listed in the file's metadata", "1"},
-      frame));
-  out.push_back(shown<Vec3SGrid>(grids.colour, {"colour", "mean surface colour, linear RGB", "1"}, frame));
-  out.push_back(shown<FloatGrid>(
-      grids.coverage, {"coverage", "occupied fraction of a voxel, 1 inside solids", "1"}, frame, fog));
-  auto normal =
-      shown<Vec3SGrid>(grids.normal, {"normal", "mean surface normal, zero where there is none", "1"}, frame);
-  normal->setVectorType(openvdb::VEC_COVARIANT_NORMALIZE);
-  out.push_back(normal);
-  out.push_back(shown<Int32Grid>(
-      grids.layer, {"layer", "boundary layer: 0 on the scene, k voxels away from it in layer k", "1"},
-      frame));
-  out.push_back(shown<Int32Grid>(grids.nearest, {"nearest", "part of the nearest scene voxel", "1"}, frame));
-  out.push_back(shown<FloatGrid>(
-      grids.distance_vx,
-      {"distance", "distance to the nearest scene voxel, centre to centre", "voxel widths"}, frame));
+  std::vector<MakeGrid> out;
+  const auto add = [&](auto make) { out.emplace_back(make); };
+  add([&] {
+    return shown<FloatGrid>(density(grids), {"density", "1 where a voxel is occupied", "1"}, frame, fog);
+  });
+  add([&] {
+    return shown<Int32Grid>(
+        grids.part,
+        {"part", "number of the part that occupies a voxel, as listed in the file's metadata", "1"}, frame);
+  });
+  add([&] {
+    return shown<Vec3SGrid>(grids.colour, {"colour", "mean surface colour, linear RGB", "1"}, frame);
+  });
+  add([&] {
+    return shown<FloatGrid>(grids.coverage,
+                            {"coverage", "occupied fraction of a voxel, 1 inside solids", "1"}, frame, fog);
+  });
+  add([&] {
+    auto normal = shown<Vec3SGrid>(grids.normal,
+                                   {"normal", "mean surface normal, zero where there is none", "1"}, frame);
+    normal->setVectorType(openvdb::VEC_COVARIANT_NORMALIZE);
+    return normal;
+  });
+  add([&] {
+    return shown<Int32Grid>(
+        grids.layer, {"layer", "boundary layer: 0 on the scene, k voxels away from it in layer k", "1"},
+        frame);
+  });
+  add([&] {
+    return shown<Int32Grid>(grids.nearest, {"nearest", "part of the nearest scene voxel", "1"}, frame);
+  });
+  add([&] {
+    return shown<FloatGrid>(
+        grids.distance_vx,
+        {"distance", "distance to the nearest scene voxel, centre to centre", "voxel widths"}, frame);
+  });
   addFields(out, fields, world);
-  return bytesOf(out, world);
+  return Writer().bytes(out, aboutFile(world));
 }
 
 std::string fieldVdbBytes(const sim::World& world, const std::vector<VdbField>& fields) {
   openvdb::initialize();
-  openvdb::GridPtrVec out;
+  std::vector<MakeGrid> out;
   addFields(out, fields, world);
-  return bytesOf(out, world);
+  return Writer().bytes(out, aboutFile(world));
 }
 
 }  // namespace espalier::render

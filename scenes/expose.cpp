@@ -25,12 +25,24 @@ std::shared_ptr<const sim::VoxelSet> spaceWanted(const sim::World& world, const 
     case ExposureWhere::surfaces:
       return nullptr;
     case ExposureWhere::band:
-      return std::make_shared<const sim::VoxelSet>(
-          sim::freeBand(world.occupied(), spec.band_vx, world.occupied()));
+      return std::make_shared<const sim::VoxelSet>(sim::freeBand(world, world.occupied(), spec.band_vx));
     case ExposureWhere::everything:
       break;
   }
-  return std::make_shared<const sim::VoxelSet>(sim::freeVoxels(world.occupied()));
+  return std::make_shared<const sim::VoxelSet>(sim::freeVoxels(world));
+}
+
+/// Each free voxel takes two bytes a field, four in its grid and four in the file, for three fields.
+void requireSpaceFits(const Scene& scene, const sim::Frame& frame, const sim::VoxelSet& space) {
+  constexpr double kBytes = 3 * (2 + 4 + 4);
+  const double voxels = static_cast<double>(frame.size.x) * frame.size.y * frame.size.z;
+  try {
+    sim::requireFits(frame, {0, kBytes * static_cast<double>(space.count()) / voxels});
+  } catch (const sim::InputError& error) {
+    throw sim::InputError(
+        fmt::format("{}: {}, and so would less of its free space (exposure.where, exposure.band)",
+                    scene.file.string(), error.what()));
+  }
 }
 
 }  // namespace
@@ -46,6 +58,7 @@ ExposeResult exposeScene(Scene scene, const RunOptions& options) {
   std::shared_ptr<const sim::VoxelSet> space;
   const Lighting light = stages.run("lighting", [&] {
     space = spaceWanted(job.world, job.scene.exposure);
+    if (space) requireSpaceFits(job.scene, job.world.frame(), *space);
     LightWanted wanted;
     wanted.brightest = true;
     wanted.space = space;
@@ -75,7 +88,7 @@ ExposeResult exposeScene(Scene scene, const RunOptions& options) {
     stages.run("drawing", [&] {
       if (job.scene.cameras.empty()) {
         const double aspect = static_cast<double>(job.scene.image_width) / job.scene.image_height;
-        job.scene.cameras.push_back(overview(job.world, job.sun, aspect));
+        job.scene.cameras.push_back(overview(job.world.frame(), light.surfaces, job.sun, aspect));
       }
       job.scene.images = exposureImages(job.scene, job.sun);
       for (OutputFile& file : drawPictures({job, nothing, light, no_models}, options.stop))
@@ -112,7 +125,7 @@ std::string summary(const ExposeResult& result, const std::filesystem::path& fol
   if (report.exposure->in_space > 0) text += fmt::format(", {} in free space", report.exposure->in_space);
   text += "\n";
   text += "sky: " + report.light.sky + "\n";
-  if (!report.light.sun.empty()) text += "sun: " + report.light.sun + "\n";
+  if (!report.light.sun.empty()) text += report.light.sun + "\n";
   text += "\n" + result.table + "\n";
   if (report.certificate) text += errors(*report.certificate);
   if (report.exposure->gaps > 0) {

@@ -20,25 +20,35 @@ sim::Vec3 sunnySide(const sim::Sun& sun) {
 
 }  // namespace
 
-NamedCamera overview(const sim::World& world, const sim::Sun& sun, double aspect) {
-  const sim::Frame& frame = world.frame();
-  const sim::Vec3 low = frame.origin_m - 0.5 * frame.voxel_m;
-  const sim::Vec3 extent = sim::Vec3(frame.size) * frame.voxel_m;
+NamedCamera overview(const sim::Frame& frame, const std::vector<sim::TiledVoxel>& surfaces,
+                     const sim::Sun& sun, double aspect) {
   // Two faces of a house show more of it than one: aside by 28 degrees, and 32 up.
   const sim::Vec3 side = sunnySide(sun);
   const sim::Vec3 aside(side.x * 0.883 - side.z * 0.469, 0.0, side.z * 0.883 + side.x * 0.469);
   const sim::Vec3 back = glm::normalize(0.848 * aside + sim::Vec3(0, 0.53, 0));
   const sim::Vec3 right = glm::normalize(glm::cross(sim::Vec3(0, 1, 0), back));
   const sim::Vec3 up = glm::cross(back, right);
-  const double tangent = 0.2867 / kRoom;  // of half the field of view
-  const sim::Vec3 middle = low + 0.5 * extent;
-  double distance = 0.0;
-  for (int corner = 0; corner < 8; ++corner) {
-    const sim::Vec3 p = (sim::Vec3(corner & 1, (corner >> 1) & 1, corner >> 2) - 0.5) * extent;
-    const double across = std::abs(glm::dot(p, right)) / aspect, above = std::abs(glm::dot(p, up));
-    distance = std::max(distance, glm::dot(p, back) + std::max(across, above) / tangent);
+  // A point at (x, y, z) to the right, above and to the back is in the picture of an eye at (a, b, d) if
+  // |x - a| <= t (d - z), t being the tangent of half the field of view, and so for y.
+  const double tall = 0.2867 / kRoom, wide = tall * aspect;
+  double least_right = -INFINITY, least_left = -INFINITY, least_up = -INFINITY, least_down = -INFINITY;
+  const auto include = [&](sim::Vec3 p_m) {
+    const double x = glm::dot(p_m, right), y = glm::dot(p_m, up), z = glm::dot(p_m, back);
+    least_right = std::max(least_right, x + wide * z);
+    least_left = std::max(least_left, -x + wide * z);
+    least_up = std::max(least_up, y + tall * z);
+    least_down = std::max(least_down, -y + tall * z);
+  };
+  for (const sim::TiledVoxel& tiled : surfaces) include(sim::worldFromVoxel(frame, sim::Vec3(tiled.voxel)));
+  if (surfaces.empty()) {
+    include(sim::worldFromVoxel(frame, sim::Vec3(-0.5)));
+    include(sim::worldFromVoxel(frame, sim::Vec3(frame.size) - 0.5));
   }
-  return {"overview", {middle + distance * back, middle, kFov}};
+  const double distance =
+      std::max((least_right + least_left) / (2 * wide), (least_up + least_down) / (2 * tall));
+  const sim::Vec3 eye =
+      0.5 * (least_right - least_left) * right + 0.5 * (least_up - least_down) * up + distance * back;
+  return {"overview", {eye, eye - glm::length(sim::Vec3(frame.size)) * frame.voxel_m * back, kFov}};
 }
 
 std::vector<ImageSpec> exposureImages(const Scene& scene, const sim::Sun& sun) {

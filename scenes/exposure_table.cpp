@@ -200,7 +200,8 @@ std::string toText(const ExposureTable& table) {
   std::size_t width = 0;
   for (const ExposureRow& row : table.rows) width = std::max(width, nameOf(row).size());
   std::string text = fmt::format("{:{}}  {:>10}", "", width, "area m2");
-  for (const auto& quantity : table.quantities) text += fmt::format("  {:>22}", quantity.name);
+  for (const auto& [name, unit, meaning, range] : table.quantities)
+    text += fmt::format("  {:>22}", unit == "1" ? name : name + ", " + unit);
   text += "\n";
   for (const ExposureRow& row : table.rows) {
     text += fmt::format("{:{}}  {:>10.2f}", nameOf(row), width, row.area_m2);

@@ -83,13 +83,23 @@ Voxel voxelOfKey(std::uint64_t key, Voxel size) {
   return {x, static_cast<int>(index / nz), static_cast<int>(index % nz)};
 }
 
-/// Adds receivers for faces, each judged from the one voxel before it. Places are numbered anew.
-void addFaces(sim::SurfaceSensors& sensors, const std::vector<std::uint64_t>& faces) {
+/// From where a face is judged: from the voxel before it, or where a sheet lies just there, from the next.
+std::optional<Voxel> placeOf(std::uint64_t face, const sim::BitVolume& opaque) {
+  const Voxel normal = kFaceNormals[face % kFaces];
+  Voxel place = voxelOfKey(face, opaque.size()) + normal;
+  if (opaque.at(place)) place += normal;
+  if (!sim::contains(opaque.size(), place) || opaque.at(place)) return std::nullopt;
+  return place;
+}
+
+/// Adds receivers for faces. Places are numbered anew.
+void addFaces(sim::SurfaceSensors& sensors, const std::vector<std::uint64_t>& faces,
+              const sim::BitVolume& opaque) {
   if (faces.empty()) return;
-  const Voxel size = sensors.places->bits().size();
-  const auto front = [&](std::uint64_t key) { return voxelOfKey(key, size) + kFaceNormals[key % kFaces]; };
   sim::BitVolume bits = sensors.places->bits();
-  for (const std::uint64_t key : faces) bits.set(front(key));
+  for (const std::uint64_t face : faces) {
+    if (const auto place = placeOf(face, opaque)) bits.set(*place);
+  }
   const auto places = std::make_shared<const sim::VoxelSet>(std::move(bits));
   std::vector<std::uint32_t> renumbered;
   renumbered.reserve(sensors.places->count());
@@ -97,12 +107,13 @@ void addFaces(sim::SurfaceSensors& sensors, const std::vector<std::uint64_t>& fa
     renumbered.push_back(static_cast<std::uint32_t>(places->number(v)));
   for (auto& tap : sensors.taps) tap.place = renumbered[tap.place];
   sensors.places = places;
-  for (const std::uint64_t key : faces) {
+  for (const std::uint64_t face : faces) {
     sim::Surface surface;
-    surface.normal = Vec3f(kFaceNormals[key % kFaces]);
-    sensors.surfaces.push_back({voxelOfKey(key, size), surface});
-    sensors.taps.push_back({static_cast<std::uint32_t>(places->number(front(key))), 1.0f});
-    sensors.first.push_back(sensors.taps.size());
+    surface.normal = Vec3f(kFaceNormals[face % kFaces]);
+    sensors.surfaces.push_back({voxelOfKey(face, opaque.size()), surface});
+    if (const auto place = placeOf(face, opaque))
+      sensors.taps.push_back({static_cast<std::uint32_t>(places->number(*place)), 1.0f});
+    sensors.first.push_back(sensors.taps.size());  // without a tap it is dark
   }
 }
 
@@ -312,7 +323,7 @@ Lighting lightOf(const sim::World& world, const sim::Sky& sky, const sim::Sun& s
   }
   light.gaps = std::make_shared<const sim::VoxelSet>(std::move(gaps));
   light.surfaces.swap(sensors.surfaces);
-  addFaces(sensors, light.faces);
+  addFaces(sensors, light.faces, world.opaque());
   findSky(light, world, sky, wanted, sensors, count);
   {
     const sim::OpenTable open = sim::sweepOpen(world.opaque(), sun.directions, sensors.places);

@@ -18,7 +18,7 @@ namespace espalier::scenes {
 struct LightWanted {
   bool faces = true;       ///< light of the faces that are judged by themselves
   bool brightest = false;  ///< the brightest way from each surface
-  /// Free voxels where light is wanted beside the surfaces; null: none.
+  /// Voxels where light is wanted beside the surfaces, such as sim::freeBand's; null: none.
   std::shared_ptr<const sim::VoxelSet> space = nullptr;
   bool dense = false;        ///< in every voxel of the world, whatever `space` says
   bool space_hours = false;  ///< hours of sun too, there
@@ -52,7 +52,7 @@ struct Received {
 /// normals (sim/sense/surface.h).
 ///
 /// What shows its back, or has no place in front (deep in a gap), is judged face by face: a cube's face
-/// receives what a surface with the face's normal would in the free voxel before it. So walls of a single
+/// receives what a surface with the face's normal would in the voxel before it. So walls of a single
 /// sheet have values from behind too: they are in pictures and .vdb files, and in no table.
 struct Lighting {
   std::vector<sim::TiledVoxel> surfaces;       ///< with places in front, in (y, z, x) order

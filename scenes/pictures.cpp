@@ -285,7 +285,7 @@ Image contactSheet(const Scene& scene, const LightAbout& about, const ImageSpec&
   render::SheetLook look;
   look.columns = captioned.size() <= 4 ? static_cast<int>(captioned.size()) : captioned.size() <= 6 ? 3 : 4;
   look.title = sheet.caption.empty() ? scene.name : sheet.caption;
-  if (light) look.note = "sky: " + about.sky + (about.sun.empty() ? "" : "\nsun: " + about.sun);
+  if (light) look.note = "sky: " + about.sky + (about.sun.empty() ? "" : "\n" + about.sun);
   return render::contactSheet(captioned, look);
 }
 

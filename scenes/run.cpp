@@ -51,7 +51,7 @@ Report::Growth countPlants(const sim::World& world, const sim::Growth& growth) {
 
 /// The free voxels of the boundary layers, which lie around the scene.
 sim::VoxelSet openLayers(const sim::BitVolume& scene, const sim::World& grown) {
-  return sim::VoxelSet(sim::freeBand(scene, grown.layers(), grown.occupied()));
+  return sim::VoxelSet(sim::freeBand(grown, scene, grown.layers()));
 }
 
 bool drawsVines(const Scene& scene) {
@@ -87,6 +87,7 @@ Report runScene(Scene scene, const RunOptions& options) {
     LightWanted wanted;
     wanted.space = layers;
     wanted.dense = options.pictures && drawsVines(job.scene);  // leaves are lit by what is around them
+    if (wanted.dense) sim::requireFits(job.world.frame(), {job.world.layers(), 2 * 2.0});
     wanted.random_sky = job.random_sky;
     return lightOf(job.world, job.sky, job.sun, wanted);
   });

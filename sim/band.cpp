@@ -28,19 +28,22 @@ void orRow(Word* out, const Word* in, int words) {
 
 }  // namespace
 
-BitVolume freeVoxels(const BitVolume& occupied) {
+BitVolume freeVoxels(const World& world) {
+  const BitVolume& occupied = world.occupied();
   BitVolume open(occupied.size());
   const int words = occupied.rowWords() - 1;
   forEachSlice(occupied, [&](int y) {
     for (int z = 0; z < occupied.size().z; ++z) {
-      for (int w = 0; w < words; ++w) open.row(y, z)[w] = ~occupied.row(y, z)[w];
+      for (int w = 0; w < words; ++w)
+        open.row(y, z)[w] = ~(occupied.row(y, z)[w] | world.opaque().row(y, z)[w]);
       open.row(y, z)[words - 1] &= lastWord(occupied.size());
     }
   });
   return open;
 }
 
-BitVolume freeBand(const BitVolume& around, int reach, const BitVolume& occupied) {
+BitVolume freeBand(const World& world, const BitVolume& around, int reach) {
+  const BitVolume& occupied = world.occupied();
   const Voxel size = occupied.size();
   const int words = occupied.rowWords() - 1;
   BitVolume near = around;  // grown along x, then z within each slice
@@ -70,7 +73,7 @@ BitVolume freeBand(const BitVolume& around, int reach, const BitVolume& occupied
       Word* const out = band.row(y, z);
       for (int from = std::max(0, y - reach); from <= std::min(size.y - 1, y + reach); ++from)
         orRow(out, near.row(from, z), words);
-      for (int w = 0; w < words; ++w) out[w] &= ~occupied.row(y, z)[w];
+      for (int w = 0; w < words; ++w) out[w] &= ~(occupied.row(y, z)[w] | world.opaque().row(y, z)[w]);
     }
   });
   return band;

@@ -33,10 +33,6 @@ HWY_INLINE Vector funnel(Vector low, Vector high, std::uint64_t shift) {
 #endif
 }
 
-HWY_INLINE std::size_t lowest(Blocks blocks) {
-  return hwy::Num0BitsBelowLS1Bit_Nonzero64(blocks);
-}
-
 HWY_INLINE bool holdsAnything(const Word* block) {
   const Words d;
   Vector all = hn::Load(d, block);
@@ -44,24 +40,26 @@ HWY_INLINE bool holdsAnything(const Word* block) {
   return !hn::AllTrue(d, hn::Eq(all, hn::Zero(d)));
 }
 
-HWY_INLINE Blocks thatHoldAnything(const Word* line, Blocks blocks) {
-  Blocks filled = 0;
-  for (Blocks left = blocks; left != 0; left &= left - 1) {
-    if (holdsAnything(line + kRows * lowest(left))) filled |= left & (~left + 1);
-  }
-  return filled;
-}
+constexpr std::size_t kMostReads = 256;
+constexpr std::size_t kWordsAtOnce = 4;
 
-/// Lines w .. w + kWords - 1, all blocks.
+/// The reads that hold anything for a block of rows.
+struct Listed {
+  std::uint8_t reads[kMostReads];
+  std::size_t count = 0;
+};
+
+/// One block of kWords lines, from word `at` on. Returns which of the lines hold anything.
 template <std::size_t kWords>
-HWY_INLINE void uniteDense(std::span<const Read> reads, std::size_t line, Word* out, std::size_t w,
-                           std::size_t blocks) {
+HWY_INLINE unsigned uniteBlock(const Read* reads, const Listed& listed, std::size_t line, Word* out,
+                               std::size_t at) {
   const Words d;
-  for (std::size_t z = 0; z < blocks * kRows; z += hn::Lanes(d)) {
-    const std::size_t at = w * line + z;
+  unsigned filled = 0;
+  for (std::size_t end = at + kRows; at < end; at += hn::Lanes(d)) {
     Vector all[kWords];
     for (std::size_t i = 0; i < kWords; ++i) all[i] = hn::Zero(d);
-    for (const Read& read : reads) {
+    for (std::size_t k = 0; k < listed.count; ++k) {
+      const Read& read = reads[listed.reads[k]];
       const Word* const from = read.from + at;
       Vector words[kWords + 1];
       for (std::size_t i = 0; i <= kWords; ++i) words[i] = hn::LoadU(d, from + i * line);
@@ -73,98 +71,122 @@ HWY_INLINE void uniteDense(std::span<const Read> reads, std::size_t line, Word* 
           all[i] = hn::Or(all[i], funnel(words[i], words[i + 1], read.shifts[s]));
       }
     }
-    for (std::size_t i = 0; i < kWords; ++i) hn::Store(all[i], d, out + at + i * line);
+    for (std::size_t i = 0; i < kWords; ++i) {
+      hn::Store(all[i], d, out + at + i * line);
+      if (!hn::AllTrue(d, hn::Eq(all[i], hn::Zero(d)))) filled |= 1u << i;
+    }
   }
+  return filled;
 }
 
-/// Line w, block by block where reads[r] has anything in the blocks filled[r].
-HWY_INLINE void uniteSparse(std::span<const Read> reads, const Blocks* filled, Blocks touched,
-                            std::size_t line, Word* out, std::size_t w) {
-  const Words d;
-  const std::size_t n = hn::Lanes(d);
-  for (Blocks left = touched; left != 0; left &= left - 1) {
-    Word* const block = out + w * line + kRows * lowest(left);
-    for (std::size_t i = 0; i < kRows; i += n) hn::Store(hn::Zero(d), d, block + i);
+/// The blocks of lines w .. w + kWords - 1 for which a read has a flag.
+template <std::size_t kWords>
+HWY_INLINE Blocks flagged(const Read& read, Flags flags, std::size_t flag_line, std::size_t w) {
+  Blocks low = 0, high = 0;
+  for (std::size_t i = 0; i < kWords + (read.count == 0 ? 0 : 1); ++i) {
+    const Blocks* const at = flags.word + (w + i) * flag_line;
+    low |= at[0];
+    high |= at[1];
   }
+  const Blocks here = (low >> flags.first) | (high << 1 << (63 - flags.first));
+  return read.astride ? here | (here >> 1) : here;
+}
+
+HWY_INLINE std::size_t lowest(Blocks blocks) {
+  return hwy::Num0BitsBelowLS1Bit_Nonzero64(blocks);
+}
+
+/// Says of lines w, w + 1 .. whether their block holds anything.
+template <std::size_t kWords>
+HWY_INLINE void say(Blocks* filled, std::size_t w, std::size_t block, unsigned holding) {
+  for (std::size_t i = 0; i < kWords; ++i)
+    filled[w + i] = (filled[w + i] & ~(Blocks{1} << block)) | (Blocks{(holding >> i) & 1u} << block);
+}
+
+/// Does anew those blocks of a period's union of which anything read has changed.
+template <std::size_t kWords>
+HWY_INLINE void unitePeriod(std::span<const Read> reads, Lines lines, Slice period, std::size_t w,
+                            Blocks wanted) {
+  Blocks changed = 0;
+  for (const Read& read : reads) changed |= flagged<kWords>(read, read.changed, lines.blocks, w);
+  changed &= wanted;
+  if (changed == 0) return;
+  Listed listed[kMostBlocks];
   for (std::size_t r = 0; r < reads.size(); ++r) {
-    const Read& read = reads[r];
-    const auto forEachVector = [&](const auto& add) {
-      for (Blocks left = filled[r]; left != 0; left &= left - 1) {
-        const std::size_t first = w * line + kRows * lowest(left);
-        for (std::size_t at = first; at < first + kRows; at += n) {
-          const Vector low = hn::LoadU(d, read.from + at), high = hn::LoadU(d, read.from + line + at);
-          hn::Store(add(hn::Load(d, out + at), low, high), d, out + at);
-        }
-      }
-    };
-    if (read.count == 1 && !read.unmoved) {  // by far the most common
-      const std::uint64_t shift = *read.shifts;
-      forEachVector(
-          [&](Vector all, Vector low, Vector high) { return hn::Or(all, funnel(low, high, shift)); });
-    } else {
-      forEachVector([&](Vector all, Vector low, Vector high) {
-        if (read.unmoved) all = hn::Or(all, low);
-        for (std::uint32_t s = 0; s < read.count; ++s) all = hn::Or(all, funnel(low, high, read.shifts[s]));
-        return all;
-      });
+    Blocks filled = changed & flagged<kWords>(reads[r], reads[r].filled, lines.blocks, w);
+    for (; filled != 0; filled &= filled - 1) {
+      Listed& of_block = listed[lowest(filled)];
+      of_block.reads[of_block.count++] = static_cast<std::uint8_t>(r);
     }
+  }
+  for (; changed != 0; changed &= changed - 1) {
+    const std::size_t block = lowest(changed);
+    say<kWords>(period.filled, w, block,
+                uniteBlock<kWords>(reads.data(), listed[block], lines.words, period.words,
+                                   w * lines.words + kRows * block));
   }
 }
 
-constexpr std::size_t kMostReads = 256;
-constexpr std::size_t kWordsAtOnce = 4;
-
-void Unite(std::span<const Read> reads, Lines lines, Word* out, std::size_t words, std::size_t blocks,
-           Blocks* filled) {
-  const Blocks wanted = (Blocks{1} << blocks) - 1;
-  Blocks sources[kWordsAtOnce][kMostReads];
-  for (std::size_t w = 0; w < words; w += kWordsAtOnce) {
-    const std::size_t n = words - w < kWordsAtOnce ? words - w : kWordsAtOnce;
-    std::size_t sum = 0;
-    for (std::size_t r = 0; r < reads.size(); ++r) {
-      const Read& read = reads[r];
-      const auto line = [&](std::size_t i) {
-        const Blocks* const at = read.filled + (w + i) * lines.blocks;
-        const Blocks here = (at[0] >> read.first) | (at[1] << 1 << (63 - read.first));
-        return read.astride ? here | (here >> 1) : here;
-      };
-      Blocks low = line(0);
-      for (std::size_t i = 0; i < n; ++i) {
-        const Blocks high = read.count == 0 ? 0 : line(i + 1);
-        sources[i][r] = (low | high) & wanted;
-        sum += hwy::PopCount(sources[i][r]);
-        low = read.count == 0 ? line(i + 1) : high;
+/// What a period blocks, and what is blocked at its end.
+template <std::size_t kWords>
+HWY_INLINE void addEnd(const Read* end, Lines lines, Slice period, Slice out, std::size_t w, Blocks wanted) {
+  const Words d;
+  const Blocks beyond = end == nullptr ? 0 : wanted & flagged<kWords>(*end, end->filled, lines.blocks, w);
+  Blocks touched = beyond;
+  for (std::size_t i = 0; i < kWords; ++i) touched |= period.filled[w + i] | out.filled[w + i];
+  for (; touched != 0; touched &= touched - 1) {
+    const std::size_t block = lowest(touched);
+    const bool with_end = ((beyond >> block) & 1u) != 0;
+    unsigned holding = 0;
+    for (std::size_t at = w * lines.words + kRows * block, stop = at + kRows; at < stop; at += hn::Lanes(d)) {
+      Vector words[kWords + 1];
+      if (with_end) {
+        for (std::size_t i = 0; i <= kWords; ++i) words[i] = hn::LoadU(d, end->from + at + i * lines.words);
+      }
+      for (std::size_t i = 0; i < kWords; ++i) {
+        Vector all = hn::Load(d, period.words + at + i * lines.words);
+        if (with_end)
+          all = hn::Or(all, end->unmoved ? words[i] : funnel(words[i], words[i + 1], *end->shifts));
+        hn::Store(all, d, out.words + at + i * lines.words);
+        if (!hn::AllTrue(d, hn::Eq(all, hn::Zero(d)))) holding |= 1u << i;
       }
     }
-    if (5 * sum > 2 * reads.size() * n * blocks) {
-      switch (n) {
-        case 1:
-          uniteDense<1>(reads, lines.words, out, w, blocks);
-          break;
-        case 2:
-          uniteDense<2>(reads, lines.words, out, w, blocks);
-          break;
-        case 3:
-          uniteDense<3>(reads, lines.words, out, w, blocks);
-          break;
-        default:
-          uniteDense<4>(reads, lines.words, out, w, blocks);
-      }
-      for (std::size_t i = 0; i < n; ++i)
-        filled[w + i] = thatHoldAnything(out + (w + i) * lines.words, wanted);
-    } else {
-      for (std::size_t i = 0; i < n; ++i) {
-        Blocks touched = filled[w + i];
-        for (std::size_t r = 0; r < reads.size(); ++r) touched |= sources[i][r];
-        uniteSparse(reads, sources[i], touched, lines.words, out, w + i);
-        filled[w + i] = thatHoldAnything(out + (w + i) * lines.words, touched);
-      }
+    say<kWords>(out.filled, w, block, holding);
+  }
+}
+
+template <std::size_t kWords>
+HWY_INLINE void uniteLines(std::span<const Read> reads, const Read* end, Lines lines, Slice period, Slice out,
+                           std::size_t w, std::size_t blocks) {
+  const Blocks wanted = (Blocks{1} << blocks) - 1;
+  unitePeriod<kWords>(reads, lines, period, w, wanted);
+  addEnd<kWords>(end, lines, period, out, w, wanted);
+}
+
+void Unite(std::span<const Read> reads, const Read* end, Lines lines, Slice period, Slice out,
+           std::size_t words, std::size_t blocks) {
+  for (std::size_t w = 0; w < words; w += kWordsAtOnce) {
+    switch (words - w) {
+      case 1:
+        uniteLines<1>(reads, end, lines, period, out, w, blocks);
+        break;
+      case 2:
+        uniteLines<2>(reads, end, lines, period, out, w, blocks);
+        break;
+      case 3:
+        uniteLines<3>(reads, end, lines, period, out, w, blocks);
+        break;
+      default:
+        uniteLines<4>(reads, end, lines, period, out, w, blocks);
     }
   }
 }
 
 Blocks AnythingIn(const Word* line, std::size_t blocks) {
-  return thatHoldAnything(line, (Blocks{1} << blocks) - 1);
+  Blocks filled = 0;
+  for (std::size_t block = 0; block < blocks; ++block)
+    filled |= Blocks{holdsAnything(line + kRows * block)} << block;
+  return filled;
 }
 
 /// sum = a + b + c modulo 2, and what is carried.
@@ -269,13 +291,22 @@ HWY_EXPORT(Unite);
 HWY_EXPORT(AnythingIn);
 HWY_EXPORT(Sums);
 
-void unite(std::span<const Read> reads, Lines lines, Word* out, std::size_t words, std::size_t blocks,
-           Blocks* filled) {
-  HWY_DYNAMIC_DISPATCH(Unite)(reads, lines, out, words, blocks, filled);
+void unite(std::span<const Read> reads, const Read* end, Lines lines, Slice period, Slice out,
+           std::size_t words, std::size_t blocks) {
+  HWY_DYNAMIC_DISPATCH(Unite)(reads, end, lines, period, out, words, blocks);
 }
 
 Blocks anythingIn(const Word* line, std::size_t blocks) {
   return HWY_DYNAMIC_DISPATCH(AnythingIn)(line, blocks);
+}
+
+Blocks differing(const Word* line, const Word* other, std::size_t blocks) {
+  Blocks different = 0;
+  for (std::size_t block = 0; block < blocks; ++block) {
+    const std::size_t at = kRows * block;
+    different |= Blocks{!std::equal(line + at, line + at + kRows, other + at)} << block;
+  }
+  return different;
 }
 
 Adders::Adders(std::span<const std::uint16_t> weights) {

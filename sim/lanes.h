@@ -20,29 +20,45 @@ inline constexpr std::size_t kRows = 8;
 using Blocks = std::uint64_t;
 inline constexpr std::size_t kMostBlocks = 63;  ///< that are swept at once
 
+/// Flags of blocks, from bit `first` of a word on.
+struct Flags {
+  const Blocks* word;
+  unsigned first;  ///< < 64
+};
+
 /// Words that are read several times, their voxels moved down by 0 .. 63 each time.
 struct Read {
-  const Word* from;      ///< what word (0, 0) of the result reads; readable for one line more than asked for
-  const Blocks* filled;  ///< from bit `first` of this word on: which blocks of what is read hold anything
-  unsigned first;        ///< < 64
-  bool astride;          ///< what a block reads lies in two
-  bool unmoved;          ///< read as it stands too
+  const Word* from;  ///< what word (0, 0) of the result reads; readable for one line more than asked for
+  Flags filled;      ///< of the blocks read: which hold anything
+  Flags changed;     ///< and which differ from what was read there for the slice before
+  bool astride;      ///< what a block reads lies in two
+  bool unmoved;      ///< read as it stands too
   std::uint32_t count;
   const std::uint64_t* shifts;  ///< not 0
 };
 
-/// Words from line to line, of voxels and of the sets that say which blocks hold anything.
+/// Words from line to line, of voxels and of flags.
 struct Lines {
   std::size_t words, blocks;
 };
 
-/// out(w, z) = the union of all reads, for w < words and `blocks` blocks of rows. `out` is none of what is
-/// read. filled[w] says which blocks of the result hold anything; before the call, which blocks of `out` do.
-void unite(std::span<const Read> reads, Lines lines, Word* out, std::size_t words, std::size_t blocks,
-           Blocks* filled);
+/// Lines of a slice, and which of their blocks hold anything: of line w, filled[w].
+struct Slice {
+  Word* words;
+  Blocks* filled;
+};
+
+/// period(w, z) becomes the union of all reads, and out(w, z) that of period(w, z) and of `end` (where
+/// given), for w < words and `blocks` blocks of rows. `period` must hold what it became for the slice before:
+/// where nothing that is read has changed, it is left alone. `filled` is brought up to date, and read: `out`
+/// may hold an old slice.
+void unite(std::span<const Read> reads, const Read* end, Lines lines, Slice period, Slice out,
+           std::size_t words, std::size_t blocks);
 
 /// Which of the first blocks of a line hold anything.
 Blocks anythingIn(const Word* line, std::size_t blocks);
+/// Which of them differ from another's.
+Blocks differing(const Word* line, const Word* other, std::size_t blocks);
 
 /// Weighted counts by carry-save adders: the bits of the weights say which adders a direction goes through.
 class Adders {

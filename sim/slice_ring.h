@@ -24,41 +24,56 @@ struct SliceLayout {
   std::size_t flagSlice() const { return (words + 2) * flagLine(); }
 };
 
-/// The last `slots` slices, numbered in the order of the sweep, and which of their blocks hold anything.
+/// A bit for each block of the last `slots` slices, numbered in the order of the sweep.
+class BlockFlags {
+ public:
+  BlockFlags(const SliceLayout& layout, int slots)
+      : layout_(layout), slots_(slots), flags_(layout.flagSlice() * static_cast<std::size_t>(slots)) {}
+
+  /// Where line 0's flags from block `first` on begin: a word, and the bit in it. `first` may lie outside by
+  /// fewer than 64 blocks. Lines are layout.flagLine() words apart; those of -1 and `words` stay zero.
+  std::pair<const lanes::Blocks*, unsigned> from(int number, std::ptrdiff_t first) const {
+    const auto bit = static_cast<std::size_t>(first + 64);
+    return {flags_.data() + static_cast<std::size_t>(number % slots_) * layout_.flagSlice() +
+                layout_.flagLine() + bit / 64,
+            static_cast<unsigned>(bit % 64)};
+  }
+  /// The blocks first .. first + count - 1 of line w; count < 64.
+  lanes::Blocks get(int number, std::size_t w, std::size_t first, std::size_t count) const {
+    const auto [word, bit] = from(number, static_cast<std::ptrdiff_t>(first));
+    const lanes::Blocks* const at = word + w * layout_.flagLine();
+    return ((at[0] >> bit) | (at[1] << 1 << (63 - bit))) & ((lanes::Blocks{1} << count) - 1);
+  }
+  /// Changes the flags of the blocks first, first + 1 .. Threads may do so at once for different blocks.
+  void flip(int number, std::size_t w, std::size_t first, lanes::Blocks flipped);
+
+ private:
+  SliceLayout layout_;
+  int slots_;
+  std::vector<lanes::Blocks> flags_;
+};
+
+/// The last `slots` slices, and which of their blocks hold anything.
 class SliceRing {
  public:
   SliceRing(const SliceLayout& layout, int slots);
 
   /// Word (0, 0) of a slice.
   lanes::Word* slice(int number) const {
-    return words_.get() + slot(number) * layout_.slice() + layout_.line() + layout_.pad;
+    return words_.get() + static_cast<std::size_t>(number % slots_) * layout_.slice() + layout_.line() +
+           layout_.pad;
   }
-  /// Where it is said which blocks of line 0, from `first` on, hold anything: a word, and the bit in it.
-  /// `first` may lie outside by fewer than 64 blocks. Lines are layout.flagLine() words apart; those of -1
-  /// and `words` are empty.
-  std::pair<const lanes::Blocks*, unsigned> filled(int number, std::ptrdiff_t first) const {
-    const auto bit = static_cast<std::size_t>(first + 64);
-    return {flags_.data() + slot(number) * layout_.flagSlice() + layout_.flagLine() + bit / 64,
-            static_cast<unsigned>(bit % 64)};
-  }
-  /// The blocks first .. first + count - 1 of line w; count < 64.
-  lanes::Blocks filled(int number, std::size_t w, std::size_t first, std::size_t count) const {
-    const auto [word, bit] = filled(number, static_cast<std::ptrdiff_t>(first));
-    const lanes::Blocks* const at = word + w * layout_.flagLine();
-    return ((at[0] >> bit) | (at[1] << 1 << (63 - bit))) & ((lanes::Blocks{1} << count) - 1);
-  }
-  /// Changes what is said of the blocks first, first + 1 .. Threads may do so at once for different blocks.
-  void change(int number, std::size_t w, std::size_t first, lanes::Blocks changed);
+  int slots() const { return slots_; }
+  const BlockFlags& filled() const { return filled_; }
+  BlockFlags& filled() { return filled_; }
   /// Looks anew which blocks of line w hold anything.
   void look(int number, std::size_t w);
 
  private:
-  std::size_t slot(int number) const { return static_cast<std::size_t>(number % slots_); }
-
   SliceLayout layout_;
   int slots_;
   hwy::AlignedFreeUniquePtr<lanes::Word[]> words_;
-  std::vector<lanes::Blocks> flags_;
+  BlockFlags filled_;
 };
 
 }  // namespace espalier::sim

@@ -23,7 +23,7 @@ using lanes::Word;
 constexpr std::size_t kCacheWords = std::size_t{48}
                                     << 10;  // of blocked bits in a band: less than a core's cache
 constexpr std::size_t kRingBytes = std::size_t{1} << 20;  // of a batch: what a core's own cache holds
-constexpr std::size_t kMostReads = 3 * (kLongestComponent + 1);
+constexpr std::size_t kMostReads = 3 * (kLongestComponent + 1) + 1;
 
 SliceLayout layoutFor(const BitVolume& occupied, std::span<const LatticeDirection* const> batch) {
   std::size_t across = 0;
@@ -36,6 +36,26 @@ int slotsFor(const BitVolume& occupied, Voxel v) {
   return std::min(std::abs(v.y), occupied.size().y - 1) + 1;
 }
 
+/// The world's last slices, and which of their blocks differ from those of the slice before.
+struct WorldRing {
+  WorldRing(const SliceLayout& layout, int slots) : slices(layout, slots), changed(layout, slots) {}
+  SliceRing slices;
+  BlockFlags changed;
+};
+
+/// Flags of the blocks of a band, for each w: as they are now, and as they were.
+struct BandFlags {
+  explicit BandFlags(std::size_t words) : now(words), before(words) {}
+  std::vector<Blocks> now, before;
+
+  void fetch(const BlockFlags& flags, int slice, std::size_t first, std::size_t count) {
+    for (std::size_t w = 0; w < now.size(); ++w) now[w] = before[w] = flags.get(slice, w, first, count);
+  }
+  void store(BlockFlags& flags, int slice, std::size_t first) const {
+    for (std::size_t w = 0; w < now.size(); ++w) flags.flip(slice, w, first, now[w] ^ before[w]);
+  }
+};
+
 /// One direction: what it reads, and what it has found blocked.
 class Sweep {
  public:
@@ -43,7 +63,8 @@ class Sweep {
       : v_(direction.v),
         rows_(occupied.size().z),
         layout_(layout),
-        ring_(layout, slotsFor(occupied, direction.v)) {
+        ring_(layout, slotsFor(occupied, direction.v)),
+        period_(layout, 1) {
     for (const Voxel o : direction.crossed) {
       const Part part{std::abs(o.y), o.x >> 6, o.z, static_cast<std::uint32_t>(shifts_.size()), 0, false};
       if (parts_.empty() || !parts_.back().sameWords(part)) parts_.push_back(part);
@@ -54,37 +75,39 @@ class Sweep {
         ++parts_.back().count;
       }
     }
-    Part end = parts_.back();
-    end.first += end.unmoved ? 0 : end.count - 1;
-    end.count = end.unmoved ? 0 : 1;
-    parts_.push_back(end);
+    end_ = parts_.back();
+    end_.first += end_.unmoved ? 0 : end_.count - 1;
+    end_.count = end_.unmoved ? 0 : 1;
   }
 
   bool level() const { return v_.y == 0; }
   const SliceRing& blocked() const { return ring_; }
 
-  /// Some blocks of rows of a slice; filled[w] becomes those in which anything is blocked.
-  void run(const SliceRing& occupied, int slice, std::size_t first, std::size_t count, Blocks* filled,
-           Blocks* before) {
+  /// Some blocks of rows of a slice. Afterwards blocked.now[w] says in which of them anything is blocked.
+  void run(const WorldRing& world, int slice, std::size_t first, std::size_t count, BandFlags& period,
+           BandFlags& blocked) {
     Reads reads;
-    const std::size_t n = gather(occupied, slice, first, reads);
-    for (std::size_t w = 0; w < layout_.words; ++w)
-      filled[w] = before[w] = ring_.filled(slice, w, first, count);
-    lanes::unite(std::span(reads).first(n), {layout_.line(), layout_.flagLine()},
-                 ring_.slice(slice) + first * kRows, layout_.words, count, filled);
-    for (std::size_t w = 0; w < layout_.words; ++w) ring_.change(slice, w, first, before[w] ^ filled[w]);
+    const std::size_t n = gather(world, slice, first, reads);
+    const lanes::Read* const end = endsInside(slice) ? &reads[n] : nullptr;
+    period.fetch(period_.filled(), 0, first, count);
+    blocked.fetch(ring_.filled(), slice, first, count);
+    lanes::unite(std::span(reads).first(n), end, {layout_.line(), layout_.flagLine()},
+                 {period_.slice(0) + first * kRows, period.now.data()},
+                 {ring_.slice(slice) + first * kRows, blocked.now.data()}, layout_.words, count);
+    period.store(period_.filled(), 0, first);
+    blocked.store(ring_.filled(), slice, first);
   }
 
   /// A whole slice of a direction that stays in it, word by word: they depend on each other.
-  void runLevel(const SliceRing& occupied, int slice) {
+  void runLevel(const WorldRing& world, int slice) {
     const std::size_t line = layout_.line();
     Word* const out = ring_.slice(slice);
     Reads reads;
-    const std::size_t n = gather(occupied, slice, 0, reads);
+    const std::size_t n = gather(world, slice, 0, reads) + 1;
     for (int i = 0; i < rows_; ++i) {
       const auto z = static_cast<std::size_t>(v_.z > 0 ? rows_ - 1 - i : i);
       if (v_.z == 0) {
-        runAlongRow(occupied.slice(slice) + z, out + z);
+        runAlongRow(world.slices.slice(slice) + z, out + z);
         continue;
       }
       for (std::size_t at = z; at < z + layout_.words * line; at += line) {
@@ -101,39 +124,44 @@ class Sweep {
   }
 
  private:
-  /// What is read of one row, from one word on. The last one of a direction is what its own period's end
-  /// sees.
+  /// What is read of one row, from one word on.
   struct Part {
-    int ahead;  // slices
-    int words, rows;
-    std::uint32_t first, count;  // in shifts_
-    bool unmoved;
+    int ahead = 0;  // slices
+    int words = 0, rows = 0;
+    std::uint32_t first = 0, count = 0;  // in shifts_
+    bool unmoved = false;
     bool sameWords(const Part& o) const { return ahead == o.ahead && words == o.words && rows == o.rows; }
   };
 
   using Reads = std::array<lanes::Read, kMostReads>;
 
-  /// What a slice's blocks from `first` on read of those ahead that lie in the world: a ray that has left
-  /// does not come back.
-  std::size_t gather(const SliceRing& occupied, int slice, std::size_t first, Reads& reads) const {
-    const auto line = static_cast<std::ptrdiff_t>(layout_.line());
-    const auto flag_line = static_cast<std::ptrdiff_t>(layout_.flagLine());
+  bool endsInside(int slice) const { return end_.ahead <= slice; }
+
+  /// What a slice's blocks from `first` on read of those ahead that lie in the world, and behind that, if all
+  /// of it does, what the period's end sees: a ray that has left does not come back.
+  std::size_t gather(const WorldRing& world, int slice, std::size_t first, Reads& reads) const {
     std::size_t n = 0;
-    for (; n < parts_.size() && parts_[n].ahead <= slice; ++n) {
-      const Part& part = parts_[n];
-      const SliceRing& source = n + 1 == parts_.size() ? ring_ : occupied;
-      const auto [filled, bit] =
-          source.filled(slice - part.ahead, static_cast<std::ptrdiff_t>(first) + (part.rows >> 3));
-      reads[n] = {source.slice(slice - part.ahead) + part.words * line + part.rows +
-                      static_cast<std::ptrdiff_t>(first * kRows),
-                  filled + part.words * flag_line,
-                  bit,
-                  part.rows % 8 != 0,
-                  part.unmoved,
-                  part.count,
-                  shifts_.data() + part.first};
-    }
+    for (; n < parts_.size() && parts_[n].ahead <= slice; ++n)
+      reads[n] = readOf(parts_[n], world.slices, world.changed, slice, first);
+    if (endsInside(slice)) reads[n] = readOf(end_, ring_, ring_.filled(), slice, first);
     return n;
+  }
+
+  lanes::Read readOf(const Part& part, const SliceRing& source, const BlockFlags& changed, int slice,
+                     std::size_t first) const {
+    const int there = slice - part.ahead;
+    const auto line = static_cast<std::ptrdiff_t>(layout_.line());
+    const auto flags = [&](const BlockFlags& all) {
+      const auto [word, bit] = all.from(there, static_cast<std::ptrdiff_t>(first) + (part.rows >> 3));
+      return lanes::Flags{word + part.words * static_cast<std::ptrdiff_t>(layout_.flagLine()), bit};
+    };
+    return {source.slice(there) + part.words * line + part.rows + static_cast<std::ptrdiff_t>(first * kRows),
+            flags(source.filled()),
+            flags(changed),
+            part.rows % 8 != 0,
+            part.unmoved,
+            part.count,
+            shifts_.data() + part.first};
   }
 
   /// Along x a row depends on itself.
@@ -155,19 +183,28 @@ class Sweep {
   int rows_;
   SliceLayout layout_;
   std::vector<Part> parts_;  // in the order of the ray
+  Part end_;                 // the last voxel, of which what it sees is read
   std::vector<std::uint64_t> shifts_;
   SliceRing ring_;
+  SliceRing period_;  // what the parts of the last slice block
 };
 
-/// Brings a slice of the world into a ring.
-void layOut(const BitVolume& occupied, int y, const SliceLayout& layout, SliceRing& ring, int slice,
+/// Brings a slice of the world into its ring.
+void layOut(const BitVolume& occupied, int y, const SliceLayout& layout, WorldRing& world, int slice,
             bool shared) {
   const std::size_t lines_at_once = std::max<std::size_t>(1, 8192 / (layout.blocks * kRows));
   const auto copy = [&](std::size_t begin, std::size_t end) {
     for (std::size_t w = begin; w < end; ++w) {
-      Word* const line = ring.slice(slice) + w * layout.line();
+      Word* const line = world.slices.slice(slice) + w * layout.line();
       for (int z = 0; z < occupied.size().z; ++z) line[z] = occupied.row(y, z)[w];
-      ring.look(slice, w);
+      world.slices.look(slice, w);
+      const Word* const before = world.slices.slice(slice + world.slices.slots() - 1) + w * layout.line();
+      for (std::size_t first = 0; first < layout.blocks; first += lanes::kMostBlocks) {
+        const std::size_t count = std::min(lanes::kMostBlocks, layout.blocks - first);
+        world.changed.flip(slice, w, first,
+                           world.changed.get(slice, w, first, count) ^
+                               lanes::differing(line + first * kRows, before + first * kRows, count));
+      }
     }
   };
   shared ? parallelFor(layout.words, lines_at_once, copy) : copy(0, layout.words);
@@ -193,13 +230,13 @@ void sweepBatch(const BitVolume& occupied, std::span<const LatticeDirection* con
   std::vector<Sweep> sweeps;
   std::vector<Sweep*> level;
   sweeps.reserve(batch.size());
-  int slots = 1;
+  int slots = 2;  // a slice and the one before
   for (const LatticeDirection* direction : batch) {
     sweeps.emplace_back(occupied, *direction, layout);
     if (sweeps.back().level()) level.push_back(&sweeps.back());
     slots = std::max(slots, slotsFor(occupied, direction->v));
   }
-  SliceRing world(layout, slots);
+  WorldRing world(layout, slots);
   const auto threads = extent.shared ? static_cast<std::size_t>(threadCount()) : 1;
   const std::size_t shared = std::min(lanes::kMostBlocks, (layout.blocks + threads - 1) / threads);
   const std::size_t blocks =
@@ -214,16 +251,15 @@ void sweepBatch(const BitVolume& occupied, std::span<const LatticeDirection* con
       std::vector<const Word*> blocked;
       blocked.reserve(sweeps.size());
       std::vector<Blocks> filled(layout.words);
-      std::vector<Blocks> of_one(layout.words), before(layout.words);
+      BandFlags period(layout.words), of_one(layout.words);
       for (Sweep& sweep : sweeps) {
         if (sweep.level()) {
-          for (std::size_t w = 0; w < layout.words; ++w)
-            of_one[w] = sweep.blocked().filled(slice, w, first, n);
+          of_one.fetch(sweep.blocked().filled(), slice, first, n);
         } else {
-          sweep.run(world, slice, first, n, of_one.data(), before.data());
+          sweep.run(world, slice, first, n, period, of_one);
         }
         blocked.push_back(sweep.blocked().slice(slice));
-        for (std::size_t w = 0; w < layout.words; ++w) filled[w] |= of_one[w];
+        for (std::size_t w = 0; w < layout.words; ++w) filled[w] |= of_one.now[w];
       }
       if (yOf(slice) < extent.low_y || yOf(slice) > extent.high_y) return;
       const auto row = [&](std::size_t block) { return std::min(size.z, static_cast<int>(block * kRows)); };

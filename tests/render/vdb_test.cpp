@@ -1,47 +1,25 @@
 #include "render/vdb.h"
 
 #include <gtest/gtest.h>
-#include <openvdb/io/Stream.h>
-#include <openvdb/openvdb.h>
-
-#include <map>
-#include <sstream>
-
 #include "sim/band.h"
 #include "sim/error.h"
 #include "sim/parallel.h"
 #include "tests/support/plots.h"
+#include "tests/support/vdb.h"
 
 namespace espalier {
 namespace {
 
 using sim::Voxel;
 
-struct ReadBack {
-  openvdb::MetaMap::Ptr about;
-  std::map<std::string, openvdb::GridBase::Ptr> grids;
-
-  template <class Grid>
-  typename Grid::Ptr grid(const std::string& name) const {
-    const auto found = grids.find(name);
-    return found == grids.end() ? nullptr : openvdb::gridPtrCast<Grid>(found->second);
-  }
-};
-
-ReadBack readBack(const std::string& bytes) {
-  openvdb::initialize();
-  std::istringstream in(bytes, std::ios::binary);
-  openvdb::io::Stream stream(in, false);
-  ReadBack result{stream.getMetadata(), {}};
-  for (const auto& grid : *stream.getGrids()) result.grids[grid->getName()] = grid;
-  return result;
-}
+using tests::ReadBack;
+using tests::readBack;
 
 class Vdb : public testing::Test {
  protected:
   sim::World world_ = tests::wallPlot({30, 24, 20}, 3);
   sim::VoxelSet stands_{world_.occupied()};
-  sim::VoxelSet near_{sim::freeBand(world_.occupied(), 2, world_.occupied())};
+  sim::VoxelSet near_{sim::freeBand(world_, world_.occupied(), 2)};
 
   static float number(Voxel v) { return static_cast<float>(v.x + 100 * v.y + 10000 * v.z); }
   /// One grid of each kind.

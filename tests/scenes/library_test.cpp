@@ -42,6 +42,12 @@ TEST(Readme, ShowsTheFirstRuleFileAsItIs) {
   EXPECT_NE(readme.find(tests::fileText(tests::sourceFolder() / "docs/first/vine.yaml")), std::string::npos);
 }
 
+TEST(Readme, ShowsTheLibrarysUserAsTheTestsBuildIt) {
+  const std::string readme = tests::fileText(tests::sourceFolder() / "README.md");
+  EXPECT_NE(readme.find(tests::fileText(tests::sourceFolder() / "tests/house/consumer/main.cpp")),
+            std::string::npos);
+}
+
 /// Asks Python's jsonschema about YAML texts: true where a text is valid.
 class Validator {
  public:

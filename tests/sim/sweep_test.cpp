@@ -96,6 +96,18 @@ TEST(Sweep, EqualsCastingEachRayBitForBit) {
   });
 }
 
+TEST(Sweep, EqualsRaysWhereSlicesAreAlike) {
+  onEveryLevel([] {
+    sim::BitVolume town({150, 30, 80});
+    tests::addBox(town, {0, 0, 0}, {149, 1, 79});
+    tests::addBox(town, {20, 2, 10}, {24, 17, 60});  // walls, which are the same in many slices
+    tests::addBox(town, {20, 2, 40}, {140, 25, 43});
+    tests::addBox(town, {90, 9, 0}, {99, 9, 79});  // a floor that juts out
+    tests::addBox(town, {63, 2, 70}, {64, 28, 71});
+    expectSameAsRays(town, randomDirections(40, 6, 8));
+  });
+}
+
 TEST(Sweep, EqualsRaysForMoreDirectionsThanAWordHolds) {
   expectSameAsRays(tests::randomBits({70, 9, 19}, 0.02, 3), randomDirections(150, 9, 4));
 }

@@ -1,10 +1,20 @@
-#include <sim/sweep.h>
-#include "sim/sky.h"
+// How much of the sky the surfaces of a mesh see: consumer MESH
+#include <scenes/lighting.h>
+#include <scenes/world_of.h>
 
-int main() {
-  espalier::sim::BitVolume occupied({32, 32, 32});
-  for (int y = 0; y < 32; ++y) occupied.set({16, y, 16});
-  const auto field =
-      espalier::sim::sweepExposure(occupied, espalier::sim::makeSky({.directions = 64}).directions);
-  return field.at({15, 1, 16}) > 0.5f && field.at({15, 1, 16}) < 1.0f ? 0 : 1;
+#include <cstdio>
+
+int main(int, char** arguments) {
+  using namespace espalier;
+  const sim::World world = scenes::worldOf(arguments[1], 0.25);  // 25 cm voxels
+  const sim::Sky sky = sim::makeSky({.weighting = sim::Weighting::cosine});
+  const scenes::Lighting exposure = scenes::lightOf(world, sky);
+
+  double sum = 0.0, area = 0.0;
+  for (std::size_t i = 0; i < exposure.surfaces.size(); ++i) {
+    sum += exposure.sky.values[i] * exposure.surfaces[i].surface.coverage;
+    area += exposure.surfaces[i].surface.coverage;
+  }
+  std::printf("mean sky exposure %.3f: %s\n", sum / area, exposure.about.sky.c_str());
+  return sum > 0.0 && sum < area ? 0 : 1;
 }

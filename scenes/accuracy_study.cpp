@@ -210,35 +210,37 @@ std::string acrossTheMeridian() {
 
 }  // namespace
 
-std::string accuracyStudy() {
+std::string accuracyStudy(std::string_view only) {
   const sim::Sky sky = skyOf(Weighting::uniform, kManyDirections);
   constexpr int kWidth = 16;
   const std::string directions = fmt::format("{} directions, mean of {} places between the borders of voxels",
                                              sky.directions.size(), kPlaces);
   std::string text;
-  const auto section = [&](const char* title, const std::string& about, const std::string& table) {
-    text += fmt::format("### {}\n\n{}\n\n{}\n", title, about, table);
+  const auto section = [&](std::string_view title, const std::string& about,
+                           const std::function<std::string()>& table) {
+    if (only.empty() || only == title) text += fmt::format("### {}\n\n{}\n\n{}\n", title, about, table());
   };
-  section("Proportions", fmt::format("{} voxels wide; {}.", kWidth, directions), byProportion(sky, kWidth));
+  section("Proportions", fmt::format("{} voxels wide; {}.", kWidth, directions),
+          [&] { return byProportion(sky, kWidth); });
   section(
       "Voxel size",
       fmt::format("As high as wide; pits as deep as their radius, roofs a quarter as high; {}.", directions),
-      byVoxel(sky));
-  section("Open planes", fmt::format("Turned by 25 degrees; {}.", directions), planes(sky));
+      [&] { return byVoxel(sky); });
+  section("Open planes", fmt::format("Turned by 25 degrees; {}.", directions), [&] { return planes(sky); });
   section(
       "Raster tools",
       "Errors in the middle of the floor, walls as high as the floor is wide (20 m), cosine weighting. Walls "
       "stand on the borders of cells.",
-      againstRasters());
+      againstRasters);
   section("Sun in a street from north to south",
           fmt::format("Hours in the middle of the floor, latitude 45 degrees, declination 0; {} voxels wide.",
                       kSunVoxels),
-          alongTheMeridian());
+          alongTheMeridian);
   section("Sun in a street from east to west",
           fmt::format(
               "The shadow of the south wall of height H at declination 0; {} voxels wide, H = {:g} voxels.",
               kSunVoxels, kSunVoxels / 2.5),
-          acrossTheMeridian());
+          acrossTheMeridian);
   return text;
 }
 

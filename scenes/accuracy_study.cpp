@@ -3,7 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <functional>
+#include <map>
 #include <numbers>
 
 #include "scenes/compare_shape.h"
@@ -20,124 +23,110 @@ using sim::Weighting;
 
 constexpr std::array kWeightings{Weighting::uniform, Weighting::cosine, Weighting::cie_overcast};
 constexpr int kManyDirections = 1024;  // so that what is left is the voxels' error
-constexpr int kPlaces = 4;             // between the borders of voxels
+constexpr int kPlaces = 3;             // between the borders of voxels
 
 sim::Sky skyOf(Weighting weighting, int directions) {
   return sim::makeSky({.weighting = weighting, .directions = directions});
 }
 
-/// Mean truth, mean error and root of the mean square of the single voxels' errors, over several places.
+/// Mean truth, mean error and mean square of the single voxels' errors.
 struct Mean {
-  double truth = 0.0, bias = 0.0, rms = 0.0;
+  double truth = 0.0, bias = 0.0, squares = 0.0;
 };
+using Means = std::array<Mean, kWeightings.size()>;
 
-/// A shape's errors at one of its places (all of it if the name is kAll), for each weighting.
-std::array<Mean, 3> meansOf(const KnownShape& shape, const std::string& place, const sim::Sky& sky,
-                            double voxel_m) {
-  std::array<Mean, 3> means;
+/// A shape's errors at each of its places, for each weighting.
+std::map<std::string, Means> meansOf(const KnownShape& shape, const sim::Sky& sky) {
+  std::map<std::string, Means> means;
   for (int p = 1; p <= kPlaces; ++p) {
-    const sim::World world = worldOf(shape, voxel_m, p);
-    const auto maps =
-        mapsOf(world, byPlace(shape, world)[place], sky, {kWeightings.begin(), kWeightings.end()});
+    const auto lines = compareShape(shape, sky, {kWeightings.begin(), kWeightings.end()}, 1.0, p);
     for (std::size_t w = 0; w < kWeightings.size(); ++w) {
-      const Certificate::Line line = errorsOf(shape, world, kWeightings[w], place, maps[w]);
-      means[w].truth += line.truth / kPlaces;
-      means[w].bias += line.error() / kPlaces;
-      means[w].rms += line.rms * line.rms / kPlaces;
+      for (const Certificate::Line& line : lines[w]) {
+        Mean& mean = means[line.place][w];
+        mean.truth += line.truth / kPlaces;
+        mean.bias += line.error() / kPlaces;
+        mean.squares += line.rms * line.rms / kPlaces;
+      }
     }
   }
-  for (Mean& mean : means) mean.rms = std::sqrt(mean.rms);
   return means;
 }
 
-std::string cells(const std::array<Mean, 3>& means) {
-  std::string text;
-  for (const Mean& m : means) text += fmt::format(" {:.4f} | {:+.4f} | {:.4f} |", m.truth, m.bias, m.rms);
-  return text + "\n";
+std::string tableBy(const char* column) {
+  return fmt::format(
+      "| shape | place | {} | uniform: truth | error | RMS | cosine: truth | error | RMS | CIE overcast: "
+      "truth | "
+      "error | RMS |\n|---|---|---|---|---|---|---|---|---|---|---|---|\n",
+      column);
 }
 
-constexpr const char* kHead =
-    " uniform: truth | error | RMS | cosine: truth | error | RMS | CIE overcast: truth | error | RMS |\n";
-constexpr const char* kRule = "---|---|---|---|---|---|---|---|---|\n";
+void addRows(std::string& text, const KnownShape& shape, const std::string& column, const sim::Sky& sky) {
+  for (const auto& [place, means] : meansOf(shape, sky)) {
+    text += fmt::format("| {} | {} | {} |", shape.name, place, column);
+    for (const Mean& m : means)
+      text += fmt::format(" {:.4f} | {:+.4f} | {:.4f} |", m.truth, m.bias, std::sqrt(m.squares));
+    text += "\n";
+  }
+}
 
-/// Streets, courts and pits by their proportions, 32 voxels wide.
-std::string byProportion(const sim::Sky& sky) {
-  constexpr double kWidth = 32.0;
-  std::string text = fmt::format("| shape | place |{}|---|---|{}", kHead, kRule);
-  const auto row = [&](const KnownShape& shape, const char* place) {
-    text += fmt::format("| {} | {} |{}", shape.name, place, cells(meansOf(shape, place, sky, 1.0)));
-  };
-  for (const double h : {0.25, 0.5, 1.0, 2.0}) {
-    const KnownShape shape = street(kWidth, h * kWidth, 0.0, 1.0);
-    for (const char* place : {kMiddleOfTheFloor, kFloor, kWalls}) row(shape, place);
-  }
-  for (const double h : {0.5, 1.0, 2.0}) {
-    const KnownShape shape = court(kWidth, h * kWidth, 30.0, 1.0);
-    for (const char* place : {kMiddleOfTheFloor, kFloor, kWalls}) row(shape, place);
-  }
-  for (const double h : {0.25, 0.5, 1.0}) row(pit(kWidth, h * kWidth, 1.0), kMiddleOfTheFloor);
+/// Streets, courts and pits by their proportions.
+std::string byProportion(const sim::Sky& sky, double width) {
+  std::string text = tableBy("height / width");
+  for (const double h : {0.25, 0.5, 1.0, 2.0})
+    addRows(text, street(width, h * width, 0.0, 1.0), fmt::format("{:g}", h), sky);
+  for (const double h : {0.5, 1.0, 2.0})
+    addRows(text, court(width, h * width, 30.0, 1.0), fmt::format("{:g}", h), sky);
+  for (const double h : {0.25, 0.5, 1.0})
+    addRows(text, pit(width, h * width, 1.0), fmt::format("{:g}", h), sky);
   return text;
 }
 
-/// The same shapes, as high as wide, by their width in voxels.
+/// The same shapes by their width in voxels.
 std::string byVoxel(const sim::Sky& sky) {
-  std::string text = fmt::format("| shape | voxels across |{}|---|---|{}", kHead, kRule);
-  const auto rows = [&](const std::function<KnownShape(double)>& shape, const char* place, int most) {
-    for (int width = 8; width <= most; width *= 2) {
-      text += fmt::format("| {}, {} | {} |{}", shape(8.0).name, place, width,
-                          cells(meansOf(shape(width), place, sky, 1.0)));
-    }
+  std::string text = tableBy("voxels across");
+  const auto rows = [&](const std::function<KnownShape(double)>& shape, int first, int last) {
+    for (int width = first; width <= last; width *= 2)
+      addRows(text, shape(width), std::to_string(width), sky);
   };
-  const auto straight = [](double w) { return street(w, w, 0.0, 1.0); };
-  const auto turned = [](double w) { return court(w, w, 30.0, 1.0); };
-  rows(straight, kFloor, 32);
-  rows(straight, kWalls, 32);
-  rows(turned, kFloor, 64);
-  rows(turned, kWalls, 64);
-  rows([](double w) { return pit(w, w / 2.0, 1.0); }, kMiddleOfTheFloor, 64);
-  rows([](double w) { return canopy(w, w / 4.0, 1.0); }, kFloor, 64);
+  rows([](double w) { return street(w, w, 0.0, 1.0); }, 8, 32);
+  rows([](double w) { return court(w, w, 30.0, 1.0); }, 8, 64);
+  rows([](double w) { return pit(w, w / 2.0, 1.0); }, 8, 64);
+  rows([](double w) { return canopy(w, w / 4.0, 1.0); }, 16, 64);
   return text;
 }
 
-/// Open planes: the answer is exact where no stairs hide the horizon.
 std::string planes(const sim::Sky& sky) {
-  std::string text = fmt::format("| tilt |{}|---|{}", kHead, kRule);
-  for (const double tilt : {0.0, 10.0, 20.0, 30.0, 40.0, 50.0, 60.0, 70.0, 80.0, 90.0})
-    text += fmt::format("| {:g} degrees |{}", tilt, cells(meansOf(slope(tilt, 25.0, 32.0), kAll, sky, 1.0)));
+  std::string text = tableBy("tilt");
+  for (const double tilt : {0.0, 10.0, 20.0, 30.0, 45.0, 60.0, 75.0, 90.0})
+    addRows(text, slope(tilt, 25.0, 32.0), fmt::format("{:g} degrees", tilt), sky);
   return text;
 }
 
 /// The level of raster tools: street and court of 20 m, walls and cells in step.
 std::string againstRasters() {
   constexpr double kMetres = 20.0;
-  struct Row {
-    const char* name;
-    KnownShape shape;
-    double cell_m;
-    const char* raster;
-  };
   std::string text =
-      "| shape | cell | raster, 64 directions (SAGA 8.5) | plain voxels, 64 | Espalier, 64 | Espalier, 256 "
-      "|\n"
-      "|---|---|---|---|---|---|\n";
-  const auto row = [&](const char* name, const KnownShape& shape, double cell_m, const char* raster) {
+      "| shape | cell | raster (SAGA 8.5) | plain voxels, 1024 directions | Espalier, 256 directions | "
+      "Espalier, "
+      "1024 |\n|---|---|---|---|---|---|\n";
+  const auto row = [&](const KnownShape& shape, double cell_m, const char* raster) {
     const sim::World world = worldOf(shape, cell_m, 0);
     const auto voxels = byPlace(shape, world)[kMiddleOfTheFloor];
-    const sim::Sky few = skyOf(Weighting::cosine, 64), many = skyOf(Weighting::cosine, 256);
     const auto error = [&](const SurfaceMap& map) {
       return errorsOf(shape, world, Weighting::cosine, kMiddleOfTheFloor, map).error();
     };
-    text += fmt::format("| {} | {:g} m | {} | {:+.4f} | {:+.4f} | {:+.4f} |\n", name, cell_m, raster,
-                        error(plainMap(world, voxels, few)),
-                        error(mapsOf(world, voxels, few, {Weighting::cosine})[0]),
-                        error(mapsOf(world, voxels, many, {Weighting::cosine})[0]));
+    text += fmt::format("| {} | {:g} m | {} | {:+.4f} |", shape.name, cell_m, raster,
+                        error(plainMap(world, voxels, skyOf(Weighting::cosine, 1024))));
+    for (const int directions : {256, 1024}) {
+      const sim::Sky sky = skyOf(Weighting::cosine, directions);
+      text += fmt::format(" {:+.4f} |", error(mapsOf(world, voxels, sky, {Weighting::cosine})[0]));
+    }
+    text += "\n";
   };
-  for (const double cell : {1.0, 0.5, 0.25})
-    row("street", street(kMetres, kMetres, 0.0, cell), cell, cell == 1.0 ? "+0.0099" : "-");
-  const std::array rasters{"+0.0125", "+0.0087", "+0.0039"};
-  const std::array sizes{1.0, 0.5, 0.25};
-  for (std::size_t i = 0; i < sizes.size(); ++i)
-    row("court", court(kMetres, kMetres, 0.0, sizes[i]), sizes[i], rasters[i]);
+  row(street(kMetres, kMetres, 0.0, 1.0), 1.0, "+0.0099");
+  row(court(kMetres, kMetres, 0.0, 1.0), 1.0, "+0.0125");
+  row(court(kMetres, kMetres, 0.0, 0.5), 0.5, "+0.0087");
+  row(court(kMetres, kMetres, 0.0, 0.25), 0.25, "+0.0039");
   return text;
 }
 
@@ -223,31 +212,31 @@ std::string acrossTheMeridian() {
 
 std::string accuracyStudy() {
   const sim::Sky sky = skyOf(Weighting::uniform, kManyDirections);
+  constexpr int kWidth = 16;
+  const std::string directions = fmt::format("{} directions, mean of {} places between the borders of voxels",
+                                             sky.directions.size(), kPlaces);
   std::string text;
   const auto section = [&](const char* title, const std::string& about, const std::string& table) {
     text += fmt::format("### {}\n\n{}\n\n{}\n", title, about, table);
   };
-  section("Proportions",
-          fmt::format("32 voxels wide, {} directions, mean of {} places between the borders of voxels.",
-                      sky.directions.size(), kPlaces),
-          byProportion(sky));
-  section("Voxel size",
-          fmt::format("As above, {} directions. The roof leaves its sides open.", sky.directions.size()),
-          byVoxel(sky));
-  section("Open planes", fmt::format("Turned by 25 degrees, {} directions.", sky.directions.size()),
-          planes(sky));
+  section("Proportions", fmt::format("{} voxels wide; {}.", kWidth, directions), byProportion(sky, kWidth));
+  section(
+      "Voxel size",
+      fmt::format("As high as wide; pits as deep as their radius, roofs a quarter as high; {}.", directions),
+      byVoxel(sky));
+  section("Open planes", fmt::format("Turned by 25 degrees; {}.", directions), planes(sky));
   section(
       "Raster tools",
-      "Errors in the middle of the floor, walls as high as the floor is wide (20 m), cosine weighting; walls "
+      "Errors in the middle of the floor, walls as high as the floor is wide (20 m), cosine weighting. Walls "
       "stand on the borders of cells.",
       againstRasters());
-  section("Hours of sun in a street from north to south",
-          fmt::format("In the middle of the floor, latitude 45 degrees, declination 0, {} voxels wide.",
+  section("Sun in a street from north to south",
+          fmt::format("Hours in the middle of the floor, latitude 45 degrees, declination 0; {} voxels wide.",
                       kSunVoxels),
           alongTheMeridian());
-  section("Hours of sun in a street from east to west",
+  section("Sun in a street from east to west",
           fmt::format(
-              "The shadow of the south wall of height H at declination 0, {} voxels wide, H = {:g} voxels.",
+              "The shadow of the south wall of height H at declination 0; {} voxels wide, H = {:g} voxels.",
               kSunVoxels, kSunVoxels / 2.5),
           acrossTheMeridian());
   return text;

@@ -28,10 +28,11 @@ Certificate certifyShapes(const sim::Sky& sky, double voxel_m, const std::vector
   double squares = 0.0;
   int place = 0;
   for (const KnownShape& shape : shapes) {
-    for (Certificate::Line& line : compareShape(shape, sky, voxel_m, ++place)) {
+    const auto lines = compareShape(shape, sky, {sky.weighting}, voxel_m, ++place);
+    for (const Certificate::Line& line : lines[0]) {
       certificate.bias += line.error();
       squares += line.rms * line.rms;
-      certificate.lines.push_back(std::move(line));
+      certificate.lines.push_back(line);
     }
   }
   const auto n = static_cast<double>(certificate.lines.size());

@@ -16,7 +16,7 @@ namespace espalier::scenes {
 struct Certificate {
   /// One place in one shape (scenes/known_shapes.h).
   struct Line {
-    std::string shape;    ///< "endless street, walls 1 times as high as it is wide"
+    std::string shape;    ///< "endless street"
     std::string place;    ///< "middle of the floor"
     double size_m = 0.0;  ///< width of the street or court, diameter of the pit; 0 where size does not matter
     int voxels = 0;       ///< the same in voxels

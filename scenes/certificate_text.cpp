@@ -8,12 +8,13 @@ namespace espalier::scenes {
 
 std::string toText(const Certificate& c) {
   std::string text = fmt::format(
-      "sky exposure, {} weighting, {} directions, voxels of {:.4g} m; errors in shares of the whole sky\n\n",
+      "sky exposure, {} weighting, {} directions, voxels of {:.4g} m; errors in shares of the whole sky\n"
+      "walls as high as streets and courts are wide, pits as deep as their radius\n\n",
       sim::nameOf(c.weighting), c.directions, c.voxel_m);
-  text += fmt::format("{:<58} {:<20} {:>9} {:>7} {:>7} {:>7} {:>8} {:>7}\n", "shape", "place", "width",
+  text += fmt::format("{:<34} {:<20} {:>9} {:>7} {:>7} {:>7} {:>8} {:>7}\n", "shape", "place", "width",
                       "voxels", "truth", "map", "error", "RMS");
   for (const auto& line : c.lines) {
-    text += fmt::format("{:<58} {:<20} {:>9} {:>7} {:>7.4f} {:>7.4f} {:>+8.4f} {:>7.4f}\n", line.shape,
+    text += fmt::format("{:<34} {:<20} {:>9} {:>7} {:>7.4f} {:>7.4f} {:>+8.4f} {:>7.4f}\n", line.shape,
                         line.place, line.size_m > 0.0 ? fmt::format("{:.4g} m", line.size_m) : "-",
                         line.voxels > 0 ? fmt::format("{}", line.voxels) : "-", line.truth, line.value,
                         line.error(), line.rms);

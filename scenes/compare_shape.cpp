@@ -14,7 +14,7 @@ namespace {
 
 using sim::Vec3;
 
-constexpr std::size_t kMostVoxels = 400;  // at one place: truths take their time
+constexpr std::size_t kMostVoxels = 120;  // at one place: truths take their time
 
 /// Where on the surface a voxel's value counts: the foot of its centre.
 Vec3 spotOf(const sim::Frame& frame, const sim::TiledVoxel& t) {
@@ -97,22 +97,27 @@ Certificate::Line errorsOf(const KnownShape& shape, const sim::World& world, sim
   return line;
 }
 
-std::vector<Certificate::Line> compareShape(const KnownShape& shape, const sim::Sky& sky, double voxel_m,
-                                            int place) {
+std::vector<std::vector<Certificate::Line>> compareShape(const KnownShape& shape, const sim::Sky& sky,
+                                                         const std::vector<sim::Weighting>& weightings,
+                                                         double voxel_m, int place) {
   const sim::World world = worldOf(shape, voxel_m, place);
-  auto places = byPlace(shape, world);
   std::vector<sim::TiledVoxel> all;
-  for (const auto& [name, voxels] : places) all.insert(all.end(), voxels.begin(), voxels.end());
-  const SurfaceMap map = mapsOf(world, all, sky, {sky.weighting})[0];
-  std::map<std::string, SurfaceMap> parts;
-  for (std::size_t i = 0; i < map.values.size(); ++i) {
-    const sim::TiledVoxel& t = map.surfaces[i];
-    SurfaceMap& part = parts[shape.place(spotOf(world.frame(), t), Vec3(t.surface.normal))];
-    part.surfaces.push_back(t);
-    part.values.push_back(map.values[i]);
+  for (const auto& [name, voxels] : byPlace(shape, world))
+    all.insert(all.end(), voxels.begin(), voxels.end());
+  const std::vector<SurfaceMap> maps = mapsOf(world, std::move(all), sky, weightings);
+  std::vector<std::vector<Certificate::Line>> lines;
+  for (std::size_t w = 0; w < weightings.size(); ++w) {
+    std::map<std::string, SurfaceMap> parts;
+    for (std::size_t i = 0; i < maps[w].values.size(); ++i) {
+      const sim::TiledVoxel& t = maps[w].surfaces[i];
+      SurfaceMap& part = parts[shape.place(spotOf(world.frame(), t), Vec3(t.surface.normal))];
+      part.surfaces.push_back(t);
+      part.values.push_back(maps[w].values[i]);
+    }
+    lines.emplace_back();
+    for (const auto& [name, part] : parts)
+      lines.back().push_back(errorsOf(shape, world, weightings[w], name, part));
   }
-  std::vector<Certificate::Line> lines;
-  for (const auto& [name, part] : parts) lines.push_back(errorsOf(shape, world, sky.weighting, name, part));
   return lines;
 }
 

@@ -34,8 +34,9 @@ std::map<std::string, std::vector<sim::TiledVoxel>> byPlace(const KnownShape& sh
 Certificate::Line errorsOf(const KnownShape& shape, const sim::World& world, sim::Weighting weighting,
                            const std::string& place, const SurfaceMap& map);
 
-/// A line for each place, by the program's own map.
-std::vector<Certificate::Line> compareShape(const KnownShape& shape, const sim::Sky& sky, double voxel_m,
-                                            int place);
+/// By the program's own maps: for each weighting a line for each place.
+std::vector<std::vector<Certificate::Line>> compareShape(const KnownShape& shape, const sim::Sky& sky,
+                                                         const std::vector<sim::Weighting>& weightings,
+                                                         double voxel_m, int place);
 
 }  // namespace espalier::scenes

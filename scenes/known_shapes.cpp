@@ -102,14 +102,10 @@ double overWall(double at, double height, double azimuth) {
   return across > 1e-7 * height && height > 0.0 ? std::atan(height * std::cos(azimuth) / at) : 0.0;
 }
 
-std::string wide(double width_m, double height_m) {
-  return fmt::format("walls {:.3g} times as high as it is wide", height_m / width_m);
-}
-
 }  // namespace
 
 double skySeen(sim::Weighting weighting, const Skyline& skyline, Vec3 normal) {
-  constexpr int kSteps = 1440;
+  constexpr int kSteps = 720;
   const bool level = looksUp(normal);
   const double faces = std::atan2(normal.z, normal.x);
   double sum = 0.0;
@@ -146,11 +142,7 @@ KnownShape street(double width_m, double height_m, double turn_deg, double voxel
         },
         n);
   };
-  return {fmt::format("endless street, {}", wide(width_m, height_m)),
-          {std::move(builder.mesh), true},
-          width_m,
-          place,
-          truth};
+  return {"endless street", {std::move(builder.mesh), true}, width_m, place, truth};
 }
 
 KnownShape court(double width_m, double height_m, double turn_deg, double voxel_m) {
@@ -190,7 +182,7 @@ KnownShape court(double width_m, double height_m, double turn_deg, double voxel_
         },
         n);
   };
-  return {fmt::format("square court turned by {:g} degrees, {}", turn_deg, wide(width_m, height_m)),
+  return {turn_deg == 0.0 ? "square court" : fmt::format("square court turned by {:g} degrees", turn_deg),
           {std::move(builder.mesh), true},
           width_m,
           place,
@@ -233,11 +225,7 @@ KnownShape pit(double diameter_m, double depth_m, double voxel_m) {
         },
         n);
   };
-  return {fmt::format("round pit, {:.3g} times as deep as it is wide", depth_m / diameter_m),
-          {std::move(builder.mesh), true},
-          diameter_m,
-          place,
-          truth};
+  return {"round pit", {std::move(builder.mesh), true}, diameter_m, place, truth};
 }
 
 KnownShape canopy(double width_m, double height_m, double voxel_m) {
@@ -263,11 +251,7 @@ KnownShape canopy(double width_m, double height_m, double voxel_m) {
         n);
     return 1.0 - above;
   };
-  return {fmt::format("ground under a roof {:.3g} times as high as it is wide", height_m / width_m),
-          {std::move(builder.mesh), true},
-          width_m,
-          place,
-          truth};
+  return {"ground under a square roof", {std::move(builder.mesh), true}, width_m, place, truth};
 }
 
 KnownShape slope(double tilt_deg, double toward_deg, double size_m) {

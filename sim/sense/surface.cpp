@@ -13,6 +13,7 @@ namespace {
 // How places are chosen, in voxel widths. Found by trying (docs/decisions.md).
 constexpr float kClear = 0.4f;     // of |n.x| + |n.y| + |n.z|: above this height the stairs of a slanting
                                    // surface hide almost nothing; the stairs' tips reach up to a half of it
+constexpr float kLevel = 0.01f;    // height that will do where there are no stairs
 constexpr float kLoose = 0.1f;     // height that must do in narrow gaps
 constexpr float kDepth = 2.0f;     // from the lowest to the highest place
 constexpr float kRadius = 1.4f;    // places lie so near to the normal
@@ -48,6 +49,14 @@ struct Places {
     nearness[count++] = n * n;
   }
 };
+
+/// The height above a surface from which its stairs do not hide what lies low. Along the voxels it has none.
+float clearOfStairs(Vec3f normal) {
+  const Vec3f n = glm::abs(normal);
+  const float sum = n.x + n.y + n.z, largest = std::max({n.x, n.y, n.z});
+  constexpr float kAlong = 0.01f;
+  return sum - largest < kAlong ? kLevel : kClear * sum;
+}
 
 /// Walks up the columns of voxels along the normal's largest component; what lies behind something that takes
 /// light does not see what the surface sees.
@@ -141,8 +150,7 @@ struct Stretch {
   void add(const BitVolume& opaque, const TiledVoxel& tiled) {
     const Vec3f normal = tiled.surface.normal;
     if (normal == Vec3f(0.0f) || buried(opaque, tiled.voxel)) return;
-    const float clear = kClear * (std::abs(normal.x) + std::abs(normal.y) + std::abs(normal.z));
-    Places places = placesBefore(opaque, tiled.voxel, normal, tiled.surface.offset_vx, clear);
+    Places places = placesBefore(opaque, tiled.voxel, normal, tiled.surface.offset_vx, clearOfStairs(normal));
     if (places.count == 0)
       places = placesBefore(opaque, tiled.voxel, normal, tiled.surface.offset_vx, kLoose);
     if (places.count == 0) return;

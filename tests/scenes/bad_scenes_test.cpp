@@ -36,7 +36,7 @@ const std::vector<BadFile> kBadScenes = {
      {"2:30: both bounds and margin are given"}},
     {"a world that is too large",
      "world: {voxel: 0.1 mm, bounds: {min: [0,0,0], max: [1,1,1]}}\n",
-     {"2:16: voxels of 0.0001 m make a world of 1e+12; expected at most 4e+09 voxels, so at least 0.00063 "
+     {"2:16: voxels of 0.0001 m make a world of 1e+12; expected at most 1e+11 voxels, so at least 0.00022 "
       "m"}},
     {"voxels in voxels",
      "world: {voxel: 2 vx, bounds: {min: [0,0,0], max: [1,1,1]}}\n",

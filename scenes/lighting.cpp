@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "render/visibility.h"
+#include "scenes/lit_faces.h"
 #include "sim/parallel.h"
 #include "sim/sense/surface.h"
 #include "sim/sweep.h"
@@ -18,103 +19,10 @@ using sim::Vec3;
 using sim::Vec3f;
 using sim::Voxel;
 
-constexpr std::uint8_t kFaces = 6;
-/// A face belongs to its voxel's surface if the surface's normal leans to its side at all: the steps of a
-/// gentle slope do. What is smaller is rounding.
-constexpr float kLean = 1e-3f;
-
-bool belongs(const sim::Surface& surface, std::uint8_t face) {
-  return glm::dot(surface.normal, Vec3f(kFaceNormals[face])) > kLean;
-}
-
 std::shared_ptr<const sim::VoxelSet> voxelsOf(const std::vector<sim::TiledVoxel>& tiled, Voxel size) {
   sim::BitVolume bits(size);
   for (const sim::TiledVoxel& t : tiled) bits.set(t.voxel);
   return std::make_shared<const sim::VoxelSet>(std::move(bits));
-}
-
-/// Calls work(x) for the voxels of a row that have a free voxel, or the world's edge, at one of their faces.
-template <typename Work>
-void forEachExposed(const sim::BitVolume& occupied, int y, int z, Work work) {
-  const std::uint64_t* const row = occupied.row(y, z);
-  const auto word = [&](int dy, int dz, int w) {
-    const int ny = y + dy, nz = z + dz;
-    const bool inside = ny >= 0 && nz >= 0 && ny < occupied.size().y && nz < occupied.size().z;
-    return inside ? occupied.row(ny, nz)[w] : 0;
-  };
-  for (int w = 0; w < occupied.rowWords() - 1; ++w) {
-    const std::uint64_t enclosed = ((row[w] << 1) | (row[w - 1] >> 63)) &
-                                   ((row[w] >> 1) | (row[w + 1] << 63)) & word(-1, 0, w) & word(1, 0, w) &
-                                   word(0, -1, w) & word(0, 1, w);
-    for (std::uint64_t left = row[w] & ~enclosed; left != 0; left &= left - 1)
-      work(w * sim::BitVolume::kWordBits + std::countr_zero(left));
-  }
-}
-
-/// Faces with a free voxel before them that belong to no surface.
-std::vector<std::uint64_t> facesByThemselves(const sim::World& world, const Lighting& light) {
-  const sim::BitVolume& occupied = world.occupied();
-  std::vector<std::vector<std::uint64_t>> slices(static_cast<std::size_t>(occupied.size().y));
-  sim::parallelForEach(slices.size(), [&](std::size_t slice) {
-    const int y = static_cast<int>(slice);
-    for (int z = 0; z < occupied.size().z; ++z) {
-      forEachExposed(occupied, y, z, [&](int x) {
-        const Voxel v(x, y, z);
-        const sim::Surface* const surface =
-            light.where->has(v) ? &light.surfaces[light.where->number(v)].surface : nullptr;
-        for (std::uint8_t face = 0; face < kFaces; ++face) {
-          const Voxel front = v + kFaceNormals[face];
-          if (!sim::contains(occupied.size(), front) || occupied.at(front)) continue;
-          if (!surface || !belongs(*surface, face)) slices[slice].push_back(light.faceKey(v, face));
-        }
-      });
-    }
-  });
-  std::vector<std::uint64_t> all;
-  for (const auto& slice : slices) all.insert(all.end(), slice.begin(), slice.end());
-  return all;
-}
-
-Voxel voxelOfKey(std::uint64_t key, Voxel size) {
-  std::uint64_t index = key / kFaces;
-  const auto nx = static_cast<std::uint64_t>(size.x), nz = static_cast<std::uint64_t>(size.z);
-  const int x = static_cast<int>(index % nx);
-  index /= nx;
-  return {x, static_cast<int>(index / nz), static_cast<int>(index % nz)};
-}
-
-/// From where a face is judged: from the voxel before it, or where a sheet lies just there, from the next.
-std::optional<Voxel> placeOf(std::uint64_t face, const sim::BitVolume& opaque) {
-  const Voxel normal = kFaceNormals[face % kFaces];
-  Voxel place = voxelOfKey(face, opaque.size()) + normal;
-  if (opaque.at(place)) place += normal;
-  if (!sim::contains(opaque.size(), place) || opaque.at(place)) return std::nullopt;
-  return place;
-}
-
-/// Adds receivers for faces. Places are numbered anew.
-void addFaces(sim::SurfaceSensors& sensors, const std::vector<std::uint64_t>& faces,
-              const sim::BitVolume& opaque) {
-  if (faces.empty()) return;
-  sim::BitVolume bits = sensors.places->bits();
-  for (const std::uint64_t face : faces) {
-    if (const auto place = placeOf(face, opaque)) bits.set(*place);
-  }
-  const auto places = std::make_shared<const sim::VoxelSet>(std::move(bits));
-  std::vector<std::uint32_t> renumbered;
-  renumbered.reserve(sensors.places->count());
-  for (const Voxel v : sensors.places->voxels())
-    renumbered.push_back(static_cast<std::uint32_t>(places->number(v)));
-  for (auto& tap : sensors.taps) tap.place = renumbered[tap.place];
-  sensors.places = places;
-  for (const std::uint64_t face : faces) {
-    sim::Surface surface;
-    surface.normal = Vec3f(kFaceNormals[face % kFaces]);
-    sensors.surfaces.push_back({voxelOfKey(face, opaque.size()), surface});
-    if (const auto place = placeOf(face, opaque))
-      sensors.taps.push_back({static_cast<std::uint32_t>(places->number(*place)), 1.0f});
-    sensors.first.push_back(sensors.taps.size());  // without a tap it is dark
-  }
 }
 
 /// What a face looking each way receives where nothing obstructs: of the half before it alone.

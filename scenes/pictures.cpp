@@ -7,14 +7,13 @@
 #include <memory>
 #include <optional>
 
-#include "render/attempts.h"
 #include "render/contact_sheet.h"
 #include "render/finished_picture.h"
 #include "render/image_io.h"
 #include "render/legend.h"
 #include "render/panels.h"
-#include "render/section.h"
 #include "render/visibility.h"
+#include "scenes/flat_pictures.h"
 #include "scenes/lights.h"
 #include "sim/error.h"
 #include "sim/parallel.h"
@@ -202,70 +201,6 @@ Image Studio::vines(const ImageSpec& image) const {
   return picture;
 }
 
-/// A cut's picture axes in the world: along which the picture runs across and up.
-std::pair<int, int> picturePlane(int axis) {
-  switch (axis) {
-    case 0:
-      return {2, 1};
-    case 1:
-      return {0, 2};
-    default:
-      return {0, 1};
-  }
-}
-
-Image section(const sim::World& world, const ImageSpec& image) {
-  const int axis = image.axis - 'x';
-  const auto [across, up] = picturePlane(axis);
-  const sim::Frame& frame = world.frame();
-  sim::Vec3 point_m = frame.origin_m;
-  point_m[axis] = image.at_m;
-  const int at = sim::voxelAt(sim::voxelFromWorld(frame, point_m))[axis];
-  if (at < 0 || at >= frame.size[axis]) {
-    throw sim::InputError(
-        fmt::format("image '{}': a cut at {} = {} m misses the world", image.name, image.axis, image.at_m));
-  }
-  render::SectionLook look;
-  look.size = {frame.size[across], frame.size[up]};
-  look.layers = world.layers();
-  if (!image.caption.empty()) look.title = image.caption;
-  return render::drawSection(
-      [&, across = across, up = up](glm::ivec2 p) {
-        sim::Voxel v(0);
-        v[axis] = at;
-        v[across] = p.x;
-        v[up] = p.y;
-        render::Cut cut;
-        if (const auto surface = world.surfaceAt(v)) {
-          cut.occupied = true;
-          cut.colour = surface->colour;
-        } else if (const auto nearness = world.nearnessAt(v)) {
-          cut.layer = nearness->layer;
-        }
-        return cut;
-      },
-      look);
-}
-
-/// Greene's figure 2 looks along the axis on which the world is flat; a world that is not flat is seen along
-/// z.
-Image attempts(const Finished& finished) {
-  const sim::Voxel size = finished.job.world.frame().size;
-  const int axis = size.x == 1 ? 0 : size.y == 1 ? 1 : 2;
-  const auto [across, up] = picturePlane(axis);
-  std::vector<render::Attempt> drawn;
-  for (const sim::Attempt& a : finished.growth.attempts) {
-    drawn.push_back({{a.from_vx[across], a.from_vx[up]}, {a.to_vx[across], a.to_vx[up]}, a.taken});
-  }
-  std::vector<glm::ivec2> occupied;
-  for (const sim::TiledVoxel& tiled : finished.job.world.surfaces()) {
-    occupied.emplace_back(tiled.voxel[across], tiled.voxel[up]);
-  }
-  render::AttemptsLook look;
-  look.size = {size[across], size[up]};
-  return render::drawAttempts(drawn, occupied, look);
-}
-
 OutputFile png(const std::string& name, std::shared_ptr<const Image> picture, render::Metadata metadata) {
   return {name + ".png", [picture, metadata] { return render::encodePng(*picture, metadata); }};
 }
@@ -339,9 +274,10 @@ std::vector<OutputFile> drawPictures(const Finished& finished, const std::stop_t
     } else if (image.kind == ImageKind::vines) {
       files.push_back(png(image.name, keep(image, std::move(vines.at(image.name))), metadata(image)));
     } else if (image.kind == ImageKind::section) {
-      files.push_back(png(image.name, keep(image, section(finished.job.world, image)), metadata(image)));
+      files.push_back(png(image.name, keep(image, drawSection(finished.job.world, image)), metadata(image)));
     } else if (image.kind == ImageKind::attempts) {
-      files.push_back(png(image.name, keep(image, attempts(finished)), metadata(image)));
+      files.push_back(
+          png(image.name, keep(image, drawAttempts(finished.job.world, finished.growth)), metadata(image)));
     }
   }
   for (const ImageSpec& image : scene.images) {

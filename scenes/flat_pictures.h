@@ -1,0 +1,17 @@
+#pragma once
+#include "render/image.h"
+#include "scenes/scene.h"
+#include "sim/grow.h"
+#include "sim/world.h"
+
+/// Pictures that need no camera; display values.
+namespace espalier::scenes {
+
+/// A cut through the world with its boundary layers. Throws sim::InputError where it misses the world.
+render::Image drawSection(const sim::World& world, const ImageSpec& image);
+
+/// Greene's figure 2: looks along the axis on which the world is flat; a world that is not flat is seen along
+/// z.
+render::Image drawAttempts(const sim::World& world, const sim::Growth& growth);
+
+}  // namespace espalier::scenes

@@ -93,7 +93,7 @@ std::string whereAndWhen(const RealSun& sun) {
                                  sun.longitude_deg < 0.0 ? 'W' : 'E', written(sun.first));
   if (sun.last != sun.first) text += " to " + written(sun.last);
   if (sun.from_h > 0.0 || sun.to_h < 24.0) text += fmt::format(", {:g} to {:g} h", sun.from_h, sun.to_h);
-  if (sun.weighting == SunWeighting::sine) text += ", weighted by the sine of its elevation";
+  if (sun.weighting == SunWeighting::sine) text += ", its exposure weighted by the sine of its elevation";
   return text;
 }
 

@@ -73,8 +73,4 @@ DirectionSet directionSet(const std::vector<Voxel>& vectors, const std::vector<d
   return set;
 }
 
-DirectionSet singleDirection(Vec3 unit) {
-  return directionSet({nearestLatticeVector(unit, kLongestComponent)}, {1.0}, ExposureField::kWhole);
-}
-
 }  // namespace espalier::sim

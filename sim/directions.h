@@ -22,9 +22,6 @@ inline constexpr int kLongestComponent = 63;  ///< a sweep reads at most a word 
 /// Directions whose weights add up to at most ExposureField::kWhole. With none of them every exposure is 0.
 using DirectionSet = std::vector<LatticeDirection>;
 
-/// One direction with all the weight: a shadow matte.
-DirectionSet singleDirection(Vec3 unit);
-
 /// The primitive vector with v.y >= 1 and components up to `longest` whose direction is nearest to a unit
 /// vector.
 Voxel nearestLatticeVector(Vec3 unit, int longest);

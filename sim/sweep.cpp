@@ -17,6 +17,7 @@ using lanes::kRows;
 using lanes::Word;
 
 constexpr std::size_t kSummedAtOnce = 24;  // directions whose sweep is worth a pass over the sums
+constexpr std::size_t kMostOwnSums = std::size_t{32} << 20;  // that threads may keep for themselves, in all
 
 /// The numbers of the directions that have a weight.
 Batch thatCount(const DirectionSet& directions) {
@@ -92,7 +93,7 @@ void sumUp(const BitVolume& occupied, const DirectionSet& directions, Extent ext
   };
   const Batch counting = thatCount(directions);
   const auto threads = static_cast<std::size_t>(threadCount());
-  if (!isSmall(occupied) || threads == 1) {
+  if (!isSmall(occupied) || threads == 1 || threads * sums.size() > kMostOwnSums) {
     sweep(counting, extent, sums.data());
     return;
   }
@@ -111,8 +112,8 @@ void sumUp(const BitVolume& occupied, const DirectionSet& directions, Extent ext
   });
 }
 
-/// Calls take(w, r, word) for the words of a block with places in them, w by w, and `begin(w)` before those
-/// of a w.
+/// Calls take(w, r, word, number of its first place) for those words of a block in which places lie and
+/// anything is blocked, w by w, and begin(w) before those of each w.
 template <typename Begin, typename Take>
 void forEachAsked(const VoxelSet& where, const Block& block, const Begin& begin, const Take& take) {
   const BitVolume& bits = where.bits();

@@ -96,22 +96,4 @@ Outlook Lookout::from(const BitVolume& occupied, Voxel p) const {
   return outlook;
 }
 
-float surfaceExposure(const BitVolume& occupied, const ExposureField& field, Voxel surface, Vec3f normal) {
-  float sum = 0.0f, weights = 0.0f;
-  for (int dy = -1; dy <= 1; ++dy) {
-    for (int dz = -1; dz <= 1; ++dz) {
-      for (int dx = -1; dx <= 1; ++dx) {
-        const Vec3f step(static_cast<float>(dx), static_cast<float>(dy), static_cast<float>(dz));
-        const float ahead = glm::dot(step, normal);
-        const Voxel neighbour = surface + Voxel(dx, dy, dz);
-        if (ahead <= 0.0f || occupied.at(neighbour)) continue;
-        const float weight = ahead * ahead / glm::dot(step, step);
-        sum += weight * field.at(neighbour);
-        weights += weight;
-      }
-    }
-  }
-  return weights > 0.0f ? sum / weights : field.at(surface);
-}
-
 }  // namespace espalier::sim

@@ -50,9 +50,4 @@ class Lookout {
   std::vector<std::ptrdiff_t> steps_;  ///< to each of crossed_, in bits of the volume
 };
 
-/// The exposure of a surface: what the free space in front of it sees, not the inside of the surface. The
-/// mean of the field over the free voxels among the 26 around `surface`, weighted by how squarely they lie in
-/// front of it, cos^2 of the angle to `normal`. Falls back to the voxel's own value where none is free.
-float surfaceExposure(const BitVolume& occupied, const ExposureField& field, Voxel surface, Vec3f normal);
-
 }  // namespace espalier::sim

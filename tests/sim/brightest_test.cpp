@@ -207,7 +207,8 @@ TEST(FirstMoment, PointsBetweenOppositeWindowsWhereTheTablePicksOne) {
   const Vec3 window = glm::normalize(Vec3(20, 7, 0.5));
   EXPECT_LT(degreesBetween(way, window), 4.0);
   EXPECT_GT(degreesBetween(moment, window), 45.0);
-  EXPECT_FALSE(sim::reachesEdge(room, middle, sim::singleDirection(glm::normalize(moment))[0]));
+  const Voxel between = sim::nearestLatticeVector(glm::normalize(moment), sim::kLongestComponent);
+  EXPECT_FALSE(sim::reachesEdge(room, middle, {between, sim::crossedVoxels(between), 1}));
 }
 
 }  // namespace

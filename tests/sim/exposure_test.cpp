@@ -53,15 +53,5 @@ TEST(Outlook, TheBrightestWayLeadsOutOfACornerUpwards) {
   EXPECT_NEAR(toward.x, toward.z, 0.05);
 }
 
-TEST(SurfaceExposure, IsThatOfTheFreeSpaceInFront) {
-  sim::BitVolume wall({21, 20, 21});
-  tests::addBox(wall, {0, 0, 10}, {20, 19, 10});
-  const auto field = sim::sweepExposure(wall, sim::makeSky({.directions = 128}).directions);
-  const float front = sim::surfaceExposure(wall, field, {10, 10, 10}, {0, 0, 1});
-  EXPECT_NEAR(front, field.at({10, 10, 11}), 0.05f);
-  EXPECT_GT(front, 0.4f);
-  EXPECT_LT(field.at({10, 10, 10}), 0.4f);  // inside the wall one sees only along it
-}
-
 }  // namespace
 }  // namespace espalier

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <tuple>
 
+#include "sim/sense/intersection.h"
 #include "sim/tiling.h"
 
 namespace espalier::rules {
@@ -86,12 +87,13 @@ std::vector<sim::ProposedElement> proposeElements(const sim::GrowthView& view, c
         // Its own segment is no obstacle, but its siblings are.
         std::erase_if(tiled, [&](sim::Voxel v) { return has(segment, v); });
         if (std::any_of(tiled.begin(), tiled.end(), [&](sim::Voxel v) { return has(taken, v); })) continue;
-        if (sim::fits(view.world, tiled, senses.attachment) != sim::Fit::clear) continue;
-        std::erase_if(tiled, [&](sim::Voxel v) { return view.world.occupied().at(v); });
-        taken.insert(taken.end(), tiled.begin(), tiled.end());
+        std::vector<sim::Voxel> takes;
+        if (sim::fit(view.world, tiled, senses.attachment, sim::Passage::around, takes) != sim::Fit::clear)
+          continue;
+        taken.insert(taken.end(), takes.begin(), takes.end());
         const double share = area * element.scale * element.scale /
-                             static_cast<double>(std::max<std::size_t>(1, tiled.size()));
-        placed.push_back({element, tiled, static_cast<float>(std::min(1.0, share))});
+                             static_cast<double>(std::max<std::size_t>(1, takes.size()));
+        placed.push_back({element, std::move(takes), static_cast<float>(std::min(1.0, share))});
         break;
       }
     }

@@ -45,7 +45,8 @@ void count(sim::OutcomeCounts& counts, Outcome outcome) {
 
 struct Candidate {
   sim::Vec3 to_vx{0.0};
-  std::vector<sim::Voxel> voxels;
+  std::vector<sim::Voxel> voxels;  // that it passes
+  std::vector<sim::Voxel> takes;   // the free ones of them
   double proximity_vx = 0.0;
 };
 
@@ -140,23 +141,19 @@ Outcome RandomTreeRule::judge(const sim::GrowthView& view, const RuleSet& rules,
                               Candidate& trial) const {
   trial.voxels.clear();
   sim::tileSegment(senses.at_vx, trial.to_vx, trial.voxels);
-  if (rules.require.clear) {
-    switch (sim::fits(view.world, trial.voxels, senses.attachment)) {
-      case sim::Fit::outside:
-        return Outcome::out_of_world;
-      case sim::Fit::blocked:
-        return Outcome::blocked;
-      case sim::Fit::clear:
-        break;
-    }
-  } else if (!sim::contains(view.world.frame().size, sim::voxelAt(trial.to_vx))) {
-    return Outcome::out_of_world;
+  const auto passage = rules.require.clear ? sim::Passage::around : sim::Passage::through;
+  switch (sim::fit(view.world, trial.voxels, senses.attachment, passage, trial.takes)) {
+    case sim::Fit::outside:
+      return Outcome::out_of_world;
+    case sim::Fit::blocked:
+      return Outcome::blocked;
+    case sim::Fit::clear:
+      break;
   }
+  // Tiling rounds, so that an end within 1/8192 of the rim may lie beyond it where its voxel does not.
+  if (!sim::contains(view.world.frame().size, sim::voxelAt(trial.to_vx))) return Outcome::out_of_world;
   // One that folds back into its own limb would take nothing of the world, and so could grow for ever.
-  const sim::BitVolume& occupied = view.world.occupied();
-  if (std::all_of(trial.voxels.begin(), trial.voxels.end(), [&](sim::Voxel v) { return occupied.at(v); })) {
-    return Outcome::blocked;
-  }
+  if (trial.takes.empty()) return Outcome::blocked;
   trial.proximity_vx = sim::averageProximity(view.world, trial.voxels);
   if (trial.proximity_vx > rules.require.proximity_max_vx) return Outcome::too_far;
   if (trial.proximity_vx < rules.require.proximity_min_vx) return Outcome::too_near;
@@ -233,8 +230,7 @@ sim::Proposal RandomTreeRule::propose(const sim::GrowthView& view, const sim::Bu
   proposal.proximity_vx = static_cast<float>(best->proximity_vx);
   proposal.elements =
       proposeElements(view, *rules, senses, best->to_vx, best->voxels, first_shape_.at(rules), key);
-  proposal.voxels = std::move(best->voxels);
-  std::erase_if(proposal.voxels, [&](sim::Voxel v) { return view.world.occupied().at(v); });
+  proposal.voxels = std::move(best->takes);
   if (view.record_attempts) proposal.attempts.push_back({senses.at_vx, proposal.to_vx, true});
   sim::Draws age(key, sim::Purpose::branch_age);
   proposal.sprouts = {

@@ -11,6 +11,13 @@ class InputError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+/// Our own code, or a growth process, broke a contract: a fault to report, not something that the caller
+/// gave.
+class BrokenContract : public std::logic_error {
+ public:
+  using std::logic_error::logic_error;
+};
+
 /// The job was stopped by the caller (Ctrl-C); nothing was written.
 class Stopped : public std::runtime_error {
  public:

@@ -37,6 +37,7 @@ class Claims {
   static Node nodeOf(const Bud& bud) { return {bud.plant, bud.node}; }
   void take(std::span<const Voxel> voxels, Node owner) {
     for (const Voxel v : voxels) {
+      if (!contains(taken_.size(), v)) throw BrokenContract("a process proposed a voxel outside the world");
       taken_.set(v);
       owner_.emplace(key(v), owner);
     }

@@ -1,8 +1,11 @@
 #include "sim/world.h"
 
+#include <fmt/format.h>
+
 #include <cassert>
 #include <limits>
 
+#include "sim/error.h"
 #include "sim/parallel.h"
 #include "sim/random.h"
 #include "sim/world_grids.h"
@@ -85,7 +88,11 @@ PartId World::addPart(Part part) {
 
 void World::keep(const TiledVoxel& tiled) {
   const auto& [voxel, surface] = tiled;
-  assert(contains(frame_.size, voxel));
+  if (!contains(frame_.size, voxel)) {
+    throw BrokenContract(
+        fmt::format("voxel ({}, {}, {}) lies outside the world of {} x {} x {} and cannot be occupied",
+                    voxel.x, voxel.y, voxel.z, frame_.size.x, frame_.size.y, frame_.size.z));
+  }
   assert(surface.part > kFree && static_cast<std::size_t>(surface.part) <= parts_.size());
   occupied_.set(voxel);
   Grids::SurfaceLeaves& leaves = grids_->surface.make(voxel);

@@ -73,8 +73,8 @@ class World {
   std::uint64_t version() const { return version_; }
 
   PartId addPart(Part part);
-  /// Occupies voxels. One that is occupied already keeps what it has. Voxels outside the world are an error
-  /// of the caller (assert). Scene voxels take all light.
+  /// Occupies voxels. One that is occupied already keeps what it has. Throws BrokenContract for a voxel
+  /// outside the world. Scene voxels take all light.
   void occupy(std::span<const TiledVoxel> voxels);
   /// The same, but they take no light.
   void occupyClear(std::span<const TiledVoxel> voxels);

@@ -4,12 +4,18 @@
 
 namespace espalier::sim {
 
-Fit fits(const World& world, std::span<const Voxel> voxels, std::span<const Voxel> attachment) {
+Fit fit(const World& world, std::span<const Voxel> piece, std::span<const Voxel> attachment, Passage passage,
+        std::vector<Voxel>& takes) {
   const auto& occupied = world.occupied();
-  for (const Voxel v : voxels) {
+  takes.clear();
+  for (const Voxel v : piece) {
     if (!contains(occupied.size(), v)) return Fit::outside;
-    if (!occupied.at(v)) continue;
-    if (std::find(attachment.begin(), attachment.end(), v) == attachment.end()) return Fit::blocked;
+    if (!occupied.at(v)) {
+      takes.push_back(v);
+    } else if (passage == Passage::around &&
+               std::find(attachment.begin(), attachment.end(), v) == attachment.end()) {
+      return Fit::blocked;
+    }
   }
   return Fit::clear;
 }

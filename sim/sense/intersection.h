@@ -1,5 +1,6 @@
 #pragma once
 #include <span>
+#include <vector>
 
 #include "sim/world.h"
 
@@ -7,10 +8,18 @@ namespace espalier::sim {
 
 enum class Fit { clear, blocked, outside };
 
-/// Whether a tiled primitive intersects the world, what it is attached to excepted. Approximate in the way
-/// that voxels are: two things that do not touch but share a voxel count as intersecting (Greene, section 1).
-/// `attachment`: voxels of the limbs that meet where the new piece begins.
-Fit fits(const World& world, std::span<const Voxel> voxels, std::span<const Voxel> attachment);
+/// What a piece may do where something stands already.
+enum class Passage {
+  around,  ///< it must be clear of everything but what it is attached to
+  through  ///< it may pass, and takes what is free
+};
+
+/// Whether a tiled piece may be placed in the world, and the free voxels that it would then take: those and
+/// no others are claimed and occupied. Approximate in the way that voxels are: two things that do not touch
+/// but share a voxel count as intersecting (Greene, section 1). `attachment`: voxels of the limbs that meet
+/// where the new piece begins. Where the answer is not Fit::clear, `takes` means nothing.
+Fit fit(const World& world, std::span<const Voxel> piece, std::span<const Voxel> attachment, Passage passage,
+        std::vector<Voxel>& takes);
 
 /// The same voxel, or one of the 26 around it.
 inline bool besides(Voxel a, Voxel b) {

@@ -184,6 +184,32 @@ TEST(RandomTree, AnotherSeedIsAnotherPlant) {
 }
 
 // The sun's arc leans to +z: behind the wall, at -z, there is less than 30 per cent.
+TEST(RandomTree, PassingThroughEndsAtTheWorldsRim) {
+  for (std::uint64_t seed = 1; seed <= 6; ++seed) {
+    sim::World world({Vec3(0.0), 0.04, {30, 30, 30}});
+    RuleSet rules;
+    rules.random_tree.length = {1.0};
+    rules.random_tree.wander_deg = 180.0;
+    rules.random_tree.branch_angle_deg = 90.0;
+    rules.random_tree.trials_min = 15;
+    rules.random_tree.trials_max = 30;
+    rules.require.clear = false;
+    sim::GrowthSettings s = settings(100);
+    s.seed = seed;
+    const auto growth = growIn(world, rules, {{15, 1, 15}}, s);  // voxels beyond the rim would throw
+    EXPECT_GT(segments(growth), 1000u);
+    std::vector<Voxel> voxels;
+    for (const auto& plant : growth.plants) {
+      for (std::size_t i = 1; i < plant.skeleton.parent.size(); ++i) {
+        const Vec3 from = plant.skeleton.position_vx[static_cast<std::size_t>(plant.skeleton.parent[i])];
+        sim::tileSegment(from, plant.skeleton.position_vx[i], voxels);
+        EXPECT_TRUE(sim::contains(world.frame().size, sim::voxelAt(plant.skeleton.position_vx[i])));
+      }
+    }
+    EXPECT_TRUE(std::all_of(voxels.begin(), voxels.end(), [&](Voxel v) { return world.occupied().at(v); }));
+  }
+}
+
 TEST(RandomTree, StopsInTheDark) {
   RuleSet rules = vine();
   rules.require.exposure_min = 0.5;

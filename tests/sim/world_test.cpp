@@ -5,6 +5,7 @@
 #include <map>
 #include <random>
 
+#include "sim/error.h"
 #include "sim/world_grids.h"
 #include "tests/support/worlds.h"
 
@@ -53,6 +54,15 @@ TEST(World, AnOccupiedVoxelKeepsWhatItHas) {
   EXPECT_EQ(world.partAt(Voxel(4)), first);
   EXPECT_EQ(world.partAt(Voxel(5)), second);
   EXPECT_EQ(world.occupied().count(), 3u);
+}
+
+TEST(World, RefusesVoxelsOutsideInEveryBuild) {
+  World world(tests::unitFrame(Voxel(8)));
+  const PartId part = world.addPart(tests::scenePart("wall"));
+  for (const Voxel v : {Voxel(8, 0, 0), Voxel(0, -1, 0), Voxel(3, 3, 1000)}) {
+    EXPECT_THROW(world.occupy(std::vector{tile(v, part)}), BrokenContract);
+  }
+  EXPECT_EQ(world.occupied().count(), 0u);
 }
 
 TEST(World, EditsRaiseTheVersion) {

@@ -11,7 +11,7 @@
 #include "cli/progress.h"
 #include "scenes/job.h"
 #include "scenes/read_scene.h"
-#include "sim/parallel.h"
+#include "sim/base/parallel.h"
 
 namespace espalier::cli {
 

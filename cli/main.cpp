@@ -9,7 +9,7 @@
 #include <new>
 
 #include "cli/commands.h"
-#include "sim/error.h"
+#include "sim/base/error.h"
 
 int main(int argc, char** argv) {
   using namespace espalier;

@@ -2,7 +2,7 @@
 #include <chrono>
 #include <string>
 
-#include "sim/grow.h"
+#include "sim/grow/grow.h"
 
 namespace espalier::cli {
 

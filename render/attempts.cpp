@@ -7,7 +7,7 @@
 #include <functional>
 
 #include "render/drawing.h"
-#include "sim/error.h"
+#include "sim/base/error.h"
 
 namespace espalier::render {
 namespace {

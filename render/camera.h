@@ -1,5 +1,5 @@
 #pragma once
-#include "sim/vec.h"
+#include "sim/base/vec.h"
 
 namespace espalier::render {
 

@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <array>
 
-#include "sim/error.h"
+#include "sim/base/error.h"
 
 namespace espalier::render {
 namespace {

@@ -2,7 +2,7 @@
 #include <string>
 #include <vector>
 
-#include "sim/vec.h"
+#include "sim/base/vec.h"
 
 namespace espalier::render {
 

@@ -1,12 +1,12 @@
 #include "render/contact_sheet.h"
 
-#include "sim/parallel.h"
+#include "sim/base/parallel.h"
 
 #include <cmath>
 #include <vector>
 
 #include "render/drawing.h"
-#include "sim/error.h"
+#include "sim/base/error.h"
 
 namespace espalier::render {
 namespace {

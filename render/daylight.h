@@ -1,8 +1,8 @@
 #pragma once
-#include "sim/bits.h"
-#include "sim/field.h"
-#include "sim/frame.h"
-#include "sim/vec.h"
+#include "sim/base/bits.h"
+#include "sim/base/frame.h"
+#include "sim/base/vec.h"
+#include "sim/world/field.h"
 
 namespace espalier::render {
 

@@ -9,7 +9,7 @@
 #include <sstream>
 #include <utility>
 
-#include "sim/error.h"
+#include "sim/base/error.h"
 
 // OpenImageIO draws text, resizes and copies. Its lines and boxes have hard edges one pixel wide, so those
 // two are laid down here by the share of each pixel that they cover.

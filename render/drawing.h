@@ -5,7 +5,7 @@
 #include <glm/vec2.hpp>
 
 #include "render/image.h"
-#include "sim/vec.h"
+#include "sim/base/vec.h"
 
 /// Text, lines and boxes over pictures of display values with three channels. Places are in pixels from the
 /// upper left corner of the picture, (0.5, 0.5) being the middle of its first pixel. Everything is

@@ -10,8 +10,8 @@
 #include "render/looks.h"
 #include "render/ray_scene.h"
 #include "render/tone.h"
-#include "sim/error.h"
-#include "sim/parallel.h"
+#include "sim/base/error.h"
+#include "sim/base/parallel.h"
 
 namespace espalier::render {
 namespace {
@@ -24,7 +24,7 @@ constexpr int kTile = 16;
 constexpr float kSunRadius =
     0.011f;  // of the disc, radians: a little wider than the real one, for softer edges
 constexpr float kSmoothEnough =
-    0.045f;  // spread of display values within a pixel that needs no further samples
+    0.045f;                         // spread of display values within a pixel that needs no further samples
 constexpr double kHazeReach = 9.0;  // haze and floor, in diagonals of the world
 
 struct SamplePoint {

@@ -2,9 +2,9 @@
 #include "render/camera.h"
 #include "render/gltf.h"
 #include "render/image.h"
-#include "sim/bits.h"
-#include "sim/field.h"
-#include "sim/frame.h"
+#include "sim/base/bits.h"
+#include "sim/base/frame.h"
+#include "sim/world/field.h"
 
 namespace espalier::render {
 

@@ -12,7 +12,7 @@
 #include <span>
 #include <sstream>
 
-#include "sim/error.h"
+#include "sim/base/error.h"
 
 namespace espalier::render {
 namespace {

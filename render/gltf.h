@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "render/plant_model.h"
-#include "sim/mesh.h"
+#include "sim/tile/mesh.h"
 
 namespace espalier::render {
 

@@ -1,7 +1,7 @@
 #pragma once
 #include <vector>
 
-#include "sim/mesh.h"
+#include "sim/tile/mesh.h"
 
 namespace espalier::render {
 

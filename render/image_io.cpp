@@ -7,7 +7,7 @@
 #include <cmath>
 #include <memory>
 
-#include "sim/error.h"
+#include "sim/base/error.h"
 
 namespace espalier::render {
 namespace {

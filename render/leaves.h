@@ -5,12 +5,12 @@
 #include <vector>
 
 #include "render/model_mesh.h"
-#include "sim/frame.h"
-#include "sim/plant.h"
+#include "sim/base/frame.h"
+#include "sim/grow/plant.h"
 
 namespace espalier::render {
 
-/// A fan about corner 0, as the polygon is tiled (sim/tiling.h), or about an added centre (index =
+/// A fan about corner 0, as the polygon is tiled (sim/tile/tiling.h), or about an added centre (index =
 /// corners.size()) where that fan would leave a concave polygon. Facing the same way as the corners' order.
 /// Empty for fewer than three corners or no area.
 struct Fan {

@@ -2,7 +2,7 @@
 #include <vector>
 
 #include "render/ray_scene.h"
-#include "sim/vec.h"
+#include "sim/base/vec.h"
 
 namespace espalier::render {
 

@@ -6,7 +6,7 @@
 
 #include <glm/vec2.hpp>
 
-#include "sim/vec.h"
+#include "sim/base/vec.h"
 
 namespace espalier::render {
 

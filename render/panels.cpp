@@ -1,6 +1,6 @@
 #include "render/panels.h"
 
-#include "sim/parallel.h"
+#include "sim/base/parallel.h"
 
 #include <algorithm>
 #include <cmath>

@@ -3,8 +3,8 @@
 
 #include "render/model_mesh.h"
 #include "render/radii.h"
-#include "sim/frame.h"
-#include "sim/plant.h"
+#include "sim/base/frame.h"
+#include "sim/grow/plant.h"
 
 namespace espalier::render {
 

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <cstdint>
 
-#include "sim/error.h"
+#include "sim/base/error.h"
 
 namespace espalier::render {
 

@@ -1,7 +1,7 @@
 #pragma once
 #include <vector>
 
-#include "sim/plant.h"
+#include "sim/grow/plant.h"
 
 namespace espalier::render {
 

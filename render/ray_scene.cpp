@@ -5,8 +5,8 @@
 #include <cstring>
 #include <limits>
 
-#include "sim/error.h"
-#include "sim/parallel.h"
+#include "sim/base/error.h"
+#include "sim/base/parallel.h"
 
 namespace espalier::render {
 

@@ -5,7 +5,7 @@
 #include <memory>
 
 #include "render/gltf.h"
-#include "sim/vec.h"
+#include "sim/base/vec.h"
 
 namespace espalier::render {
 

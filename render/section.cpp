@@ -8,7 +8,7 @@
 #include "render/drawing.h"
 #include "render/legend.h"
 #include "render/tone.h"
-#include "sim/error.h"
+#include "sim/base/error.h"
 
 namespace espalier::render {
 namespace {

@@ -5,7 +5,7 @@
 #include <glm/vec2.hpp>
 
 #include "render/image.h"
-#include "sim/vec.h"
+#include "sim/base/vec.h"
 
 namespace espalier::render {
 

@@ -1,6 +1,6 @@
 #include "render/shadow.h"
 
-#include "sim/parallel.h"
+#include "sim/base/parallel.h"
 
 #include <cmath>
 

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "render/spline.h"
-#include "sim/plant.h"
+#include "sim/grow/plant.h"
 
 namespace espalier::render {
 

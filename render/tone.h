@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "sim/vec.h"
+#include "sim/base/vec.h"
 
 /// From linear light to the values a display wants. Float arithmetic only, so that pictures agree between
 /// machines.

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "render/model_mesh.h"
-#include "sim/vec.h"
+#include "sim/base/vec.h"
 
 namespace espalier::render {
 

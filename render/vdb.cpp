@@ -13,8 +13,8 @@
 #include <functional>
 #include <sstream>
 
-#include "sim/error.h"
-#include "sim/world_grids.h"
+#include "sim/base/error.h"
+#include "sim/world/world_grids.h"
 
 namespace espalier::render {
 namespace {

@@ -6,8 +6,8 @@
 #include <variant>
 #include <vector>
 
-#include "sim/voxel_set.h"
-#include "sim/world.h"
+#include "sim/base/voxel_set.h"
+#include "sim/world/world.h"
 
 namespace espalier::render {
 

@@ -1,11 +1,11 @@
 #include "render/visibility.h"
 
 #include <fmt/format.h>
-#include "sim/parallel.h"
+#include "sim/base/parallel.h"
 
 #include <algorithm>
 
-#include "sim/error.h"
+#include "sim/base/error.h"
 
 // Every pixel is found by itself and rows are joined in order, so the answer does not depend on the threads.
 namespace espalier::render {

@@ -8,10 +8,10 @@
 #include <glm/vec2.hpp>
 
 #include "render/camera.h"
-#include "sim/bits.h"
-#include "sim/frame.h"
-#include "sim/ray.h"
-#include "sim/vec.h"
+#include "sim/base/bits.h"
+#include "sim/base/frame.h"
+#include "sim/base/vec.h"
+#include "sim/world/ray.h"
 
 namespace espalier::render {
 

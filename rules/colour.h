@@ -1,7 +1,7 @@
 #pragma once
 #include <string>
 
-#include "sim/vec.h"
+#include "sim/base/vec.h"
 
 /// Colours in files are sRGB (IEC 61966-2-1), colours in memory are linear.
 namespace espalier::rules {

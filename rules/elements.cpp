@@ -5,7 +5,7 @@
 #include <tuple>
 
 #include "sim/sense/intersection.h"
-#include "sim/tiling.h"
+#include "sim/tile/tiling.h"
 
 namespace espalier::rules {
 namespace {

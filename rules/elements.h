@@ -3,7 +3,7 @@
 
 #include "rules/rule_set.h"
 #include "rules/trial.h"
-#include "sim/rule.h"
+#include "sim/grow/rule.h"
 
 namespace espalier::rules {
 

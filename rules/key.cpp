@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "rules/colour.h"
-#include "sim/sun.h"
+#include "sim/light/sun.h"
 
 namespace espalier::rules {
 namespace {

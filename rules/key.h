@@ -13,7 +13,7 @@
 
 #include "rules/rule_set.h"
 #include "rules/value.h"
-#include "sim/vec.h"
+#include "sim/base/vec.h"
 
 /// The machinery of a registry: descriptions of the keys of a file and how each finds its field in a plain
 /// struct. It knows no file format. Readers, schemas and reference pages walk a Table; nothing else says what

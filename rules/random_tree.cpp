@@ -11,9 +11,9 @@
 
 #include "rules/elements.h"
 #include "rules/trial.h"
-#include "sim/error.h"
+#include "sim/base/error.h"
 #include "sim/sense/proximity.h"
-#include "sim/tiling.h"
+#include "sim/tile/tiling.h"
 
 namespace espalier::rules {
 namespace {

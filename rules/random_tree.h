@@ -2,7 +2,7 @@
 #include <memory>
 
 #include "rules/rule_set.h"
-#include "sim/rule.h"
+#include "sim/grow/rule.h"
 
 namespace espalier::rules {
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "rules/value.h"
-#include "sim/vec.h"
+#include "sim/base/vec.h"
 
 /// Rule sets as plain values: what a rule file says. rules/registry.h describes every key (type, unit,
 /// default, range, meaning); the reader, the JSON Schema and the reference page are derived from it.

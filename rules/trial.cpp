@@ -5,7 +5,7 @@
 
 #include "sim/sense/mass.h"
 #include "sim/sense/proximity.h"
-#include "sim/tiling.h"
+#include "sim/tile/tiling.h"
 
 namespace espalier::rules {
 namespace {

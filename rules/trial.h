@@ -2,8 +2,8 @@
 #include <vector>
 
 #include "rules/rule_set.h"
-#include "sim/rule.h"
-#include "sim/sense/exposure.h"
+#include "sim/grow/rule.h"
+#include "sim/light/exposure.h"
 #include "sim/sense/intersection.h"
 
 namespace espalier::rules {

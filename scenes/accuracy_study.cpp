@@ -11,9 +11,9 @@
 
 #include "scenes/compare_shape.h"
 #include "scenes/spot_check.h"
-#include "sim/sense/surface.h"
-#include "sim/sun.h"
-#include "sim/sweep.h"
+#include "sim/light/sun.h"
+#include "sim/light/surface.h"
+#include "sim/sweep/sweep.h"
 
 namespace espalier::scenes {
 namespace {

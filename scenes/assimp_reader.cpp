@@ -17,7 +17,7 @@
 #include "scenes/assimp_scene.h"
 #include "scenes/mesh_checks.h"
 #include "scenes/mesh_folder_io.h"
-#include "sim/error.h"
+#include "sim/base/error.h"
 
 namespace espalier::scenes {
 namespace {

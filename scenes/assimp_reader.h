@@ -2,7 +2,7 @@
 #include <filesystem>
 
 #include "scenes/scene.h"
-#include "sim/mesh.h"
+#include "sim/tile/mesh.h"
 
 namespace espalier::scenes {
 

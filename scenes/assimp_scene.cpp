@@ -11,7 +11,7 @@
 
 #include "scenes/clean_text.h"
 #include "scenes/triangulate.h"
-#include "sim/error.h"
+#include "sim/base/error.h"
 
 namespace espalier::scenes {
 namespace {

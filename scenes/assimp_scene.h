@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "scenes/scene.h"
-#include "sim/mesh.h"
+#include "sim/tile/mesh.h"
 
 struct aiMesh;
 struct aiScene;

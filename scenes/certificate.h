@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "scenes/job.h"
-#include "sim/sky.h"
-#include "sim/vec.h"
+#include "sim/base/vec.h"
+#include "sim/light/sky.h"
 
 namespace espalier::scenes {
 

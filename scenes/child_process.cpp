@@ -15,7 +15,7 @@
 #include <fstream>
 #include <new>
 
-#include "sim/error.h"
+#include "sim/base/error.h"
 
 namespace espalier::scenes {
 namespace {

@@ -4,10 +4,10 @@
 #include <cmath>
 #include <glm/common.hpp>
 
-#include "sim/parallel.h"
-#include "sim/sense/exposure.h"
-#include "sim/sense/surface.h"
-#include "sim/sweep.h"
+#include "sim/base/parallel.h"
+#include "sim/light/exposure.h"
+#include "sim/light/surface.h"
+#include "sim/sweep/sweep.h"
 
 namespace espalier::scenes {
 namespace {

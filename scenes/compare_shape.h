@@ -14,7 +14,7 @@ struct SurfaceMap {
   std::vector<float> values;
 };
 
-/// The program's own (sim/sense/surface.h), one for each weighting.
+/// The program's own (sim/light/surface.h), one for each weighting.
 std::vector<SurfaceMap> mapsOf(const sim::World& world, std::vector<sim::TiledVoxel> surfaces,
                                const sim::Sky& sky, const std::vector<sim::Weighting>& weightings);
 

@@ -14,8 +14,8 @@
 #include "scenes/output_files.h"
 #include "scenes/pictures.h"
 #include "scenes/stages.h"
-#include "sim/band.h"
-#include "sim/error.h"
+#include "sim/base/error.h"
+#include "sim/world/band.h"
 
 namespace espalier::scenes {
 namespace {

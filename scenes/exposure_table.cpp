@@ -7,7 +7,7 @@
 #include <numeric>
 
 #include "scenes/light_json.h"
-#include "sim/parallel.h"
+#include "sim/base/parallel.h"
 
 namespace espalier::scenes {
 namespace {

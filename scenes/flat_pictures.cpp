@@ -7,7 +7,7 @@
 
 #include "render/attempts.h"
 #include "render/section.h"
-#include "sim/error.h"
+#include "sim/base/error.h"
 
 namespace espalier::scenes {
 namespace {

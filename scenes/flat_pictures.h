@@ -1,8 +1,8 @@
 #pragma once
 #include "render/image.h"
 #include "scenes/scene.h"
-#include "sim/grow.h"
-#include "sim/world.h"
+#include "sim/grow/grow.h"
+#include "sim/world/world.h"
 
 /// Pictures that need no camera; display values.
 namespace espalier::scenes {

@@ -11,9 +11,9 @@
 #include "scenes/lights.h"
 #include "scenes/mesh_import.h"
 #include "scenes/problem.h"
-#include "sim/error.h"
-#include "sim/parallel.h"
-#include "sim/random.h"
+#include "sim/base/error.h"
+#include "sim/base/parallel.h"
+#include "sim/base/random.h"
 
 namespace espalier::scenes {
 namespace {

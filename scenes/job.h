@@ -5,13 +5,13 @@
 #include <vector>
 
 #include "scenes/scene.h"
-#include "sim/build_world.h"
-#include "sim/grow.h"
-#include "sim/rule.h"
-#include "sim/sense/random_sky.h"
-#include "sim/sky.h"
-#include "sim/sun.h"
-#include "sim/world.h"
+#include "sim/grow/grow.h"
+#include "sim/grow/rule.h"
+#include "sim/light/random_sky.h"
+#include "sim/light/sky.h"
+#include "sim/light/sun.h"
+#include "sim/tile/build_world.h"
+#include "sim/world/world.h"
 
 namespace espalier::scenes {
 

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "sim/sense/surface.h"
+#include "sim/light/surface.h"
 
 namespace espalier::scenes {
 namespace {

@@ -3,9 +3,9 @@
 #include <string>
 #include <vector>
 
-#include "sim/build_world.h"
-#include "sim/sky.h"
-#include "sim/vec.h"
+#include "sim/base/vec.h"
+#include "sim/light/sky.h"
+#include "sim/tile/build_world.h"
 
 /// Shapes from which the share of the sky that is seen is known, at every place and for every weighting.
 namespace espalier::scenes {

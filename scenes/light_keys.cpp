@@ -8,7 +8,7 @@
 
 #include "rules/key_builder.h"
 #include "scenes/lights.h"
-#include "sim/error.h"
+#include "sim/base/error.h"
 
 namespace espalier::scenes {
 namespace {

@@ -7,9 +7,9 @@
 
 #include "render/visibility.h"
 #include "scenes/lit_faces.h"
-#include "sim/parallel.h"
-#include "sim/sense/surface.h"
-#include "sim/sweep.h"
+#include "sim/base/parallel.h"
+#include "sim/light/surface.h"
+#include "sim/sweep/sweep.h"
 
 namespace espalier::scenes {
 namespace {

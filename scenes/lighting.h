@@ -7,11 +7,11 @@
 #include <utility>
 #include <vector>
 
-#include "sim/field.h"
-#include "sim/sense/random_sky.h"
-#include "sim/sky.h"
-#include "sim/sun.h"
-#include "sim/world.h"
+#include "sim/light/random_sky.h"
+#include "sim/light/sky.h"
+#include "sim/light/sun.h"
+#include "sim/world/field.h"
+#include "sim/world/world.h"
 
 namespace espalier::scenes {
 
@@ -49,7 +49,7 @@ struct Received {
 };
 
 /// The light of a world, found once for its pictures, tables and files. Surfaces are judged by their own
-/// normals (sim/sense/surface.h).
+/// normals (sim/light/surface.h).
 ///
 /// What shows its back, or has no place in front (deep in a gap), is judged face by face: a cube's face
 /// receives what a surface with the face's normal would in the voxel before it. So walls of a single

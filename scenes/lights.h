@@ -2,9 +2,9 @@
 #include <optional>
 
 #include "scenes/scene.h"
-#include "sim/sense/random_sky.h"
-#include "sim/sky.h"
-#include "sim/sun.h"
+#include "sim/light/random_sky.h"
+#include "sim/light/sky.h"
+#include "sim/light/sun.h"
 
 /// The sky and the sun that a scene asks for.
 namespace espalier::scenes {

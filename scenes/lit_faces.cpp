@@ -4,7 +4,7 @@
 #include <optional>
 
 #include "render/visibility.h"
-#include "sim/parallel.h"
+#include "sim/base/parallel.h"
 
 namespace espalier::scenes {
 namespace {

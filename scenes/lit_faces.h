@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "scenes/lighting.h"
-#include "sim/sense/surface.h"
+#include "sim/light/surface.h"
 
 namespace espalier::scenes {
 

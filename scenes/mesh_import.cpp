@@ -14,7 +14,7 @@
 #include "scenes/assimp_reader.h"
 #include "scenes/clean_text.h"
 #include "scenes/mesh_wire.h"
-#include "sim/error.h"
+#include "sim/base/error.h"
 
 namespace espalier::scenes {
 namespace {

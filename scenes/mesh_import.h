@@ -4,7 +4,7 @@
 
 #include "scenes/child_process.h"
 #include "scenes/scene.h"
-#include "sim/mesh.h"
+#include "sim/tile/mesh.h"
 
 namespace espalier::scenes {
 

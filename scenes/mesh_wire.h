@@ -2,7 +2,7 @@
 #include <string>
 #include <string_view>
 
-#include "sim/mesh.h"
+#include "sim/tile/mesh.h"
 
 namespace espalier::scenes {
 

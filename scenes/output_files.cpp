@@ -2,9 +2,9 @@
 
 #include <fmt/format.h>
 
-#include "sim/error.h"
-#include "sim/parallel.h"
-#include "sim/whole_file.h"
+#include "sim/base/error.h"
+#include "sim/base/parallel.h"
+#include "sim/base/whole_file.h"
 
 namespace espalier::scenes {
 

@@ -15,9 +15,9 @@
 #include "render/visibility.h"
 #include "scenes/flat_pictures.h"
 #include "scenes/lights.h"
-#include "sim/error.h"
-#include "sim/parallel.h"
-#include "sim/ray.h"
+#include "sim/base/error.h"
+#include "sim/base/parallel.h"
+#include "sim/world/ray.h"
 
 namespace espalier::scenes {
 namespace {

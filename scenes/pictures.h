@@ -6,7 +6,7 @@
 #include "scenes/job.h"
 #include "scenes/lighting.h"
 #include "scenes/output_files.h"
-#include "sim/grow.h"
+#include "sim/grow/grow.h"
 
 namespace espalier::scenes {
 

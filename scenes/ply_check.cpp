@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "scenes/mesh_checks.h"
-#include "sim/error.h"
+#include "sim/base/error.h"
 
 namespace espalier::scenes {
 namespace {

@@ -9,7 +9,7 @@
 #include "scenes/certificate.h"
 #include "scenes/job.h"
 #include "scenes/lighting.h"
-#include "sim/grow.h"
+#include "sim/grow/grow.h"
 
 namespace espalier::scenes {
 

@@ -11,9 +11,9 @@
 
 #include "render/camera.h"
 #include "rules/rule_set.h"
-#include "sim/sky.h"
-#include "sim/sun.h"
-#include "sim/vec.h"
+#include "sim/base/vec.h"
+#include "sim/light/sky.h"
+#include "sim/light/sun.h"
 
 /// A scene as plain structs: what was asked for, with nothing yet read but the rule files it names.
 /// Positions are in world metres, y up. scenes/registry.h describes every key.

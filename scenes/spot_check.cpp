@@ -8,11 +8,11 @@
 
 #include "render/gltf.h"
 #include "render/ray_scene.h"
-#include "sim/parallel.h"
-#include "sim/random.h"
-#include "sim/sense/surface.h"
-#include "sim/sweep.h"
-#include "sim/tiling.h"
+#include "sim/base/parallel.h"
+#include "sim/base/random.h"
+#include "sim/light/surface.h"
+#include "sim/sweep/sweep.h"
+#include "sim/tile/tiling.h"
 
 namespace espalier::scenes {
 namespace {

@@ -5,7 +5,7 @@
 
 #include "scenes/report.h"
 #include "scenes/run.h"
-#include "sim/error.h"
+#include "sim/base/error.h"
 
 namespace espalier::scenes {
 

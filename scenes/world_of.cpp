@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "scenes/mesh_import.h"
-#include "sim/build_world.h"
+#include "sim/tile/build_world.h"
 
 namespace espalier::scenes {
 

@@ -1,7 +1,7 @@
 #pragma once
 #include <filesystem>
 
-#include "sim/world.h"
+#include "sim/world/world.h"
 
 namespace espalier::scenes {
 

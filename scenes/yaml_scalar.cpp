@@ -6,7 +6,7 @@
 #include <charconv>
 
 #include "rules/colour.h"
-#include "sim/sun.h"
+#include "sim/light/sun.h"
 
 namespace espalier::scenes {
 

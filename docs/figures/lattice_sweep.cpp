@@ -11,9 +11,9 @@
 
 #include "render/drawing.h"
 #include "render/image_io.h"
-#include "sim/field.h"
-#include "sim/sweep.h"
-#include "sim/whole_file.h"
+#include "sim/base/whole_file.h"
+#include "sim/sweep/sweep.h"
+#include "sim/world/field.h"
 
 namespace {
 

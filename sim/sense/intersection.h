@@ -2,7 +2,7 @@
 #include <span>
 #include <vector>
 
-#include "sim/world.h"
+#include "sim/world/world.h"
 
 namespace espalier::sim {
 

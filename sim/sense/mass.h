@@ -1,7 +1,7 @@
 #pragma once
 #include <optional>
 
-#include "sim/bits.h"
+#include "sim/base/bits.h"
 
 namespace espalier::sim {
 

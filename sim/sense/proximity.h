@@ -1,7 +1,7 @@
 #pragma once
 #include <span>
 
-#include "sim/world.h"
+#include "sim/world/world.h"
 
 namespace espalier::sim {
 

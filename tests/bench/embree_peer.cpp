@@ -6,7 +6,7 @@
 #include <limits>
 #include <utility>
 
-#include "sim/parallel.h"
+#include "sim/base/parallel.h"
 #include "tests/bench/peers.h"
 #include "tests/bench/voxel_faces.h"
 

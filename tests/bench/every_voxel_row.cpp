@@ -1,9 +1,9 @@
 #include <fmt/format.h>
 
-#include "sim/lanes.h"
-#include "sim/parallel.h"
-#include "sim/sense/exposure.h"
-#include "sim/sweep.h"
+#include "sim/base/parallel.h"
+#include "sim/light/exposure.h"
+#include "sim/sweep/lanes.h"
+#include "sim/sweep/sweep.h"
 #include "tests/bench/rows.h"
 
 namespace espalier::bench {

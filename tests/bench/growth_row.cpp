@@ -4,8 +4,8 @@
 #include <mutex>
 #include <utility>
 
-#include "sim/grow.h"
-#include "sim/sweep.h"
+#include "sim/grow/grow.h"
+#include "sim/sweep/sweep.h"
 #include "tests/bench/rows.h"
 
 namespace espalier::bench {

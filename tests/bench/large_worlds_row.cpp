@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <array>
 
-#include "sim/sweep.h"
+#include "sim/sweep/sweep.h"
 #include "tests/bench/machine.h"
 #include "tests/bench/rows.h"
 #include "tests/bench/town.h"

@@ -10,8 +10,8 @@
 #include <fstream>
 #include <memory>
 
-#include "sim/lanes.h"
-#include "sim/parallel.h"
+#include "sim/base/parallel.h"
+#include "sim/sweep/lanes.h"
 #include "tests/bench/peers.h"
 #include "tests/bench/report.h"
 

@@ -7,7 +7,7 @@
 #include <set>
 
 #include "scenes/read_scene.h"
-#include "sim/error.h"
+#include "sim/base/error.h"
 #include "tests/bench/machine.h"
 #include "tests/bench/rows.h"
 

@@ -7,7 +7,7 @@
 #include <nanovdb/util/Ray.h>
 #include <openvdb/openvdb.h>
 
-#include "sim/parallel.h"
+#include "sim/base/parallel.h"
 #include "tests/bench/peers.h"
 
 namespace espalier::bench {

@@ -4,9 +4,9 @@
 #include <string>
 #include <vector>
 
-#include "sim/bits.h"
-#include "sim/directions.h"
-#include "sim/mesh.h"
+#include "sim/base/bits.h"
+#include "sim/sweep/directions.h"
+#include "sim/tile/mesh.h"
 
 /// Others who answer the same question, each at its best: which of these directions reach the world's edge
 /// from the centres of these voxels?
@@ -26,7 +26,7 @@ class Peer {
  public:
   virtual ~Peer() = default;
   virtual std::string name() const = 0;
-  /// On as many threads as a loop may use here (sim/parallel.h).
+  /// On as many threads as a loop may use here (sim/base/parallel.h).
   virtual Sums answer(const Question& question) const = 0;
 };
 

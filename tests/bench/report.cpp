@@ -11,8 +11,8 @@
 #include <fstream>
 #include <iterator>
 
-#include "sim/error.h"
-#include "sim/whole_file.h"
+#include "sim/base/error.h"
+#include "sim/base/whole_file.h"
 
 namespace espalier::bench {
 namespace {

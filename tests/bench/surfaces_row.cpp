@@ -6,10 +6,10 @@
 #include <memory>
 #include <string>
 
-#include "sim/error.h"
-#include "sim/sense/surface.h"
-#include "sim/sky.h"
-#include "sim/sweep.h"
+#include "sim/base/error.h"
+#include "sim/light/sky.h"
+#include "sim/light/surface.h"
+#include "sim/sweep/sweep.h"
 #include "tests/bench/peers.h"
 #include "tests/bench/rows.h"
 

@@ -1,5 +1,5 @@
 #pragma once
-#include "sim/bits.h"
+#include "sim/base/bits.h"
 
 namespace espalier::bench {
 

@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "sim/bits.h"
+#include "sim/base/bits.h"
 
 namespace espalier::bench {
 

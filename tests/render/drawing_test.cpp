@@ -10,7 +10,7 @@
 #include "render/legend.h"
 #include "render/section.h"
 #include "render/tone.h"
-#include "sim/error.h"
+#include "sim/base/error.h"
 
 namespace espalier::render {
 namespace {

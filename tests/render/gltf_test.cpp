@@ -7,8 +7,8 @@
 #include <filesystem>
 #include <set>
 
-#include "sim/error.h"
-#include "sim/whole_file.h"
+#include "sim/base/error.h"
+#include "sim/base/whole_file.h"
 #include "tests/support/small_vine.h"
 
 namespace espalier {

@@ -10,7 +10,7 @@
 #include <thread>
 
 #include "render/tone.h"
-#include "sim/error.h"
+#include "sim/base/error.h"
 
 namespace espalier::render {
 namespace {

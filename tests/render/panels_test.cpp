@@ -7,7 +7,7 @@
 
 #include "render/image_io.h"
 #include "render/shadow.h"
-#include "sim/error.h"
+#include "sim/base/error.h"
 #include "tests/support/little_garden.h"
 
 namespace espalier::render {

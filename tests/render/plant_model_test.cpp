@@ -6,7 +6,7 @@
 #include <limits>
 
 #include "render/leaves.h"
-#include "sim/error.h"
+#include "sim/base/error.h"
 #include "tests/support/small_vine.h"
 
 namespace espalier {

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "sim/error.h"
+#include "sim/base/error.h"
 #include "tests/support/small_vine.h"
 
 namespace espalier {

@@ -1,9 +1,9 @@
 #include "render/vdb.h"
 
 #include <gtest/gtest.h>
-#include "sim/band.h"
-#include "sim/error.h"
-#include "sim/parallel.h"
+#include "sim/base/error.h"
+#include "sim/base/parallel.h"
+#include "sim/world/band.h"
 #include "tests/support/plots.h"
 #include "tests/support/vdb.h"
 

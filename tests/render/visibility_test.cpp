@@ -7,7 +7,7 @@
 #include <map>
 #include <tuple>
 
-#include "sim/error.h"
+#include "sim/base/error.h"
 #include "tests/support/little_garden.h"
 
 namespace espalier::render {

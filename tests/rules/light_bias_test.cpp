@@ -1,8 +1,8 @@
 #include <gtest/gtest.h>
 
 #include "rules/random_tree.h"
-#include "sim/grow.h"
-#include "sim/sky.h"
+#include "sim/grow/grow.h"
+#include "sim/light/sky.h"
 #include "tests/support/plots.h"
 
 namespace espalier {

@@ -8,13 +8,13 @@
 #include <set>
 #include <tuple>
 
-#include "sim/error.h"
-#include "sim/grow.h"
-#include "sim/parallel.h"
+#include "sim/base/error.h"
+#include "sim/base/parallel.h"
+#include "sim/grow/grow.h"
+#include "sim/light/sky.h"
+#include "sim/light/sun.h"
 #include "sim/sense/proximity.h"
-#include "sim/sky.h"
-#include "sim/sun.h"
-#include "sim/tiling.h"
+#include "sim/tile/tiling.h"
 #include "tests/support/plots.h"
 
 namespace espalier {

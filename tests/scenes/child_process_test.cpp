@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "scenes/mesh_wire.h"
-#include "sim/error.h"
+#include "sim/base/error.h"
 
 namespace espalier::scenes {
 namespace {

@@ -6,7 +6,7 @@
 #include <map>
 #include <nlohmann/json.hpp>
 
-#include "sim/build_world.h"
+#include "sim/tile/build_world.h"
 
 namespace espalier::scenes {
 namespace {

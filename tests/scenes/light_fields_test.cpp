@@ -2,8 +2,8 @@
 
 #include <gtest/gtest.h>
 
-#include "sim/band.h"
-#include "sim/build_world.h"
+#include "sim/tile/build_world.h"
+#include "sim/world/band.h"
 #include "tests/support/meshes.h"
 #include "tests/support/vdb.h"
 

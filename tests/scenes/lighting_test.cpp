@@ -4,10 +4,10 @@
 #include <gtest/gtest.h>
 
 #include "render/visibility.h"
-#include "sim/band.h"
-#include "sim/build_world.h"
-#include "sim/parallel.h"
-#include "sim/sweep.h"
+#include "sim/base/parallel.h"
+#include "sim/sweep/sweep.h"
+#include "sim/tile/build_world.h"
+#include "sim/world/band.h"
 #include "tests/support/meshes.h"
 
 namespace espalier::scenes {

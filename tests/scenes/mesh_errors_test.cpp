@@ -5,7 +5,7 @@
 #include <random>
 
 #include "scenes/mesh_import.h"
-#include "sim/error.h"
+#include "sim/base/error.h"
 #include "tests/scenes/mesh_files.h"
 
 namespace espalier::scenes {

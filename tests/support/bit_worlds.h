@@ -1,7 +1,7 @@
 #pragma once
 #include <random>
 
-#include "sim/bits.h"
+#include "sim/base/bits.h"
 
 /// Small worlds with known answers.
 namespace espalier::tests {

@@ -7,8 +7,8 @@
 #include <boost/multiprecision/cpp_int.hpp>
 #include <vector>
 
-#include "sim/frame.h"
-#include "sim/tiling.h"
+#include "sim/base/frame.h"
+#include "sim/tile/tiling.h"
 
 namespace espalier::tests {
 

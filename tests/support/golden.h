@@ -9,7 +9,7 @@
 
 #include "render/image.h"
 #include "render/image_io.h"
-#include "sim/whole_file.h"
+#include "sim/base/whole_file.h"
 
 namespace espalier::tests {
 

@@ -9,10 +9,10 @@
 
 #include "render/camera.h"
 #include "render/panels.h"
-#include "sim/bits.h"
-#include "sim/field.h"
-#include "sim/frame.h"
-#include "sim/ray.h"
+#include "sim/base/bits.h"
+#include "sim/base/frame.h"
+#include "sim/world/field.h"
+#include "sim/world/ray.h"
 
 namespace espalier::tests {
 

@@ -6,7 +6,7 @@
 #include <numbers>
 #include <sstream>
 
-#include "sim/mesh.h"
+#include "sim/tile/mesh.h"
 
 namespace espalier::tests {
 

@@ -2,7 +2,7 @@
 #include <functional>
 #include <string>
 
-#include "sim/error.h"
+#include "sim/base/error.h"
 
 namespace espalier::tests {
 

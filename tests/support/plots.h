@@ -2,7 +2,7 @@
 #include <string>
 #include <vector>
 
-#include "sim/world.h"
+#include "sim/world/world.h"
 
 /// Worlds to grow in, with parts and boundary layers.
 namespace espalier::tests {

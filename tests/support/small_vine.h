@@ -3,10 +3,10 @@
 #include <random>
 #include <utility>
 
-#include "sim/bits.h"
-#include "sim/frame.h"
-#include "sim/mesh.h"
-#include "sim/plant.h"
+#include "sim/base/bits.h"
+#include "sim/base/frame.h"
+#include "sim/grow/plant.h"
+#include "sim/tile/mesh.h"
 
 /// A wall with a floor, and a vine on it that grew by no rule at all: something to model and to draw.
 namespace espalier::tests {

@@ -2,7 +2,7 @@
 // Small worlds, and what it means that two are the same.
 #include <gtest/gtest.h>
 
-#include "sim/world.h"
+#include "sim/world/world.h"
 
 namespace espalier::tests {
 

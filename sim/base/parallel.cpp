@@ -1,0 +1,90 @@
+#include "sim/base/parallel.h"
+
+#include <tbb/blocked_range.h>
+#include <tbb/global_control.h>
+#include <tbb/parallel_for.h>
+#include <tbb/parallel_invoke.h>
+#include <tbb/task_arena.h>
+
+#include <exception>
+#include <limits>
+#include <mutex>
+
+namespace espalier::sim {
+namespace {
+
+/// Keeps exceptions out of oneTBB: one that left a task would cancel the loops that other tasks run inside of
+/// themselves, and libraries such as OpenVDB do not survive their half-done results. The first in order is
+/// thrown when all is done, so that the same input has the same error on any number of threads.
+class Failures {
+ public:
+  template <typename Work>
+  void guard(std::size_t place, const Work& work) noexcept {
+    try {
+      work();
+    } catch (...) {
+      const std::lock_guard lock(mutex_);
+      if (place < first_) {
+        first_ = place;
+        failure_ = std::current_exception();
+      }
+    }
+  }
+  void rethrow() const {
+    if (failure_) std::rethrow_exception(failure_);
+  }
+
+ private:
+  std::mutex mutex_;
+  std::size_t first_ = std::numeric_limits<std::size_t>::max();
+  std::exception_ptr failure_;
+};
+
+using Body = std::function<void(std::size_t, std::size_t)>;
+
+template <typename... Partitioner>
+void loop(const tbb::blocked_range<std::size_t>& all, const Body& body, const Partitioner&... partitioner) {
+  Failures failures;
+  tbb::parallel_for(
+      all,
+      [&](const tbb::blocked_range<std::size_t>& range) {
+        failures.guard(range.begin(), [&] { body(range.begin(), range.end()); });
+      },
+      partitioner...);
+  failures.rethrow();
+}
+
+}  // namespace
+
+void parallelFor(std::size_t count, const Body& body) {
+  loop({0, count}, body);
+}
+
+void parallelFor(std::size_t count, std::size_t grain, const Body& body) {
+  loop({0, count, grain}, body, tbb::simple_partitioner());
+}
+
+void parallelForEach(std::size_t count, const std::function<void(std::size_t)>& body) {
+  parallelFor(count, 1, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) body(i);
+  });
+}
+
+void parallelInvoke(const std::function<void()>& a, const std::function<void()>& b) {
+  Failures failures;
+  tbb::parallel_invoke([&] { failures.guard(0, a); }, [&] { failures.guard(1, b); });
+  failures.rethrow();
+}
+
+int threadCount() {
+  return tbb::this_task_arena::max_concurrency();
+}
+
+void onThreads(int threads, const std::function<void()>& work) {
+  const tbb::global_control limit(tbb::global_control::max_allowed_parallelism,
+                                  static_cast<std::size_t>(threads));
+  tbb::task_arena arena(threads);
+  arena.execute(work);
+}
+
+}  // namespace espalier::sim

@@ -1,0 +1,72 @@
+#include "sim/base/whole_file.h"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+
+#include "sim/base/error.h"
+
+namespace espalier::sim {
+namespace {
+
+constexpr std::string_view kMark = ".espalier-part-";
+
+class Descriptor {
+ public:
+  Descriptor(const std::filesystem::path& path, int flags)
+      : fd_(::open(path.c_str(), flags | O_CLOEXEC, 0644)) {}
+  Descriptor(const Descriptor&) = delete;
+  Descriptor& operator=(const Descriptor&) = delete;
+  ~Descriptor() { close(); }
+
+  bool ok() const { return fd_ >= 0; }
+  bool write(std::string_view bytes) {
+    while (!bytes.empty()) {
+      const ssize_t n = ::write(fd_, bytes.data(), bytes.size());
+      if (n < 0 && errno == EINTR) continue;
+      if (n <= 0) return false;
+      bytes.remove_prefix(static_cast<std::size_t>(n));
+    }
+    return true;
+  }
+  bool sync() const { return ::fsync(fd_) == 0; }
+  bool close() {
+    const int fd = fd_;
+    fd_ = -1;
+    return fd < 0 || ::close(fd) == 0;
+  }
+
+ private:
+  int fd_;
+};
+
+}  // namespace
+
+void writeWhole(const std::filesystem::path& path, std::string_view bytes) {
+  const auto folder = path.has_parent_path() ? path.parent_path() : std::filesystem::path(".");
+  const auto part = folder / fmt::format("{}{}-{}", kMark, path.filename().string(), ::getpid());
+  const auto fail = [&](const char* what) {
+    const int reason = errno;
+    std::error_code ignored;
+    std::filesystem::remove(part, ignored);
+    throw InputError(fmt::format("{}: cannot {}: {}", path.string(), what, std::strerror(reason)));
+  };
+  Descriptor file(part, O_WRONLY | O_CREAT | O_TRUNC);
+  if (!file.ok()) fail("create the file");
+  if (!file.write(bytes) || !file.sync() || !file.close()) fail("write the file");
+  if (::rename(part.c_str(), path.c_str()) != 0) fail("put the file in its place");
+  const Descriptor directory(folder, O_RDONLY | O_DIRECTORY);
+  if (directory.ok()) static_cast<void>(directory.sync());  // some file systems refuse to sync folders
+}
+
+void removeLeftovers(const std::filesystem::path& folder) {
+  std::error_code ignored;
+  for (const auto& entry : std::filesystem::directory_iterator(folder, ignored)) {
+    if (entry.path().filename().string().starts_with(kMark)) std::filesystem::remove(entry.path(), ignored);
+  }
+}
+
+}  // namespace espalier::sim

@@ -1,0 +1,63 @@
+#pragma once
+#include <cstdint>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "sim/base/vec.h"
+#include "sim/world/world.h"
+
+namespace espalier::sim {
+
+using NodeId = std::int32_t;
+inline constexpr NodeId kNoNode = -1;
+
+/// The tree of a plant's nodes; a segment joins a node to its parent. Data lie in arrays keyed by node, and a
+/// parent's number is always lower than its child's.
+struct Skeleton {
+  std::vector<NodeId> parent;  ///< kNoNode for a seed
+  std::vector<Vec3> position_vx;
+  std::vector<std::int32_t> born;   ///< iteration in which the node was placed
+  std::vector<float> exposure;      ///< blended exposure when placed, 0..1
+  std::vector<float> sky_exposure;  ///< 0..1
+  std::vector<float> sun_exposure;  ///< 0..1
+  std::vector<float>
+      proximity_vx;  ///< mean distance to the scene along the segment; infinity beyond the layers
+
+  NodeId size() const { return static_cast<NodeId>(parent.size()); }
+};
+
+/// A shape that is placed on a plant: a leaf, a flower. Local frame: the element is attached at the origin,
+/// grows along +y, and shows its face to +z.
+struct ElementShape {
+  std::string name;
+  std::vector<std::vector<Vec3>> polygons;  ///< corners in order; unit: voxel widths at scale 1
+  Colour colour{0.15f, 0.35f, 0.08f};       ///< linear RGB
+};
+
+struct PlacedElement {
+  NodeId node = kNoNode;   ///< stands on the segment between this node and its parent
+  std::int32_t shape = 0;  ///< index into Plant::shapes
+  Vec3 position_vx{0.0};
+  Vec3 x{1, 0, 0}, y{0, 1, 0}, z{0, 0, 1};  ///< orthonormal, right-handed: local axes in voxel space
+  double scale = 1.0;
+  float exposure = 0.0f;
+  std::int32_t born = 0;
+};
+
+inline Vec3 placed(const PlacedElement& e, Vec3 local) {
+  return e.position_vx + e.scale * (local.x * e.x + local.y * e.y + local.z * e.z);
+}
+
+struct Plant {
+  std::string name;
+  Skeleton skeleton;
+  std::vector<ElementShape> shapes;
+  std::vector<PlacedElement> elements;
+  Colour stem_colour{0.16f, 0.10f, 0.05f};
+  double stem_radius_vx = 0.08;  ///< of a twig that does not fork
+  PartId stem_part = kFree;
+  std::vector<PartId> element_parts;  ///< a part for each shape
+};
+
+}  // namespace espalier::sim

@@ -1,0 +1,138 @@
+#include "sim/light/brightest.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numbers>
+#include <tuple>
+
+#include "sim/base/error.h"
+#include "sim/base/parallel.h"
+#include "sim/light/exposure.h"
+#include "sim/world/field.h"
+
+namespace espalier::sim {
+namespace {
+
+constexpr int kMostRows = 45, kMostColumns = 180;  // cells of two degrees
+constexpr float kPi = std::numbers::pi_v<float>;
+
+bool isOpen(std::span<const std::uint64_t> open, std::size_t ray) {
+  return ((open[ray / 64] >> (ray % 64)) & 1u) != 0;
+}
+
+/// Unit direction at an elevation and azimuth, radians. In single precision: glibc's double functions give
+/// other last bits on other processors.
+Vec3f directionAt(float elevation, float azimuth) {
+  const float across = cosf(elevation);
+  return {across * cosf(azimuth), sinf(elevation), across * sinf(azimuth)};
+}
+
+/// What comes from the open cells in front of a surface that faces this way: the gradient of what the surface
+/// receives.
+Vec3 lightInFront(const SkyTable& table, std::span<const std::uint64_t> open, Vec3 facing) {
+  Vec3 sum(0.0);
+  for (const SkyTable::Cell& cell : table.cells) {
+    if (isOpen(open, cell.ray) && glm::dot(Vec3(cell.centre), facing) > 0.0)
+      sum += static_cast<double>(cell.light) * Vec3(cell.centre);
+  }
+  return sum;
+}
+
+}  // namespace
+
+Background backgroundOf(Weighting weighting) {
+  if (weighting == Weighting::cie_overcast) return [](Vec3 unit) { return (1.0 + 2.0 * unit.y) / 3.0; };
+  return [](Vec3) { return 1.0; };
+}
+
+SkyTable makeSkyTable(int rows, int columns, const Background& background) {
+  if (rows < 2 || rows > kMostRows || columns < 4 || columns > kMostColumns) {
+    throw InputError(
+        fmt::format("a sky table of {} rows and {} columns; expected 2 to {} rows and 4 to {} columns", rows,
+                    columns, kMostRows, kMostColumns));
+  }
+  SkyTable table{rows, columns, {}, {}};
+  const int longest = std::min(2 * rows, kLongestComponent);
+  const float row_step = 0.5f * kPi / static_cast<float>(rows);
+  const float column_step = 2.0f * kPi / static_cast<float>(columns);
+  std::vector<Voxel> vectors;
+  std::vector<double> lights;
+  std::map<std::tuple<int, int, int>, std::uint32_t> known;
+  for (int row = 0; row < rows; ++row) {
+    const float top = static_cast<float>(rows - row) * row_step;
+    const float solid_angle = column_step * (sinf(top) - sinf(top - row_step));
+    for (int column = 0; column < columns; ++column) {
+      const Vec3f centre =
+          directionAt(top - 0.5f * row_step, (static_cast<float>(column) + 0.5f) * column_step);
+      const double radiance = background(Vec3(centre));
+      if (!(radiance >= 0.0) || !std::isfinite(radiance)) {
+        throw InputError(
+            fmt::format("the sky's radiance at ({:.3f}, {:.3f}, {:.3f}) is {}; expected a number not below 0",
+                        centre.x, centre.y, centre.z, radiance));
+      }
+      const Voxel v = nearestLatticeVector(glm::normalize(Vec3(centre)), longest);
+      const auto [at, is_new] =
+          known.try_emplace({v.y, v.z, v.x}, static_cast<std::uint32_t>(vectors.size()));
+      if (is_new) {
+        vectors.push_back(v);
+        lights.push_back(0.0);
+      }
+      table.cells.push_back({centre, static_cast<float>(radiance) * solid_angle, at->second});
+      lights[at->second] += static_cast<double>(table.cells.back().light);
+    }
+  }
+  if (std::none_of(lights.begin(), lights.end(), [](double light) { return light > 0.0; }))
+    throw InputError("a sky table without light; expected a radiance above 0 somewhere");
+  table.rays = directionSet(vectors, lights, ExposureField::kWhole);
+  return table;
+}
+
+std::vector<float> illumination(const SkyTable& table, std::span<const std::uint64_t> open) {
+  std::vector<float> filtered(table.cells.size());
+  for (const SkyTable::Cell& from : table.cells) {
+    if (!isOpen(open, from.ray)) continue;
+    const Vec3f light = from.light * from.centre;
+    for (std::size_t i = 0; i < filtered.size(); ++i)
+      filtered[i] += std::max(0.0f, glm::dot(table.cells[i].centre, light));
+  }
+  return filtered;
+}
+
+Vec3 brightest(const SkyTable& table, std::span<const std::uint64_t> open) {
+  constexpr int kMostSteps = 64;
+  constexpr double kArrived = 1.0 - 1e-12;
+  const std::vector<float> filtered = illumination(table, open);
+  const auto best = std::max_element(filtered.begin(), filtered.end());
+  if (best == filtered.end() || *best <= 0.0f) return Vec3(0.0);
+  // What a surface receives is a convex function of its normal, and homogeneous: facing the light in front of
+  // it never loses any.
+  Vec3 way = glm::normalize(Vec3(table.cells[static_cast<std::size_t>(best - filtered.begin())].centre));
+  for (int step = 0; step < kMostSteps; ++step) {
+    const Vec3 next = glm::normalize(lightInFront(table, open, way));
+    const bool arrived = glm::dot(next, way) > kArrived;
+    way = next;
+    if (arrived) break;
+  }
+  return way;
+}
+
+Vec3 brightest(const SkyTable& table, const BitVolume& occupied, Voxel p) {
+  std::vector<std::uint64_t> open((table.rays.size() + 63) / 64);
+  for (std::size_t ray = 0; ray < table.rays.size(); ++ray) {
+    if (reachesEdge(occupied, p, table.rays[ray])) open[ray / 64] |= std::uint64_t{1} << (ray % 64);
+  }
+  return brightest(table, open);
+}
+
+std::vector<Vec3f> brightest(const SkyTable& table, const OpenTable& open) {
+  std::vector<Vec3f> ways(open.where->count());
+  parallelFor(ways.size(), 16, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) ways[i] = Vec3f(brightest(table, open.row(i)));
+  });
+  return ways;
+}
+
+}  // namespace espalier::sim

@@ -1,0 +1,57 @@
+#pragma once
+#include <cstdint>
+#include <functional>
+#include <span>
+#include <vector>
+
+#include "sim/base/bits.h"
+#include "sim/light/sky.h"
+#include "sim/sweep/open_table.h"
+
+/// Where light comes from: the way that a plant turns to.
+///
+/// Its fast estimate is the first moment, Outlook::toward (sim/light/exposure.h), the weighted sum of the
+/// open directions. Where no two of them are more than a right angle apart it is the maximum itself; it is
+/// off where light comes from opposite sides: it then points between them.
+namespace espalier::sim {
+
+/// Radiance of the open sky towards a unit direction with y > 0, in any unit; not below 0.
+using Background = std::function<double(Vec3 unit)>;
+
+/// The sky that a weighting stands for: alike everywhere, or brighter towards the zenith (CIE overcast).
+Background backgroundOf(Weighting weighting);
+
+/// Greene's latitude-longitude table of the sky (Voxel Space Automata, 1989, section 6): cells of equal steps
+/// of elevation and azimuth, the top row first, each with a ray and with the light that it gives where the
+/// ray is open.
+///
+/// A cell's ray runs along the lattice vector nearest to its centre, at most a quarter of a cell's height
+/// away from it: so it walks the same voxels as every other ray here, and a sweep casts it for any number of
+/// places. Cells that crowd around the zenith share rays.
+struct SkyTable {
+  struct Cell {
+    Vec3f centre{0.0f};     ///< unit direction
+    float light = 0.0f;     ///< background times solid angle, steradians
+    std::uint32_t ray = 0;  ///< number in `rays`
+  };
+  int rows = 0, columns = 0;
+  DirectionSet rays;  ///< weighted by their cells' light; the weights add up to ExposureField::kWhole
+  std::vector<Cell> cells;
+};
+
+/// Throws InputError for a table that is too small or too large, and for a background without light.
+SkyTable makeSkyTable(int rows, int columns, const Background& background);
+
+/// The table as Greene filters it: what a surface that faces each cell would receive, the light of the open
+/// cells convolved with the cosine lobe. Bit i of `open` is ray i.
+std::vector<float> illumination(const SkyTable& table, std::span<const std::uint64_t> open);
+
+/// The unit direction in which a surface receives most: the brightest cell of the filtered table, followed
+/// uphill to the maximum beside it, so that it does not jump from cell to cell. Zero where nothing is open.
+Vec3 brightest(const SkyTable& table, std::span<const std::uint64_t> open);
+/// The same from one voxel of a world.
+Vec3 brightest(const SkyTable& table, const BitVolume& occupied, Voxel p);
+/// For each of the places of `open`, which must be of the table's rays.
+std::vector<Vec3f> brightest(const SkyTable& table, const OpenTable& open);
+
+}  // namespace espalier::sim

@@ -1,0 +1,99 @@
+#include "sim/light/exposure.h"
+
+#include <algorithm>
+#include <limits>
+
+namespace espalier::sim {
+
+bool reachesEdge(const BitVolume& occupied, Voxel p, const LatticeDirection& direction) {
+  const Voxel size = occupied.size();
+  for (Voxel start = p;; start += direction.v) {
+    for (const Voxel o : direction.crossed) {
+      const Voxel q = start + o;
+      if (!contains(size, q)) return true;  // the world is convex: a ray that left it does not come back
+      if (((occupied.row(q.y, q.z)[q.x >> 6] >> (q.x & 63)) & 1u) != 0) return false;
+    }
+  }
+}
+
+Outlook lookOut(const BitVolume& occupied, Voxel p, const DirectionSet& directions) {
+  Outlook outlook;
+  for (const LatticeDirection& direction : directions) {
+    if (!reachesEdge(occupied, p, direction)) continue;
+    outlook.sum = static_cast<std::uint16_t>(outlook.sum + direction.weight);
+    outlook.toward += static_cast<double>(direction.weight) * glm::normalize(Vec3(direction.v));
+  }
+  return outlook;
+}
+
+Outlook outlook(const OpenTable& open, std::size_t place, std::span<const LatticeDirection> directions,
+                std::size_t first) {
+  Outlook outlook;
+  for (std::size_t i = 0; i < directions.size(); ++i) {
+    if (!open.open(place, first + i)) continue;
+    outlook.sum = static_cast<std::uint16_t>(outlook.sum + directions[i].weight);
+    outlook.toward += static_cast<double>(directions[i].weight) * glm::normalize(Vec3(directions[i].v));
+  }
+  return outlook;
+}
+
+Lookout::Lookout(const BitVolume& shape, const DirectionSet& directions) {
+  const auto bitStep = [&](Voxel o) {
+    return (static_cast<std::ptrdiff_t>(o.y) * shape.size().z + o.z) * shape.rowWords() *
+               BitVolume::kWordBits +
+           o.x;
+  };
+  for (const LatticeDirection& direction : directions) {
+    const std::size_t first = crossed_.size();
+    for (const Voxel o : direction.crossed) {
+      crossed_.push_back(o);
+      steps_.push_back(bitStep(o));
+    }
+    rays_.push_back(
+        {direction.v, direction.weight, glm::normalize(Vec3(direction.v)), first, crossed_.size()});
+  }
+}
+
+namespace {
+
+/// How many whole periods of v fit between p and the edge of the world.
+int periodsInside(Voxel size, Voxel p, Voxel v) {
+  int periods = std::numeric_limits<int>::max();
+  for (int axis = 0; axis < 3; ++axis) {
+    if (v[axis] > 0) periods = std::min(periods, (size[axis] - 1 - p[axis]) / v[axis]);
+    if (v[axis] < 0) periods = std::min(periods, p[axis] / -v[axis]);
+  }
+  return periods;
+}
+
+}  // namespace
+
+Outlook Lookout::from(const BitVolume& occupied, Voxel p) const {
+  const std::uint64_t* const words = occupied.words().data();
+  const std::ptrdiff_t start = (occupied.row(p.y, p.z) - words) * BitVolume::kWordBits + p.x;
+  Outlook outlook;
+  for (const Ray& ray : rays_) {
+    const auto reaches = [&] {
+      const int periods = periodsInside(occupied.size(), p, ray.v);
+      std::ptrdiff_t bit = start;
+      for (int k = 0; k < periods; ++k) {  // all of it lies inside, so nothing needs to be asked but the bits
+        for (std::size_t i = ray.first; i < ray.last; ++i) {
+          const std::ptrdiff_t at = bit + steps_[i];
+          if (((words[at >> 6] >> (at & 63)) & 1u) != 0) return false;
+        }
+        bit += steps_[ray.last - 1];
+      }
+      const Voxel last = p + periods * ray.v;
+      for (std::size_t i = ray.first; i < ray.last && contains(occupied.size(), last + crossed_[i]); ++i) {
+        if (occupied.at(last + crossed_[i])) return false;
+      }
+      return true;
+    };
+    if (!reaches()) continue;
+    outlook.sum = static_cast<std::uint16_t>(outlook.sum + ray.weight);
+    outlook.toward += static_cast<double>(ray.weight) * ray.unit;
+  }
+  return outlook;
+}
+
+}  // namespace espalier::sim

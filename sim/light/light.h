@@ -1,0 +1,32 @@
+#pragma once
+#include <span>
+#include <vector>
+
+#include "sim/light/exposure.h"
+
+namespace espalier::sim {
+
+/// What can be seen of the sky and of the sun's way from a place.
+struct Light {
+  Outlook sky, sun;
+};
+
+/// Asks for the light at some places, again and again while a world of one shape fills: by casting each ray
+/// where the places are few, by sweeping the world where they are many. Both give the same answer bit for
+/// bit.
+class LightSensor {
+ public:
+  LightSensor(const BitVolume& shape, const DirectionSet& sky, const DirectionSet& sun);
+
+  /// `opaque` must have the shape that was given, and the places must lie in it.
+  std::vector<Light> at(const BitVolume& opaque, std::span<const Voxel> places) const;
+  std::vector<Light> byRays(const BitVolume& opaque, std::span<const Voxel> places) const;
+  std::vector<Light> bySweep(const BitVolume& opaque, std::span<const Voxel> places) const;
+
+ private:
+  DirectionSet directions_;  // the sky's, then the sun's
+  std::size_t sky_count_;
+  Lookout sky_, sun_;
+};
+
+}  // namespace espalier::sim

@@ -1,0 +1,254 @@
+#include "sim/light/surface.h"
+
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <cmath>
+
+#include "sim/base/parallel.h"
+
+namespace espalier::sim {
+namespace {
+
+// How places are chosen, in voxel widths. Found by trying (docs/decisions.md).
+constexpr float kClear = 0.4f;     // of |n.x| + |n.y| + |n.z|: above this height the stairs of a slanting
+                                   // surface hide almost nothing; the stairs' tips reach up to a half of it
+constexpr float kLoose = 0.1f;     // height that must do in narrow gaps
+constexpr float kDepth = 2.0f;     // from the lowest to the highest place
+constexpr float kRadius = 1.4f;    // places lie so near to the normal
+constexpr float kDamping = 0.02f;  // added to the heights' variance, which may be little
+
+using Tap = SurfaceSensors::Tap;
+
+/// Until all places are known, a tap's place is the way from the surface to it.
+constexpr int kWayBits = 5, kWayZero = 1 << (kWayBits - 1);
+
+std::uint32_t packed(Voxel way) {
+  const Voxel w = way + kWayZero;
+  return static_cast<std::uint32_t>((w.y << (2 * kWayBits)) | (w.z << kWayBits) | w.x);
+}
+Voxel unpacked(std::uint32_t way) {
+  const auto w = static_cast<int>(way);
+  constexpr int kMask = (1 << kWayBits) - 1;
+  return Voxel(w & kMask, w >> (2 * kWayBits), (w >> kWayBits) & kMask) - kWayZero;
+}
+
+/// The free places in front of a surface.
+struct Places {
+  static constexpr std::size_t kMost = 64;
+  std::array<Voxel, kMost> way;
+  std::array<float, kMost> height, nearness;
+  std::size_t count = 0;
+
+  void add(Voxel w, float h, float squared_lateral) {
+    if (count == kMost) return;
+    const float n = 1.0f - squared_lateral / (kRadius * kRadius);
+    way[count] = w;
+    height[count] = h;
+    nearness[count++] = n * n;
+  }
+};
+
+/// Walks up the columns of voxels along the normal's largest component; what lies behind something that takes
+/// light does not see what the surface sees.
+Places placesBefore(const BitVolume& opaque, Voxel voxel, Vec3f n, float offset, float clear) {
+  const Vec3f size = glm::abs(n);
+  const int up = size.y >= size.x && size.y >= size.z ? 1 : size.x >= size.z ? 0 : 2;
+  const int u = (up + 1) % 3, w = (up + 2) % 3;
+  const float skin = 0.5f * size[up] + 1e-3f;  // an open surface's own voxels reach so high
+  Voxel low, high;
+  for (int axis = 0; axis < 3; ++axis) {
+    const float aside = kRadius * std::sqrt(std::max(0.0f, 1.0f - n[axis] * n[axis]));
+    const float a = n[axis] * (offset + clear), b = n[axis] * (offset + clear + kDepth);
+    low[axis] = static_cast<int>(std::ceil(std::min(a, b) - aside));
+    high[axis] = static_cast<int>(std::floor(std::max(a, b) + aside));
+  }
+  const int step = n[up] > 0.0f ? 1 : -1;
+  const int begin = step > 0 ? low[up] - 1 : high[up] + 1, end = step > 0 ? high[up] + 1 : low[up] - 1;
+  Places places;
+  Voxel way;
+  for (way[u] = low[u]; way[u] <= high[u]; ++way[u]) {
+    for (way[w] = low[w]; way[w] <= high[w]; ++way[w]) {
+      for (way[up] = begin; way[up] != end; way[up] += step) {
+        const Vec3f o(way);
+        const float along = glm::dot(o, n), h = along - offset;
+        if (h > clear + kDepth) break;
+        const Voxel v = voxel + way;
+        if (!contains(opaque.size(), v)) continue;
+        if (opaque.at(v)) {
+          if (h > skin) break;
+          continue;
+        }
+        const float squared_lateral = glm::dot(o, o) - along * along;
+        if (h >= clear && squared_lateral < kRadius * kRadius) places.add(way, h, squared_lateral);
+      }
+    }
+  }
+  return places;
+}
+
+/// Appends the places with the weights by which a straight line, fitted to their values over their heights,
+/// gives the value at height 0.
+void appendTaps(const Places& places, std::vector<Tap>& taps) {
+  float sum = 0.0f, heights = 0.0f, squares = 0.0f;
+  for (std::size_t i = 0; i < places.count; ++i) {
+    sum += places.nearness[i];
+    heights += places.nearness[i] * places.height[i];
+  }
+  const float mean = heights / sum;
+  for (std::size_t i = 0; i < places.count; ++i) {
+    const float d = places.height[i] - mean;
+    squares += places.nearness[i] * d * d;
+  }
+  const float slope = mean / (squares / sum + kDamping);
+  for (std::size_t i = 0; i < places.count; ++i) {
+    const float weight = places.nearness[i] / sum * (1.0f - slope * (places.height[i] - mean));
+    taps.push_back({packed(places.way[i]), weight});
+  }
+}
+
+/// Deep inside of something: there no light gets in.
+bool buried(const BitVolume& opaque, Voxel voxel) {
+  for (int dy = -1; dy <= 1; ++dy) {
+    for (int dz = -1; dz <= 1; ++dz) {
+      for (int dx = -1; dx <= 1; ++dx) {
+        if (!opaque.at(voxel + Voxel(dx, dy, dz))) return false;
+      }
+    }
+  }
+  return true;
+}
+
+/// The same for 64 voxels of a row at once.
+std::uint64_t buriedBits(const BitVolume& opaque, int y, int z, int word) {
+  if (y == 0 || z == 0 || y + 1 == opaque.size().y || z + 1 == opaque.size().z) return 0;
+  std::uint64_t all = ~std::uint64_t{0};
+  for (int dy = -1; dy <= 1; ++dy) {
+    for (int dz = -1; dz <= 1; ++dz) {
+      const std::uint64_t* const row = opaque.row(y + dy, z + dz) + word;  // zero words lie around a row
+      all &= row[0] & (row[0] << 1 | row[-1] >> 63) & (row[0] >> 1 | row[1] << 63);
+    }
+  }
+  return all;
+}
+
+/// Some of the surfaces in order, those that can be lit.
+struct Stretch {
+  std::vector<TiledVoxel> surfaces;
+  std::vector<Tap> taps;
+  std::vector<std::uint32_t> counts;
+
+  void add(const BitVolume& opaque, const TiledVoxel& tiled) {
+    const Vec3f normal = tiled.surface.normal;
+    if (normal == Vec3f(0.0f) || buried(opaque, tiled.voxel)) return;
+    const float clear = kClear * (std::abs(normal.x) + std::abs(normal.y) + std::abs(normal.z));
+    Places places = placesBefore(opaque, tiled.voxel, normal, tiled.surface.offset_vx, clear);
+    if (places.count == 0)
+      places = placesBefore(opaque, tiled.voxel, normal, tiled.surface.offset_vx, kLoose);
+    if (places.count == 0) return;
+    surfaces.push_back(tiled);
+    counts.push_back(static_cast<std::uint32_t>(places.count));
+    appendTaps(places, taps);
+  }
+
+  /// Parts share words of the rows; the order in which bits are set does not matter.
+  void mark(BitVolume& places) const {
+    std::size_t tap = 0;
+    for (std::size_t i = 0; i < surfaces.size(); ++i) {
+      for (std::uint32_t k = 0; k < counts[i]; ++k) {
+        const Voxel v = surfaces[i].voxel + unpacked(taps[tap++].place);
+        std::atomic_ref(places.row(v.y, v.z)[v.x >> 6])
+            .fetch_or(std::uint64_t{1} << (v.x & 63), std::memory_order_relaxed);
+      }
+    }
+  }
+};
+
+/// VoxelSet::number for places that mostly lie in the words of a few rows, one after the other.
+class Numbers {
+ public:
+  explicit Numbers(const VoxelSet& set) : set_(set) {}
+
+  std::uint32_t operator()(Voxel v) {
+    const int word = v.x >> 6;
+    Known& known = known_[static_cast<std::size_t>((v.y & 15) * 16 + (v.z & 15))];
+    if (known.at != Voxel(word, v.y, v.z))
+      known = {Voxel(word, v.y, v.z), set_.number({word * BitVolume::kWordBits, v.y, v.z})};
+    const std::uint64_t before = (std::uint64_t{1} << (v.x & 63)) - 1;
+    const auto bits = static_cast<std::size_t>(std::popcount(set_.bits().row(v.y, v.z)[word] & before));
+    return static_cast<std::uint32_t>(known.number + bits);
+  }
+
+ private:
+  struct Known {
+    Voxel at{-1};
+    std::size_t number = 0;  ///< of the word's first place
+  };
+  const VoxelSet& set_;
+  std::array<Known, 256> known_;
+};
+
+SurfaceSensors joined(Voxel size, std::vector<Stretch> stretches) {
+  BitVolume bits(size);
+  parallelForEach(stretches.size(), [&](std::size_t p) { stretches[p].mark(bits); });
+  SurfaceSensors sensors;
+  sensors.places = std::make_shared<const VoxelSet>(std::move(bits));
+  std::vector<std::size_t> surface(stretches.size() + 1), tap(stretches.size() + 1);
+  for (std::size_t p = 0; p < stretches.size(); ++p) {
+    surface[p + 1] = surface[p] + stretches[p].surfaces.size();
+    tap[p + 1] = tap[p] + stretches[p].taps.size();
+  }
+  sensors.surfaces.resize(surface.back());
+  sensors.first.resize(surface.back() + 1);
+  sensors.taps.resize(tap.back());
+  sensors.first.back() = tap.back();
+  parallelForEach(stretches.size(), [&](std::size_t p) {
+    Stretch mine = std::move(stretches[p]);
+    std::size_t next = tap[p];
+    Numbers numbers(*sensors.places);
+    for (std::size_t i = 0; i < mine.surfaces.size(); ++i) {
+      const TiledVoxel& tiled = mine.surfaces[i];
+      sensors.surfaces[surface[p] + i] = tiled;
+      sensors.first[surface[p] + i] = next;
+      for (std::uint32_t k = 0; k < mine.counts[i]; ++k, ++next) {
+        const Tap t = mine.taps[next - tap[p]];
+        const Voxel place = tiled.voxel + unpacked(t.place);
+        sensors.taps[next] = {numbers(place), t.weight};
+      }
+    }
+  });
+  return sensors;
+}
+
+}  // namespace
+
+SurfaceSensors surfaceSensors(const World& world) {
+  const Voxel size = world.frame().size;
+  std::vector<Stretch> stretches(static_cast<std::size_t>(size.y));
+  parallelForEach(stretches.size(), [&](std::size_t slice) {
+    const int y = static_cast<int>(slice);
+    for (int z = 0; z < size.z; ++z) {
+      const std::uint64_t* const row = world.occupied().row(y, z);
+      for (int i = 0; i < world.occupied().rowWords() - 1; ++i) {
+        for (std::uint64_t word = row[i] & ~buriedBits(world.opaque(), y, z, i); word != 0;
+             word &= word - 1) {
+          const Voxel v(i * BitVolume::kWordBits + std::countr_zero(word), y, z);
+          stretches[slice].add(world.opaque(), {v, *world.surfaceAt(v)});
+        }
+      }
+    }
+  });
+  return joined(size, std::move(stretches));
+}
+
+SurfaceSensors surfaceSensors(const World& world, std::vector<TiledVoxel> surfaces) {
+  constexpr std::size_t kChunk = 4096;
+  std::vector<Stretch> stretches((surfaces.size() + kChunk - 1) / kChunk);
+  parallelForEach(stretches.size(), [&](std::size_t p) {
+    const std::size_t last = std::min((p + 1) * kChunk, surfaces.size());
+    for (std::size_t i = p * kChunk; i < last; ++i) stretches[p].add(world.opaque(), surfaces[i]);
+  });
+  return joined(world.frame().size, std::move(stretches));
+}
+
+}  // namespace espalier::sim

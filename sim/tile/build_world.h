@@ -1,0 +1,48 @@
+#pragma once
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "sim/tile/mesh.h"
+#include "sim/world/world.h"
+
+namespace espalier::sim {
+
+/// A mesh to be tiled, in place in world space.
+struct TiledMesh {
+  Mesh mesh;
+  bool solid = false;  ///< fill its inside too
+};
+
+/// What filling found out about a mesh that may leak.
+struct FillReport {
+  std::string object;
+  std::size_t filled = 0;    ///< voxels inside
+  std::size_t doubtful = 0;  ///< voxels where the lines along the axes disagreed: there the mesh leaks
+};
+
+/// Tiles meshes into a new world, in parallel; the result does not depend on the thread count.
+/// A voxel that several triangles cross takes the part that covers most of it, the mean colour by area, and
+/// the area-weighted normal; meshes that come first keep their voxels. Triangles outside the frame are
+/// clipped away. Filling is robust: lines through each free voxel judge it from both of their ends by the
+/// winding number of their crossings, so overlapping solids stay full, meshes may be inside out, and where a
+/// line leaks its ends contradict each other and the majority of thirteen directions decides
+/// (sim/tile/fill.cpp). Throws InputError if the world is too large for memory, naming the voxel size that
+/// would fit, and for a mesh that is not sound (indices, numbers) or too large to fill.
+World buildWorld(const Frame& frame, const std::vector<TiledMesh>& meshes, int layers,
+                 std::vector<FillReport>* fills = nullptr);
+
+/// The smallest frame of whole voxels that holds the meshes plus a margin on every side.
+/// Throws InputError where there is nothing to hold or voxel_m is not positive.
+Frame frameAround(const std::vector<TiledMesh>& meshes, double voxel_m, double margin_m);
+
+/// What a world is for, as far as it takes memory.
+struct WorldUse {
+  int layers = 0;
+  double bytes_per_voxel = 0.0;  ///< of fields that cover every voxel; surfaces need none
+};
+
+/// Throws InputError when a world of this size would not fit, naming the voxel size that would.
+void requireFits(const Frame& frame, const WorldUse& use = {});
+
+}  // namespace espalier::sim

@@ -1,0 +1,22 @@
+#pragma once
+// Internal to the room: what lies inside a mesh that may leak, and what of it takes light.
+#include <array>
+#include <vector>
+
+#include "sim/base/bits.h"
+#include "sim/base/vec.h"
+#include "sim/tile/lines.h"
+
+namespace espalier::sim {
+
+struct Filled {
+  BitVolume inside;  ///< of a solid's voxels, those that the surface leaves free
+  BitVolume opaque;  ///< what takes light: all that are inside, and where that is too little, those behind
+  std::size_t doubtful = 0;  ///< free voxels that the lines along the axes did not settle
+};
+
+/// `surface` are the voxels that the mesh's own triangles tile. Corners must lie within 16,000 voxels of the
+/// origin.
+Filled fillMesh(const Triangles& triangles_vx, const BitVolume& surface, bool solid);
+
+}  // namespace espalier::sim

@@ -1,0 +1,31 @@
+#pragma once
+#include <optional>
+
+#include "sim/base/bits.h"
+#include "sim/base/vec.h"
+
+namespace espalier::sim {
+
+struct RayHit {
+  Voxel voxel{0};  ///< the first occupied voxel
+  Voxel face{0};   ///< outward normal of the cube's face that was hit; zero if the ray began inside the voxel
+  double t = 0.0;  ///< distance along the unit direction, voxel widths
+};
+
+/// Bricks of 8x8x8 voxels that hold anything at all: lets a ray cross empty space in large steps.
+class Bricks {
+ public:
+  explicit Bricks(const BitVolume& occupied);
+  bool any(Voxel brick) const { return bits_.at(brick); }
+
+ private:
+  BitVolume bits_;
+};
+
+/// The first occupied voxel that a ray meets (Amanatides and Woo 1987, over bricks and then voxels). The
+/// origin may lie outside the world. `direction` must be of unit length. Where the ray passes exactly through
+/// an edge or a corner, x is crossed before y and y before z.
+std::optional<RayHit> firstHit(const BitVolume& occupied, const Bricks& bricks, Vec3 origin_vx,
+                               Vec3 direction);
+
+}  // namespace espalier::sim

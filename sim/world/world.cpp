@@ -1,0 +1,214 @@
+#include "sim/world/world.h"
+
+#include <fmt/format.h>
+
+#include <cassert>
+#include <limits>
+
+#include "sim/base/error.h"
+#include "sim/base/parallel.h"
+#include "sim/base/random.h"
+#include "sim/world/world_grids.h"
+
+namespace espalier::sim {
+namespace {
+
+template <typename Grid>
+typename Grid::Ptr makeGrid(const char* name, const typename Grid::ValueType& background,
+                            const openvdb::math::Transform::Ptr& transform) {
+  auto grid = Grid::create(background);
+  grid->setName(name);
+  grid->setTransform(transform);
+  return grid;
+}
+
+std::unique_ptr<World::Grids> makeGrids(const Frame& frame) {
+  const auto transform = openvdb::math::Transform::createLinearTransform(frame.voxel_m);
+  transform->postTranslate({frame.origin_m.x, frame.origin_m.y, frame.origin_m.z});
+  constexpr float kFar = std::numeric_limits<float>::infinity();
+  const openvdb::Vec3f none(0.0f);
+  return std::make_unique<World::Grids>(World::Grids{
+      .part = makeGrid<openvdb::Int32Grid>("part", kFree, transform),
+      .colour = makeGrid<openvdb::Vec3SGrid>("colour", none, transform),
+      .coverage = makeGrid<openvdb::FloatGrid>("coverage", 0.0f, transform),
+      .normal = makeGrid<openvdb::Vec3SGrid>("normal", none, transform),
+      .offset_vx = makeGrid<openvdb::FloatGrid>("offset_vx", 0.0f, transform),
+      .layer = makeGrid<openvdb::Int32Grid>("layer", -1, transform),
+      .nearest = makeGrid<openvdb::Int32Grid>("nearest", kFree, transform),
+      .distance_vx = makeGrid<openvdb::FloatGrid>("distance_vx", kFar, transform),
+      .surface = BlockMap<World::Grids::SurfaceLeaves>(frame.size),
+      .near = BlockMap<World::Grids::NearLeaves>(frame.size),
+  });
+}
+
+openvdb::Index offsetInLeaf(Voxel v) {
+  return openvdb::Int32Tree::LeafNodeType::coordToOffset(coordOf(v));
+}
+
+/// How large a share of the rays through a voxel its contents stop: their mean projected area over the
+/// cube's, each a quarter of its surface (Cauchy 1850). A leaf of one-sided area A shows A / 2, a limb of
+/// silhouette A about 0.8 A, and the cube 3 / 2 faces.
+float opacity(const Surface& surface, PartKind kind) {
+  switch (kind) {
+    case PartKind::scene:
+      return 1.0f;  // a wall has no holes where a triangle only clips a voxel's corner
+    case PartKind::stem:
+      return surface.coverage / 2.0f;
+    case PartKind::element:
+      return surface.coverage / 3.0f;
+  }
+  return 1.0f;
+}
+
+bool stopsLight(Voxel v, float share) {
+  const RandomKey key{0, static_cast<std::uint32_t>(v.x), static_cast<std::uint32_t>(v.y),
+                      static_cast<std::uint32_t>(v.z)};
+  return Draws(key, Purpose::opacity).uniform() < static_cast<double>(share);
+}
+
+openvdb::Vec3f toVdb(glm::vec3 v) {
+  return {v.x, v.y, v.z};
+}
+glm::vec3 fromVdb(const openvdb::Vec3f& v) {
+  return {v.x(), v.y(), v.z()};
+}
+
+}  // namespace
+
+World::World(const Frame& frame)
+    : frame_(frame), occupied_(frame.size), opaque_(frame.size), grids_(makeGrids(frame)) {}
+World::World(World&&) noexcept = default;
+World& World::operator=(World&&) noexcept = default;
+World::~World() = default;
+
+PartId World::addPart(Part part) {
+  parts_.push_back(std::move(part));
+  return static_cast<PartId>(parts_.size());
+}
+
+void World::keep(const TiledVoxel& tiled) {
+  const auto& [voxel, surface] = tiled;
+  if (!contains(frame_.size, voxel)) {
+    throw BrokenContract(
+        fmt::format("voxel ({}, {}, {}) lies outside the world of {} x {} x {} and cannot be occupied",
+                    voxel.x, voxel.y, voxel.z, frame_.size.x, frame_.size.y, frame_.size.z));
+  }
+  assert(surface.part > kFree && static_cast<std::size_t>(surface.part) <= parts_.size());
+  occupied_.set(voxel);
+  Grids::SurfaceLeaves& leaves = grids_->surface.make(voxel);
+  if (leaves.part == nullptr) {
+    const openvdb::Coord at = coordOf(voxel);
+    leaves = {grids_->part->tree().touchLeaf(at), grids_->colour->tree().touchLeaf(at),
+              grids_->coverage->tree().touchLeaf(at), grids_->normal->tree().touchLeaf(at),
+              grids_->offset_vx->tree().touchLeaf(at)};
+  }
+  const openvdb::Index n = offsetInLeaf(voxel);
+  leaves.part->setValueOn(n, surface.part);
+  leaves.colour->setValueOn(n, toVdb(surface.colour));
+  leaves.coverage->setValueOn(n, surface.coverage);
+  leaves.normal->setValueOn(n, toVdb(surface.normal));
+  leaves.offset_vx->setValueOn(n, surface.offset_vx);
+}
+
+void World::occupy(std::span<const TiledVoxel> voxels) {
+  for (const TiledVoxel& tiled : voxels) {
+    if (occupied_.at(tiled.voxel)) continue;
+    keep(tiled);
+    if (stopsLight(tiled.voxel, opacity(tiled.surface, part(tiled.surface.part).kind)))
+      opaque_.set(tiled.voxel);
+  }
+  ++version_;
+}
+
+void World::occupyClear(std::span<const TiledVoxel> voxels) {
+  for (const TiledVoxel& tiled : voxels) {
+    if (!occupied_.at(tiled.voxel)) keep(tiled);
+  }
+  ++version_;
+}
+
+void World::occupyBlocks(std::span<const TiledVoxel> blocks) {
+  const auto fill = [](auto& tree, Voxel corner, const auto& value) {
+    tree.addTile(1, coordOf(corner), value, true);  // level 1: as large as a leaf
+  };
+  for (const auto& [corner, surface] : blocks) {
+    for (int y = 0; y < 8; ++y) {
+      for (int z = 0; z < 8; ++z) {
+        std::uint64_t* const row = occupied_.row(corner.y + y, corner.z + z);
+        assert((row[corner.x >> 6] >> (corner.x & 63) & 0xffu) == 0);
+        row[corner.x >> 6] |= std::uint64_t{0xff} << (corner.x & 63);
+      }
+    }
+    fill(grids_->part->tree(), corner, surface.part);
+    fill(grids_->colour->tree(), corner, toVdb(surface.colour));
+    fill(grids_->coverage->tree(), corner, surface.coverage);
+    fill(grids_->normal->tree(), corner, toVdb(surface.normal));
+    fill(grids_->offset_vx->tree(), corner, surface.offset_vx);
+  }
+  ++version_;
+}
+
+void World::addOpaque(const BitVolume& voxels) {
+  assert(voxels.size() == frame_.size);
+  parallelForEach(static_cast<std::size_t>(frame_.size.y), [&](std::size_t slice) {
+    const int y = static_cast<int>(slice);
+    for (int z = 0; z < frame_.size.z; ++z) {
+      for (int i = 0; i < opaque_.rowWords(); ++i) opaque_.row(y, z)[i] |= voxels.row(y, z)[i];
+    }
+  });
+  ++version_;
+}
+
+PartId World::partAt(Voxel v) const {
+  if (!occupied_.at(v)) return kFree;
+  const Grids::SurfaceLeaves& leaves = grids_->surface.of(v);
+  return leaves.part != nullptr ? leaves.part->getValue(offsetInLeaf(v))
+                                : grids_->part->tree().getValue(coordOf(v));
+}
+
+std::optional<Surface> World::surfaceAt(Voxel v) const {
+  if (!occupied_.at(v)) return std::nullopt;
+  const Grids::SurfaceLeaves& leaves = grids_->surface.of(v);
+  if (leaves.part == nullptr) {  // in a block whose voxels are alike
+    const openvdb::Coord at = coordOf(v);
+    return Surface{grids_->part->tree().getValue(at), fromVdb(grids_->colour->tree().getValue(at)),
+                   grids_->coverage->tree().getValue(at), fromVdb(grids_->normal->tree().getValue(at)),
+                   grids_->offset_vx->tree().getValue(at)};
+  }
+  const openvdb::Index n = offsetInLeaf(v);
+  return Surface{leaves.part->getValue(n), fromVdb(leaves.colour->getValue(n)), leaves.coverage->getValue(n),
+                 fromVdb(leaves.normal->getValue(n)), leaves.offset_vx->getValue(n)};
+}
+
+std::optional<Nearness> World::nearnessAt(Voxel v) const {
+  if (!contains(frame_.size, v)) return std::nullopt;
+  if (layers_ == 0) {
+    const PartId own = partAt(v);
+    if (own == kFree || part(own).kind != PartKind::scene) return std::nullopt;
+    return Nearness{0, own, 0.0f};
+  }
+  const Grids::NearLeaves& leaves = grids_->near.of(v);
+  if (leaves.layer == nullptr) return std::nullopt;
+  const openvdb::Index n = offsetInLeaf(v);
+  if (leaves.layer[n] < 0) return std::nullopt;
+  return Nearness{leaves.layer[n], leaves.nearest[n], leaves.distance_vx[n]};
+}
+
+std::vector<TiledVoxel> World::surfaces() const {
+  std::vector<TiledVoxel> all;
+  all.reserve(occupied_.count());
+  for (int y = 0; y < frame_.size.y; ++y) {
+    for (int z = 0; z < frame_.size.z; ++z) {
+      const std::uint64_t* row = occupied_.row(y, z);
+      for (int w = 0; w < occupied_.rowWords(); ++w) {
+        for (std::uint64_t word = row[w]; word != 0; word &= word - 1) {
+          const Voxel v(w * BitVolume::kWordBits + std::countr_zero(word), y, z);
+          all.push_back({v, *surfaceAt(v)});
+        }
+      }
+    }
+  }
+  return all;
+}
+
+}  // namespace espalier::sim

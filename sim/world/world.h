@@ -1,0 +1,111 @@
+#pragma once
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "sim/base/bits.h"
+#include "sim/base/frame.h"
+#include "sim/base/vec.h"
+
+namespace espalier::sim {
+
+/// What a voxel belongs to. 0 is free space; parts are numbered from 1 in the order in which they were added.
+using PartId = std::int32_t;
+inline constexpr PartId kFree = 0;
+
+enum class PartKind { scene, stem, element };
+
+/// A named part of an object: a region of a scene mesh, a plant's stems, a plant's leaves.
+struct Part {
+  std::string object;  ///< the mesh's or the plant's name
+  std::string region;  ///< the region's or the element's name
+  PartKind kind = PartKind::scene;
+  int plant = -1;  ///< the plant's number for stems and elements
+};
+
+/// What an occupied voxel knows.
+struct Surface {
+  PartId part = kFree;
+  Colour colour{0.0f};  ///< linear RGB
+  float coverage =
+      0.0f;  ///< occupied fraction: area inside the voxel over a face's area, at most 1; 1 inside a solid
+  Vec3f normal{
+      0.0f};  ///< unit, area-weighted, as the triangles are wound; zero where there is none (lines, solids)
+  float offset_vx = 0.0f;  ///< how far the surface lies from the voxel's centre along the normal
+};
+
+/// What a free or occupied voxel within the boundary layers knows of the nearest scene object.
+struct Nearness {
+  int layer = 0;  ///< 0 on the object itself, k in boundary layer k (26-adjacency, so Chebyshev distance)
+  PartId part = kFree;  ///< the part of the nearest occupied voxel; among equally near ones the lowest number
+  float distance_vx = 0.0f;  ///< between voxel centres, Euclidean
+};
+
+struct TiledVoxel {
+  Voxel voxel;
+  Surface surface;
+};
+
+/// The voxel world. OpenVDB grids hold the truth (sim/world/world_grids.h opens them to those who need
+/// OpenVDB); the packed occupancy is kept in step and is what rays and sweeps read. Const members may be
+/// called from any number of threads.
+class World {
+ public:
+  explicit World(const Frame& frame);
+  World(World&&) noexcept;
+  World& operator=(World&&) noexcept;
+  ~World();
+
+  const Frame& frame() const { return frame_; }
+  /// What obstructs.
+  const BitVolume& occupied() const { return occupied_; }
+  /// What takes light: of the scene what was said when it was added, and of the plants' voxels a share. A
+  /// leaf takes up a whole voxel but stops few of the rays through it; so as many of the voxels stop all
+  /// light as the leaves in them would stop rays. Which ones follows from their place alone.
+  const BitVolume& opaque() const { return opaque_; }
+  const std::vector<Part>& parts() const { return parts_; }
+  const Part& part(PartId id) const { return parts_[static_cast<std::size_t>(id - 1)]; }
+  int layers() const { return layers_; }
+  /// Rises with every edit; quantities derived from an older version are stale.
+  std::uint64_t version() const { return version_; }
+
+  PartId addPart(Part part);
+  /// Occupies voxels. One that is occupied already keeps what it has. Throws BrokenContract for a voxel
+  /// outside the world. Scene voxels take all light.
+  void occupy(std::span<const TiledVoxel> voxels);
+  /// The same, but they take no light.
+  void occupyClear(std::span<const TiledVoxel> voxels);
+  /// Occupies blocks of 8x8x8 voxels, wholly free until now, given by their low corners (multiples of 8) with
+  /// what all of their voxels are like. They take no room worth mentioning, and no light.
+  void occupyBlocks(std::span<const TiledVoxel> blocks);
+  /// Adds voxels to what takes light.
+  void addOpaque(const BitVolume& voxels);
+  /// Finds for every voxel within `layers` of an occupied voxel its Nearness; replaces what was known before.
+  void setLayers(int layers);
+
+  /// kFree outside the world too.
+  PartId partAt(Voxel v) const;
+  std::optional<Surface> surfaceAt(Voxel v) const;
+  std::optional<Nearness> nearnessAt(Voxel v) const;
+  /// All occupied voxels with their surfaces, in (y, z, x) order.
+  std::vector<TiledVoxel> surfaces() const;
+
+  struct Grids;
+  const Grids& grids() const { return *grids_; }
+
+ private:
+  void keep(const TiledVoxel& tiled);
+  void clearLayers();
+
+  Frame frame_;
+  BitVolume occupied_, opaque_;
+  std::vector<Part> parts_;
+  int layers_ = 0;
+  std::uint64_t version_ = 0;
+  std::unique_ptr<Grids> grids_;
+};
+
+}  // namespace espalier::sim

@@ -1,0 +1,81 @@
+#pragma once
+// Heavy: openvdb.h. Include from the few .cpp files that need the grids themselves.
+#include <openvdb/openvdb.h>
+
+#include "sim/world/world.h"
+
+namespace espalier::sim {
+
+inline openvdb::Coord coordOf(Voxel v) {
+  return {v.x, v.y, v.z};
+}
+
+/// What is known of the blocks of 8x8x8 voxels that the grids' leaves cover, by place. Finding it takes two
+/// reads, where the way down from a tree's root takes four or five; growth asks millions of times.
+template <typename Leaves>
+class BlockMap {
+ public:
+  explicit BlockMap(Voxel size)
+      : blocks_((size + 7) / 8),
+        slots_(static_cast<std::size_t>(blocks_.x) * static_cast<std::size_t>(blocks_.y) *
+               static_cast<std::size_t>(blocks_.z)),
+        leaves_(1) {}
+
+  /// A default-made Leaves where nothing is known. The voxel must lie inside the world.
+  const Leaves& of(Voxel v) const { return leaves_[slots_[index(v)]]; }
+  /// Room for a block that has none, or the block's Leaves.
+  Leaves& make(Voxel v) {
+    std::uint32_t& slot = slots_[index(v)];
+    if (slot == 0) {
+      slot = static_cast<std::uint32_t>(leaves_.size());
+      leaves_.emplace_back();
+    }
+    return leaves_[slot];
+  }
+  void clear() {
+    std::fill(slots_.begin(), slots_.end(), 0u);
+    leaves_.resize(1);
+  }
+
+ private:
+  std::size_t index(Voxel v) const {
+    return (static_cast<std::size_t>(v.y >> 3) * static_cast<std::size_t>(blocks_.z) +
+            static_cast<std::size_t>(v.z >> 3)) *
+               static_cast<std::size_t>(blocks_.x) +
+           static_cast<std::size_t>(v.x >> 3);
+  }
+
+  Voxel blocks_;
+  std::vector<std::uint32_t> slots_;
+  std::vector<Leaves> leaves_;
+};
+
+/// The truth of the world. All grids share one transform, with voxel (0,0,0) at the frame's origin.
+struct World::Grids {
+  openvdb::Int32Grid::Ptr part;       ///< background kFree
+  openvdb::Vec3SGrid::Ptr colour;     ///< active where occupied
+  openvdb::FloatGrid::Ptr coverage;   ///< active where occupied
+  openvdb::Vec3SGrid::Ptr normal;     ///< active where occupied
+  openvdb::FloatGrid::Ptr offset_vx;  ///< active where occupied
+  openvdb::Int32Grid::Ptr layer;      ///< active within the boundary layers, 0 on the objects; background -1
+  openvdb::Int32Grid::Ptr nearest;    ///< part of the nearest scene object, same topology as layer
+  openvdb::FloatGrid::Ptr distance_vx;  ///< distance to it, same topology as layer; background infinity
+
+  /// The same data by block. Leaves are never removed but by setLayers, which fills `near` anew.
+  struct SurfaceLeaves {
+    openvdb::Int32Tree::LeafNodeType* part = nullptr;
+    openvdb::Vec3STree::LeafNodeType* colour = nullptr;
+    openvdb::FloatTree::LeafNodeType* coverage = nullptr;
+    openvdb::Vec3STree::LeafNodeType* normal = nullptr;
+    openvdb::FloatTree::LeafNodeType* offset_vx = nullptr;
+  };
+  struct NearLeaves {
+    const std::int32_t* layer = nullptr;
+    const std::int32_t* nearest = nullptr;
+    const float* distance_vx = nullptr;
+  };
+  BlockMap<SurfaceLeaves> surface;
+  BlockMap<NearLeaves> near;
+};
+
+}  // namespace espalier::sim

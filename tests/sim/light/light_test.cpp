@@ -1,0 +1,43 @@
+#include "sim/light/light.h"
+
+#include <gtest/gtest.h>
+
+#include "sim/light/sky.h"
+#include "sim/light/sun.h"
+#include "sim/sweep/sweep.h"
+#include "tests/support/bit_worlds.h"
+
+namespace espalier {
+namespace {
+
+using sim::Voxel;
+
+TEST(Light, IsTheSameByRaysAndBySweep) {
+  const auto bits = tests::randomBits({61, 40, 53}, 0.01, 11);
+  const sim::LightSensor sensor(bits, sim::makeSky({.directions = 90}).directions,
+                                sim::makeSun(sim::SunArc{}).directions);
+  std::mt19937 random(3);
+  std::vector<Voxel> places{{0, 0, 0}, {60, 39, 52}, {0, 0, 0}};
+  for (int i = 0; i < 500; ++i)
+    places.emplace_back(static_cast<int>(random() % 61), static_cast<int>(random() % 40),
+                        static_cast<int>(random() % 53));
+  const auto rays = sensor.byRays(bits, places), sweep = sensor.bySweep(bits, places);
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    ASSERT_EQ(rays[i].sky.sum, sweep[i].sky.sum);
+    ASSERT_EQ(rays[i].sun.sum, sweep[i].sun.sum);
+    ASSERT_EQ(rays[i].sky.toward, sweep[i].sky.toward);
+    ASSERT_EQ(rays[i].sun.toward, sweep[i].sun.toward);
+  }
+}
+
+TEST(Light, IsWhateverTheMapSays) {
+  const auto bits = tests::randomBits({33, 21, 18}, 0.02, 12);
+  const auto sky = sim::makeSky({.directions = 64}).directions;
+  const sim::LightSensor sensor(bits, sky, {});
+  const Voxel few[] = {{4, 5, 6}};
+  const auto map = sim::sweepExposure(bits, sky);
+  EXPECT_EQ(sensor.at(bits, few)[0].sky.sum, map.sums[map.index(few[0])]);
+}
+
+}  // namespace
+}  // namespace espalier

@@ -1,0 +1,232 @@
+#include "sim/light/surface.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+#include <random>
+
+#include "sim/base/parallel.h"
+#include "sim/sweep/sweep.h"
+#include "sim/tile/build_world.h"
+#include "tests/support/meshes.h"
+#include "tests/support/worlds.h"
+
+namespace espalier::sim {
+namespace {
+
+constexpr std::array kWeightings{Weighting::uniform, Weighting::cosine, Weighting::cie_overcast};
+
+struct Judged {
+  SurfaceSensors sensors;
+  std::vector<float> sky;
+};
+
+Judged judged(const World& world, const Sky& sky) {
+  Judged j{surfaceSensors(world), {}};
+  j.sky = surfaceSky(j.sensors, sweepOpen(world.opaque(), sky.directions, j.sensors.places), sky);
+  return j;
+}
+
+/// A slab about the middle of a world of 48 voxels, tilted and turned.
+Mesh slab(double tilt, double turn) {
+  Mesh mesh = tests::boxMesh({-14, -6, -14}, {14, 0, 14});
+  const double s = std::sin(tilt), c = std::cos(tilt), u = std::sin(turn), v = std::cos(turn);
+  for (Vec3& p : mesh.vertices_m) {
+    const Vec3 q(c * p.x + s * p.y, -s * p.x + c * p.y, p.z);
+    p = Vec3(v * q.x - u * q.z, q.y, u * q.x + v * q.z) + Vec3(24.3, 24.1, 23.8);
+  }
+  return mesh;
+}
+
+TEST(SurfaceSky, OpenPlanesReceiveTheClosedForm) {
+  for (const Weighting weighting : kWeightings) {
+    const Sky sky = makeSky({.weighting = weighting, .directions = 128});
+    for (const double tilt : {0.0, 0.2, 0.6, 0.9, 1.3, std::numbers::pi / 2}) {
+      for (const bool solid : {true, false}) {
+        const World world = buildWorld(tests::unitFrame(Voxel(48)), {{slab(tilt, 0.4 + tilt), solid}}, 0);
+        const Judged j = judged(world, sky);
+        const Vec3 normal = glm::normalize(Vec3(std::sin(tilt) * std::cos(0.4 + tilt), std::cos(tilt),
+                                                std::sin(tilt) * std::sin(0.4 + tilt)));
+        int seen = 0;
+        for (std::size_t i = 0; i < j.sky.size(); ++i) {
+          const TiledVoxel& t = j.sensors.surfaces[i];
+          if (glm::dot(Vec3(t.surface.normal), normal) < 0.9999) continue;
+          if (glm::distance(Vec3(t.voxel), Vec3(24)) > 11.0) continue;
+          ++seen;
+          ASSERT_NEAR(j.sky[i], openSky(weighting, normal), 0.02) << tilt << ' ' << solid;
+        }
+        EXPECT_GT(seen, 200);
+      }
+    }
+  }
+}
+
+TEST(SurfaceSky, OpenGroundReceivesExactlyAll) {
+  const World world =
+      buildWorld(tests::unitFrame({40, 12, 40}), {{tests::boxMesh({-5, -5, -5}, {60, 4.2, 60}), true}}, 0);
+  for (const Weighting weighting : kWeightings) {
+    const Judged j = judged(world, makeSky({.weighting = weighting, .directions = 100}));
+    ASSERT_EQ(j.sky.size(), 40u * 40);
+    for (const float e : j.sky) ASSERT_EQ(e, 1.0f);
+  }
+}
+
+TEST(SurfaceSky, TheFootOfAnEndlessWallReceivesExactlyHalf) {
+  const Mesh wall = tests::boxMesh({-9, -9, -9}, {4.3, 300, 300});
+  const Mesh ground = tests::boxMesh({-9, -9, -9}, {90, 3.1, 300}, "ground");
+  const World world = buildWorld(tests::unitFrame({50, 220, 221}), {{wall, true}, {ground, true}}, 0);
+  for (const Weighting weighting : kWeightings) {
+    const Sky sky = makeSky({.weighting = weighting, .directions = 128});
+    std::vector<TiledVoxel> some;
+    for (int y = 0; y < 8; ++y) {
+      for (int x = 4; x < 9; ++x) {
+        if (const auto s = world.surfaceAt({x, y, 110})) some.push_back({{x, y, 110}, *s});
+      }
+    }
+    const auto sensors = surfaceSensors(world, some);
+    const auto open = sweepOpen(world.opaque(), sky.directions, sensors.places);
+    const auto light = surfaceSky(sensors, open, sky);
+    int walls = 0;
+    for (std::size_t i = 0; i < light.size(); ++i) {
+      if (sensors.surfaces[i].surface.normal != Vec3f(1, 0, 0)) continue;
+      ++walls;
+      EXPECT_NEAR(light[i], static_cast<float>(openSky(weighting, Vec3(1, 0, 0))), 1e-6f);
+      if (weighting != Weighting::cie_overcast) {
+        EXPECT_NEAR(light[i], 0.5f, 1e-6f);
+      }
+    }
+    EXPECT_GE(walls, 4);
+  }
+}
+
+TEST(OpenSky, IsTheIntegralOverTheSkyBeforeTheReceiver) {
+  const int n = 400;
+  for (const Weighting weighting : kWeightings) {
+    for (const double tilt : {0.0, 0.4, 1.1, 1.57, 2.3, 3.0}) {
+      const Vec3 normal(std::sin(tilt), std::cos(tilt), 0.0);
+      double sum = 0.0;
+      for (int i = 0; i < n; ++i) {
+        const double y = (i + 0.5) / n, across = std::sqrt(1 - y * y);
+        for (int k = 0; k < n; ++k) {
+          const double a = 2 * std::numbers::pi * (k + 0.5) / n;
+          const Vec3 d(across * std::cos(a), y, across * std::sin(a));
+          if (glm::dot(d, normal) > 0) sum += received(weighting, d, normal) / (n * n);
+        }
+      }
+      EXPECT_NEAR(openSky(weighting, normal), sum, 1e-3) << tilt;
+    }
+  }
+}
+
+/// A terrain with a solid sphere, a box inside out and a thin wall on it.
+World garden() {
+  const auto hills = [](double x, double z) { return 8 + 2 * std::sin(0.3 * x) * std::cos(0.25 * z); };
+  return buildWorld(tests::unitFrame({70, 40, 50}),
+                    {{tests::terrainMesh(72, 1.0, hills), false},
+                     {tests::sphereMesh({20.3, 17.2, 20.4}, 9.0, 20), true},
+                     {tests::insideOut(tests::boxMesh({40.2, 5, 30.3}, {52.1, 22.4, 44.7}, "hut")), true},
+                     {tests::boxMesh({8, 4, 40}, {60, 14, 40.4}, "fence"), false}},
+                    0);
+}
+
+TEST(SurfaceSensors, WeightsAddUpAndPlacesAreFreeAndInFront) {
+  const World world = garden();
+  const SurfaceSensors sensors = surfaceSensors(world);
+  EXPECT_GT(sensors.surfaces.size(), 5000u);
+  ASSERT_EQ(sensors.first.size(), sensors.surfaces.size() + 1);
+  const auto places = sensors.places->voxels();
+  for (std::size_t i = 0; i < sensors.surfaces.size(); ++i) {
+    const auto& [voxel, surface] = sensors.surfaces[i];
+    float sum = 0.0f;
+    ASSERT_FALSE(sensors.of(i).empty());
+    for (const auto& tap : sensors.of(i)) {
+      sum += tap.weight;
+      const Voxel place = places[tap.place];
+      ASSERT_FALSE(world.opaque().at(place));
+      ASSERT_GT(glm::dot(Vec3f(place - voxel), surface.normal), surface.offset_vx);
+    }
+    ASSERT_NEAR(sum, 1.0f, 1e-4f);
+  }
+}
+
+TEST(SurfaceSensors, ATurnedSolidLooksOut) {
+  const SurfaceSensors sensors = surfaceSensors(garden());
+  int roof = 0;
+  for (const auto& [voxel, surface] : sensors.surfaces) {
+    if (voxel.y == 22 && voxel.x > 41 && voxel.x < 51 && voxel.z > 31 && voxel.z < 43) {
+      ++roof;
+      EXPECT_EQ(surface.normal, Vec3f(0, 1, 0));
+    }
+  }
+  EXPECT_EQ(roof, 9 * 11);
+}
+
+TEST(SurfaceSensors, OfSomeAreThoseOfAll) {
+  const World world = garden();
+  const Sky sky = makeSky({.directions = 64});
+  const Judged all = judged(world, sky);
+  std::vector<TiledVoxel> some;
+  std::vector<float> expected;
+  for (std::size_t i = 3; i < all.sky.size(); i += 41) {
+    some.push_back(all.sensors.surfaces[i]);
+    expected.push_back(all.sky[i]);
+  }
+  const SurfaceSensors sensors = surfaceSensors(world, some);
+  EXPECT_EQ(surfaceSky(sensors, sweepOpen(world.opaque(), sky.directions, sensors.places), sky), expected);
+}
+
+/// What the tables add up to, in double precision and one by one.
+TEST(SurfaceLight, IsThePlainSum) {
+  const World world = garden();
+  Sun sun = makeSun(SunArc{});
+  const SurfaceSensors sensors = surfaceSensors(world);
+  for (const Weighting weighting : kWeightings) {
+    const Sky sky = makeSky({.weighting = weighting, .directions = 77});
+    const OpenTable open = sweepOpen(world.opaque(), sky.directions, sensors.places);
+    const OpenTable sunny = sweepOpen(world.opaque(), sun.directions, sensors.places);
+    const auto light = surfaceSky(sensors, open, sky);
+    const auto sunlight = surfaceSun(sensors, sunny, sun);
+    const auto hours = surfaceSunHours(sensors, sunny, sun);
+    for (std::size_t i = 0; i < light.size(); i += 17) {
+      const Vec3 normal(sensors.surfaces[i].surface.normal);
+      double sum = 0.0, most = 0.0, sun_sum = 0.0, sun_most = 0.0, hour_sum = 0.0, hour_most = 0.0;
+      for (std::size_t d = 0; d < sky.directions.size(); ++d) {
+        const Vec3 unit = glm::normalize(Vec3(sky.directions[d].v));
+        if (glm::dot(unit, normal) <= 1e-6) continue;
+        const double amount = sky.directions[d].weight * received(weighting, unit, normal);
+        most += amount;
+        for (const auto& tap : sensors.of(i)) sum += open.open(tap.place, d) ? tap.weight * amount : 0.0;
+      }
+      for (std::size_t d = 0; d < sun.directions.size(); ++d) {
+        if (glm::dot(glm::normalize(Vec3(sun.directions[d].v)), normal) <= 1e-6) continue;
+        const double amount = sun.directions[d].weight / 65535.0;
+        sun_most += amount;
+        hour_most += sun.hours[d];
+        for (const auto& tap : sensors.of(i)) {
+          if (!sunny.open(tap.place, d)) continue;
+          sun_sum += tap.weight * amount;
+          hour_sum += tap.weight * sun.hours[d];
+        }
+      }
+      const double part = most > 0.0 ? std::clamp(sum / most, 0.0, 1.0) : 0.0;
+      ASSERT_NEAR(light[i], part * openSky(weighting, normal), 2e-5);
+      ASSERT_NEAR(sunlight[i], std::clamp(sun_sum, 0.0, sun_most), 2e-5);
+      ASSERT_NEAR(hours[i], std::clamp(hour_sum, 0.0, hour_most), 2e-4);
+    }
+  }
+}
+
+TEST(SurfaceLight, IsTheSameOnAnyNumberOfThreads) {
+  const World world = garden();
+  const Sky sky = makeSky({.directions = 64});
+  std::vector<std::vector<float>> answers;
+  for (const int threads : {1, 2, 5}) {
+    onThreads(threads, [&] { answers.push_back(judged(world, sky).sky); });
+  }
+  EXPECT_EQ(answers[0], answers[1]);
+  EXPECT_EQ(answers[0], answers[2]);
+}
+
+}  // namespace
+}  // namespace espalier::sim

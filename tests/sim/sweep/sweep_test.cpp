@@ -1,0 +1,153 @@
+#include "sim/sweep/sweep.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <functional>
+#include <numeric>
+#include <random>
+
+#include "sim/base/parallel.h"
+#include "sim/light/exposure.h"
+#include "sim/light/sky.h"
+#include "sim/sweep/lanes.h"
+#include "tests/support/bit_worlds.h"
+
+namespace espalier {
+namespace {
+
+using sim::Voxel;
+
+/// Directions in every octant, the six axes and the level ones among them.
+sim::DirectionSet randomDirections(int count, int longest, unsigned seed) {
+  std::mt19937 random(seed);
+  std::uniform_int_distribution<int> side(-longest, longest);
+  std::vector<Voxel> vectors{{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}};
+  while (static_cast<int>(vectors.size()) < count) {
+    const Voxel v(side(random), vectors.size() % 4 == 0 ? 0 : side(random), side(random));
+    if (std::gcd(std::gcd(v.x, v.y), v.z) == 1) vectors.push_back(v);
+  }
+  std::shuffle(vectors.begin(), vectors.end(), random);
+  sim::DirectionSet set;
+  for (const Voxel v : vectors)
+    set.push_back({v, sim::crossedVoxels(v), static_cast<std::uint16_t>(random() % 900)});
+  return set;
+}
+
+std::shared_ptr<const sim::VoxelSet> somewhere(Voxel size, double chance, unsigned seed) {
+  return std::make_shared<const sim::VoxelSet>(tests::randomBits(size, chance, seed));
+}
+
+void expectSameAsRays(const sim::BitVolume& bits, const sim::DirectionSet& set) {
+  const sim::ExposureField field = sim::sweepExposure(bits, set);
+  const auto where = somewhere(bits.size(), 0.3, static_cast<unsigned>(set.size()));
+  const sim::ExposureField there = sim::sweepExposure(bits, set, where);
+  const sim::OpenTable table = sim::sweepOpen(bits, set, where);
+  const sim::Lookout lookout(bits, set);
+  ASSERT_EQ(there.sums.size(), where->count());
+  const Voxel size = bits.size();
+  std::size_t place = 0;
+  for (int y = 0; y < size.y; ++y) {
+    for (int z = 0; z < size.z; ++z) {
+      for (int x = 0; x < size.x; ++x) {
+        const Voxel p(x, y, z);
+        const sim::Outlook plain = sim::lookOut(bits, p, set);
+        ASSERT_EQ(field.sums[field.index(p)], plain.sum) << x << ' ' << y << ' ' << z;
+        const sim::Outlook prepared = lookout.from(bits, p);
+        ASSERT_EQ(prepared.sum, plain.sum) << x << ' ' << y << ' ' << z;
+        ASSERT_EQ(prepared.toward, plain.toward);
+        if (!where->has(p)) continue;
+        ASSERT_EQ(where->number(p), place);
+        ASSERT_EQ(there.sums[place], plain.sum) << x << ' ' << y << ' ' << z;
+        for (std::size_t d = 0; d < set.size(); ++d) {
+          ASSERT_EQ(table.open(place, d), sim::reachesEdge(bits, p, set[d]))
+              << x << ' ' << y << ' ' << z << " along " << set[d].v.x << ' ' << set[d].v.y << ' '
+              << set[d].v.z;
+        }
+        ++place;
+      }
+    }
+  }
+  EXPECT_EQ(place, where->count());
+}
+
+/// Runs a check with every set of vector instructions that this processor has.
+void onEveryLevel(const std::function<void()>& check) {
+  const auto levels = sim::lanes::levels();
+  for (const std::string& level : levels) {
+    SCOPED_TRACE(level);
+    sim::lanes::useLevel(level);
+    EXPECT_EQ(sim::lanes::level(), level);
+    check();
+  }
+  sim::lanes::useLevel(levels.front());
+}
+
+TEST(Sweep, EqualsCastingEachRayBitForBit) {
+  onEveryLevel([] {
+    unsigned seed = 1;
+    for (const Voxel size : {Voxel(1, 1, 1), Voxel(7, 9, 5), Voxel(64, 6, 3), Voxel(65, 12, 9),
+                             Voxel(63, 20, 1), Voxel(130, 7, 11), Voxel(1, 30, 20), Voxel(300, 3, 9)}) {
+      for (const double chance : {0.0, 0.01, 0.2}) {
+        ++seed;
+        expectSameAsRays(tests::randomBits(size, chance, seed), randomDirections(30, 7, seed));
+      }
+    }
+  });
+}
+
+TEST(Sweep, EqualsRaysWhereSlicesAreAlike) {
+  onEveryLevel([] {
+    sim::BitVolume town({150, 30, 80});
+    tests::addBox(town, {0, 0, 0}, {149, 1, 79});
+    tests::addBox(town, {20, 2, 10}, {24, 17, 60});  // walls, which are the same in many slices
+    tests::addBox(town, {20, 2, 40}, {140, 25, 43});
+    tests::addBox(town, {90, 9, 0}, {99, 9, 79});  // a floor that juts out
+    tests::addBox(town, {63, 2, 70}, {64, 28, 71});
+    expectSameAsRays(town, randomDirections(40, 6, 8));
+  });
+}
+
+TEST(Sweep, EqualsRaysForMoreDirectionsThanAWordHolds) {
+  expectSameAsRays(tests::randomBits({70, 9, 19}, 0.02, 3), randomDirections(150, 9, 4));
+}
+
+TEST(Sweep, EqualsRaysForTheLongestDirections) {
+  sim::DirectionSet set;
+  for (const Voxel v :
+       {Voxel(63, 1, 0), Voxel(-63, 1, 0), Voxel(0, 1, 63), Voxel(0, -1, -63), Voxel(63, 63, 62),
+        Voxel(-62, 63, -61), Voxel(-63, 2, 63), Voxel(1, -63, -1), Voxel(63, 0, -62)}) {
+    set.push_back({v, sim::crossedVoxels(v), 100});
+  }
+  expectSameAsRays(tests::randomBits({90, 40, 70}, 0.002, 5), set);
+}
+
+TEST(Sweep, AddsUpToTheLargestSum) {
+  sim::DirectionSet set = randomDirections(40, 5, 6);
+  for (auto& direction : set) direction.weight = 1638;  // 40 times that and 15 are 65,535
+  set.front().weight = 1653;
+  const auto field = sim::sweepExposure(sim::BitVolume({5, 5, 5}), set);
+  EXPECT_EQ(field.at({2, 2, 2}), 1.0f);
+  sim::BitVolume full({5, 5, 5});
+  tests::addBox(full, {0, 0, 0}, {4, 4, 4});
+  EXPECT_EQ(sim::sweepExposure(full, set).at({2, 2, 2}), 0.0f);
+}
+
+TEST(Sweep, DoesNotDependOnTheNumberOfThreads) {
+  const auto bits = tests::randomBits({70, 33, 41}, 0.03, 9);
+  const auto set = sim::makeSky({.directions = 100}).directions;
+  std::vector<std::vector<std::uint16_t>> answers;
+  for (const int threads : {1, 2, 5}) {
+    sim::onThreads(threads, [&] { answers.push_back(sim::sweepExposure(bits, set).sums); });
+  }
+  EXPECT_EQ(answers[0], answers[1]);
+  EXPECT_EQ(answers[0], answers[2]);
+}
+
+TEST(Sweep, SeesNothingWithoutDirections) {
+  const auto field = sim::sweepExposure(sim::BitVolume({3, 3, 3}), {});
+  EXPECT_EQ(field.at({1, 1, 1}), 0.0f);
+}
+
+}  // namespace
+}  // namespace espalier

@@ -1,0 +1,146 @@
+#include "sim/world/world.h"
+
+#include <gtest/gtest.h>
+
+#include <map>
+#include <random>
+
+#include "sim/base/error.h"
+#include "sim/world/world_grids.h"
+#include "tests/support/worlds.h"
+
+namespace espalier::sim {
+namespace {
+
+TiledVoxel tile(Voxel v, PartId part, float shade = 0.5f) {
+  return {v, {.part = part, .colour = Colour(shade), .coverage = 0.25f, .normal = Vec3f(0, 1, 0)}};
+}
+
+TEST(World, TellsBackWhatOccupiesIt) {
+  World world(tests::unitFrame({40, 33, 70}));
+  const PartId wall = world.addPart({.object = "house", .region = "wall"});
+  const PartId leaf =
+      world.addPart({.object = "ivy", .region = "leaf", .kind = PartKind::element, .plant = 0});
+  EXPECT_EQ(wall, 1);
+  EXPECT_EQ(leaf, 2);
+  EXPECT_EQ(world.part(leaf).region, "leaf");
+  const std::vector<TiledVoxel> voxels{tile({39, 32, 69}, wall, 0.1f), tile({0, 0, 0}, leaf, 0.2f),
+                                       tile({7, 8, 64}, wall, 0.3f)};
+  world.occupy(voxels);
+  for (const auto& [voxel, surface] : voxels) {
+    EXPECT_EQ(world.partAt(voxel), surface.part);
+    const auto found = world.surfaceAt(voxel);
+    ASSERT_TRUE(found);
+    EXPECT_EQ(found->part, surface.part);
+    EXPECT_EQ(found->colour, surface.colour);
+    EXPECT_EQ(found->coverage, surface.coverage);
+    EXPECT_EQ(found->normal, surface.normal);
+    EXPECT_TRUE(world.occupied().at(voxel));
+  }
+  for (const Voxel v : {Voxel(1, 0, 0), Voxel(20), Voxel(-1, 0, 0), Voxel(0, 33, 0), Voxel(1 << 30)}) {
+    EXPECT_EQ(world.partAt(v), kFree);
+    EXPECT_FALSE(world.surfaceAt(v));
+    EXPECT_FALSE(world.nearnessAt(v));
+  }
+}
+
+TEST(World, AnOccupiedVoxelKeepsWhatItHas) {
+  World world(tests::unitFrame(Voxel(8)));
+  const PartId first = world.addPart(tests::scenePart("first"));
+  const PartId second = world.addPart(tests::scenePart("second"));
+  world.occupy(std::vector{tile(Voxel(3), first), tile(Voxel(3), second), tile(Voxel(4), first)});
+  world.occupy(std::vector{tile(Voxel(4), second), tile(Voxel(5), second)});
+  EXPECT_EQ(world.partAt(Voxel(3)), first);
+  EXPECT_EQ(world.partAt(Voxel(4)), first);
+  EXPECT_EQ(world.partAt(Voxel(5)), second);
+  EXPECT_EQ(world.occupied().count(), 3u);
+}
+
+TEST(World, RefusesVoxelsOutsideInEveryBuild) {
+  World world(tests::unitFrame(Voxel(8)));
+  const PartId part = world.addPart(tests::scenePart("wall"));
+  for (const Voxel v : {Voxel(8, 0, 0), Voxel(0, -1, 0), Voxel(3, 3, 1000)}) {
+    EXPECT_THROW(world.occupy(std::vector{tile(v, part)}), BrokenContract);
+  }
+  EXPECT_EQ(world.occupied().count(), 0u);
+}
+
+TEST(World, EditsRaiseTheVersion) {
+  World world(tests::unitFrame(Voxel(8)));
+  const PartId part = world.addPart(tests::scenePart("a"));
+  const auto before = world.version();
+  world.occupy(std::vector{tile(Voxel(1), part)});
+  const auto after = world.version();
+  EXPECT_GT(after, before);
+  world.setLayers(1);
+  EXPECT_GT(world.version(), after);
+}
+
+TEST(World, GridsAgreeWithItAndShareOneTransform) {
+  const Frame frame{.origin_m = {1.5, -2.0, 10.0}, .voxel_m = 0.25, .size = {30, 20, 25}};
+  World world(frame);
+  world.addPart(tests::scenePart("a"));
+  world.addPart(tests::scenePart("b"));
+  std::mt19937 random(5);
+  const auto below = [&](int n) { return static_cast<int>(random() % static_cast<unsigned>(n)); };
+  std::vector<TiledVoxel> voxels;
+  for (int i = 0; i < 400; ++i) {
+    voxels.push_back(tile({below(30), below(20), below(25)}, 1 + below(2), static_cast<float>(i)));
+  }
+  world.occupy(voxels);
+  world.setLayers(2);
+  const World::Grids& grids = world.grids();
+  EXPECT_EQ(grids.part->activeVoxelCount(), world.occupied().count());
+  EXPECT_EQ(grids.layer->activeVoxelCount(), grids.nearest->activeVoxelCount());
+  EXPECT_EQ(grids.layer->activeVoxelCount(), grids.distance_vx->activeVoxelCount());
+  std::size_t near = 0;
+  for (int y = 0; y < frame.size.y; ++y) {
+    for (int z = 0; z < frame.size.z; ++z) {
+      for (int x = 0; x < frame.size.x; ++x) {
+        const Voxel v(x, y, z);
+        const openvdb::Coord at = coordOf(v);
+        EXPECT_EQ(grids.part->tree().getValue(at), world.partAt(v));
+        EXPECT_EQ(grids.colour->tree().isValueOn(at), world.occupied().at(v));
+        const Surface s = world.surfaceAt(v).value_or(Surface{});
+        EXPECT_EQ(grids.colour->tree().getValue(at).x(), s.colour.x);
+        EXPECT_EQ(grids.coverage->tree().getValue(at), s.coverage);
+        const auto n = world.nearnessAt(v);
+        ASSERT_EQ(grids.layer->tree().isValueOn(at), n.has_value());
+        EXPECT_EQ(grids.layer->tree().getValue(at), n ? n->layer : -1);
+        EXPECT_EQ(grids.distance_vx->tree().getValue(at),
+                  n ? n->distance_vx : std::numeric_limits<float>::infinity());
+        near += n ? 1 : 0;
+      }
+    }
+  }
+  EXPECT_EQ(near, grids.layer->activeVoxelCount());
+  for (const openvdb::GridBase::Ptr& grid :
+       {openvdb::GridBase::Ptr(grids.part), openvdb::GridBase::Ptr(grids.distance_vx)}) {
+    const openvdb::Vec3d p = grid->transform().indexToWorld(openvdb::Coord(2, 3, 4));
+    const Vec3 expected = worldFromVoxel(frame, Vec3(2, 3, 4));
+    EXPECT_EQ(Vec3(p.x(), p.y(), p.z()), expected);
+  }
+}
+
+TEST(World, ListsItsSurfacesInRows) {
+  World world(tests::unitFrame({70, 10, 10}));
+  const PartId part = world.addPart(tests::scenePart("a"));
+  const std::vector<Voxel> rows{{69, 0, 0}, {3, 0, 1}, {64, 0, 1}, {0, 2, 0}, {0, 2, 9}, {1, 9, 0}};
+  for (std::size_t i = rows.size(); i-- > 0;) world.occupy(std::vector{tile(rows[i], part)});
+  const auto all = world.surfaces();
+  ASSERT_EQ(all.size(), rows.size());
+  for (std::size_t i = 0; i < rows.size(); ++i) EXPECT_EQ(all[i].voxel, rows[i]);
+}
+
+TEST(World, CanBeMoved) {
+  World world(tests::unitFrame(Voxel(9)));
+  world.addPart(tests::scenePart("a"));
+  world.occupy(std::vector{tile(Voxel(2), 1)});
+  world.setLayers(1);
+  World moved(std::move(world));
+  EXPECT_EQ(moved.partAt(Voxel(2)), 1);
+  EXPECT_EQ(moved.nearnessAt(Voxel(3))->layer, 1);
+}
+
+}  // namespace
+}  // namespace espalier::sim

@@ -7,7 +7,7 @@
 #include <filesystem>
 #include <map>
 
-#include "rules/random_tree.h"
+#include "rules/growth/random_tree.h"
 #include "scenes/lights.h"
 #include "scenes/mesh_import.h"
 #include "scenes/problem.h"

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "rules/registry.h"
+#include "rules/language/registry.h"
 #include "scenes/registry.h"
 
 namespace espalier::scenes {

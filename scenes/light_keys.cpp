@@ -6,7 +6,7 @@
 #include <optional>
 #include <string>
 
-#include "rules/key_builder.h"
+#include "rules/language/key_builder.h"
 #include "scenes/lights.h"
 #include "sim/base/error.h"
 

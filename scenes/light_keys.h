@@ -1,7 +1,7 @@
 #pragma once
 #include <memory>
 
-#include "rules/key.h"
+#include "rules/language/key.h"
 #include "scenes/scene.h"
 
 /// The keys `sky` and `sun` of scene files.

@@ -2,7 +2,7 @@
 #include <filesystem>
 #include <memory>
 
-#include "rules/rule_set.h"
+#include "rules/language/rule_set.h"
 #include "scenes/problem.h"
 
 namespace espalier::scenes {

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <charconv>
 
-#include "rules/registry.h"
+#include "rules/language/registry.h"
 #include "scenes/yaml_hints.h"
 #include "scenes/yaml_value.h"
 

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "rules/key.h"
+#include "rules/language/key.h"
 #include "scenes/problem.h"
 #include "scenes/yaml_tree.h"
 

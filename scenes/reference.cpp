@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "rules/registry.h"
+#include "rules/language/registry.h"
 #include "scenes/read_table.h"
 #include "scenes/registry.h"
 

@@ -1,6 +1,6 @@
 #include "scenes/registry.h"
 
-#include "rules/key_builder.h"
+#include "rules/language/key_builder.h"
 #include "scenes/light_keys.h"
 #include "scenes/scene.h"
 

@@ -1,7 +1,7 @@
 #pragma once
 #include <vector>
 
-#include "rules/key.h"
+#include "rules/language/key.h"
 
 /// The registry of scene files: every key stands here once, with its type, unit, default, range and meaning.
 /// The reader, the JSON Schema and the reference page walk it.

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <system_error>
 
-#include "rules/registry.h"
+#include "rules/language/registry.h"
 #include "scenes/document.h"
 #include "scenes/read_table.h"
 

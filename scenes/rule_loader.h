@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "rules/rule_set.h"
+#include "rules/language/rule_set.h"
 #include "scenes/problem.h"
 #include "scenes/yaml_tree.h"
 

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "render/camera.h"
-#include "rules/rule_set.h"
+#include "rules/language/rule_set.h"
 #include "sim/base/vec.h"
 #include "sim/light/sky.h"
 #include "sim/light/sun.h"

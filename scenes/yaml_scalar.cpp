@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <charconv>
 
-#include "rules/colour.h"
+#include "rules/language/colour.h"
 #include "sim/light/sun.h"
 
 namespace espalier::scenes {

@@ -5,7 +5,7 @@
 #include <string>
 #include <string_view>
 
-#include "rules/key.h"
+#include "rules/language/key.h"
 #include "scenes/problem.h"
 #include "scenes/yaml_number.h"
 #include "scenes/yaml_tree.h"

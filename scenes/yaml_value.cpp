@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <type_traits>
 
-#include "rules/colour.h"
+#include "rules/language/colour.h"
 #include "scenes/yaml_scalar.h"
 
 namespace espalier::scenes {

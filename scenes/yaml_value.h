@@ -1,7 +1,7 @@
 #pragma once
 #include <optional>
 
-#include "rules/key.h"
+#include "rules/language/key.h"
 #include "scenes/problem.h"
 #include "scenes/yaml_tree.h"
 

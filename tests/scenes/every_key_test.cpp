@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include "rules/registry.h"
+#include "rules/language/registry.h"
 #include "scenes/read_scene.h"
 #include "scenes/read_table.h"
 #include "scenes/registry.h"

@@ -5,7 +5,7 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
-#include "rules/registry.h"
+#include "rules/language/registry.h"
 #include "scenes/json_schema.h"
 #include "scenes/read_scene.h"
 #include "scenes/reference.h"

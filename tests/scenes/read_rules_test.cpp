@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include "rules/colour.h"
+#include "rules/language/colour.h"
 #include "tests/support/scratch.h"
 
 namespace espalier::scenes {

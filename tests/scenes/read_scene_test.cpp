@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "rules/colour.h"
+#include "rules/language/colour.h"
 #include "tests/support/scratch.h"
 
 namespace espalier::scenes {

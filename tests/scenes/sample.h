@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "rules/key.h"
+#include "rules/language/key.h"
 
 /// Values for any key of a registry, made from what the registry says of it: so that a new key is tested as
 /// soon as it stands there.

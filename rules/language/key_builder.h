@@ -7,7 +7,7 @@
 #include <type_traits>
 #include <utility>
 
-#include "rules/key.h"
+#include "rules/language/key.h"
 
 namespace espalier::rules {
 

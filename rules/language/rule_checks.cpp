@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "rules/registry.h"
+#include "rules/language/registry.h"
 
 namespace espalier::rules {
 namespace {

@@ -11,8 +11,8 @@
 #include <variant>
 #include <vector>
 
-#include "rules/rule_set.h"
-#include "rules/value.h"
+#include "rules/language/rule_set.h"
+#include "rules/language/value.h"
 #include "sim/base/vec.h"
 
 /// The machinery of a registry: descriptions of the keys of a file and how each finds its field in a plain

@@ -1,6 +1,6 @@
-#include "rules/registry.h"
+#include "rules/language/registry.h"
 
-#include "rules/key_builder.h"
+#include "rules/language/key_builder.h"
 
 // Greene's names are those of figure 4 and section 6 of: Ned Greene, Voxel Space Automata, SIGGRAPH 1989.
 namespace espalier::rules {

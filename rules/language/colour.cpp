@@ -1,4 +1,4 @@
-#include "rules/colour.h"
+#include "rules/language/colour.h"
 
 #include <fmt/format.h>
 

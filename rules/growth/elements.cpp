@@ -1,4 +1,4 @@
-#include "rules/elements.h"
+#include "rules/growth/elements.h"
 
 #include <algorithm>
 #include <cmath>

@@ -5,11 +5,11 @@
 #include <string>
 #include <vector>
 
-#include "rules/value.h"
+#include "rules/language/value.h"
 #include "sim/base/vec.h"
 
-/// Rule sets as plain values: what a rule file says. rules/registry.h describes every key (type, unit,
-/// default, range, meaning); the reader, the JSON Schema and the reference page are derived from it.
+/// Rule sets as plain values: what a rule file says. rules/language/registry.h describes every key (type,
+/// unit, default, range, meaning); the reader, the JSON Schema and the reference page are derived from it.
 namespace espalier::rules {
 
 inline constexpr double kNoLimit = std::numeric_limits<double>::infinity();

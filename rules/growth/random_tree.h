@@ -1,7 +1,7 @@
 #pragma once
 #include <memory>
 
-#include "rules/rule_set.h"
+#include "rules/language/rule_set.h"
 #include "sim/grow/rule.h"
 
 namespace espalier::rules {

@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include "rules/random_tree.h"
+#include "rules/growth/random_tree.h"
 #include "sim/grow/grow.h"
 #include "sim/light/sky.h"
 #include "tests/support/plots.h"

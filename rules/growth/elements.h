@@ -1,8 +1,8 @@
 #pragma once
 #include <vector>
 
-#include "rules/rule_set.h"
-#include "rules/trial.h"
+#include "rules/growth/trial.h"
+#include "rules/language/rule_set.h"
 #include "sim/grow/rule.h"
 
 namespace espalier::rules {

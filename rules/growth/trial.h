@@ -1,7 +1,7 @@
 #pragma once
 #include <vector>
 
-#include "rules/rule_set.h"
+#include "rules/language/rule_set.h"
 #include "sim/grow/rule.h"
 #include "sim/light/exposure.h"
 #include "sim/sense/intersection.h"

@@ -1,4 +1,4 @@
-#include "rules/random_tree.h"
+#include "rules/growth/random_tree.h"
 
 #include <fmt/format.h>
 
@@ -9,8 +9,8 @@
 #include <numbers>
 #include <optional>
 
-#include "rules/elements.h"
-#include "rules/trial.h"
+#include "rules/growth/elements.h"
+#include "rules/growth/trial.h"
 #include "sim/base/error.h"
 #include "sim/sense/proximity.h"
 #include "sim/tile/tiling.h"

@@ -1,4 +1,4 @@
-#include "rules/trial.h"
+#include "rules/growth/trial.h"
 
 #include <algorithm>
 #include <iterator>

@@ -1,4 +1,4 @@
-#include "rules/registry.h"
+#include "rules/language/registry.h"
 
 #include <gtest/gtest.h>
 
@@ -6,7 +6,7 @@
 #include <functional>
 #include <set>
 
-#include "rules/colour.h"
+#include "rules/language/colour.h"
 
 namespace espalier::rules {
 namespace {

@@ -1,4 +1,4 @@
-#include "rules/value.h"
+#include "rules/language/value.h"
 
 #include <algorithm>
 

@@ -1,11 +1,11 @@
-#include "rules/key.h"
+#include "rules/language/key.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include <cmath>
 
-#include "rules/colour.h"
+#include "rules/language/colour.h"
 #include "sim/light/sun.h"
 
 namespace espalier::rules {

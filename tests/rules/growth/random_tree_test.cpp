@@ -1,4 +1,4 @@
-#include "rules/random_tree.h"
+#include "rules/growth/random_tree.h"
 
 #include <gtest/gtest.h>
 

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "render/vdb.h"
+#include "render/files/vdb.h"
 #include "scenes/certificate.h"
 #include "scenes/expose_pictures.h"
 #include "scenes/exposure_table.h"

@@ -5,8 +5,8 @@
 #include <utility>
 #include <vector>
 
-#include "render/attempts.h"
-#include "render/section.h"
+#include "render/voxels/attempts.h"
+#include "render/voxels/section.h"
 #include "sim/base/error.h"
 
 namespace espalier::scenes {

@@ -1,5 +1,5 @@
 #pragma once
-#include "render/image.h"
+#include "render/image/image.h"
 #include "scenes/scene.h"
 #include "sim/grow/grow.h"
 #include "sim/world/world.h"

@@ -1,7 +1,7 @@
 #pragma once
 #include <vector>
 
-#include "render/vdb.h"
+#include "render/files/vdb.h"
 #include "scenes/lighting.h"
 
 namespace espalier::scenes {

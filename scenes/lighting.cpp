@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "render/visibility.h"
+#include "render/voxels/visibility.h"
 #include "scenes/lit_faces.h"
 #include "sim/base/parallel.h"
 #include "sim/light/surface.h"

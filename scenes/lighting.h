@@ -70,7 +70,7 @@ struct Lighting {
 
   LightAbout about;
 
-  /// By voxel, in (y, z, x) order, then face: as in render/visibility.h.
+  /// By voxel, in (y, z, x) order, then face: as in render/voxels/visibility.h.
   std::uint64_t faceKey(sim::Voxel voxel, std::uint8_t face) const;
   /// Of a face of an occupied voxel with no occupied voxel before it.
   float atFace(const Received& light, sim::Voxel voxel, std::uint8_t face) const;

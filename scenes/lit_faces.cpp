@@ -3,7 +3,7 @@
 #include <bit>
 #include <optional>
 
-#include "render/visibility.h"
+#include "render/voxels/visibility.h"
 #include "sim/base/parallel.h"
 
 namespace espalier::scenes {

@@ -7,12 +7,12 @@
 #include <memory>
 #include <optional>
 
-#include "render/contact_sheet.h"
-#include "render/finished_picture.h"
-#include "render/image_io.h"
-#include "render/legend.h"
-#include "render/panels.h"
-#include "render/visibility.h"
+#include "render/finish/finished_picture.h"
+#include "render/image/contact_sheet.h"
+#include "render/image/image_io.h"
+#include "render/image/legend.h"
+#include "render/voxels/panels.h"
+#include "render/voxels/visibility.h"
 #include "scenes/flat_pictures.h"
 #include "scenes/lights.h"
 #include "sim/base/error.h"

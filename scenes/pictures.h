@@ -2,7 +2,7 @@
 #include <stop_token>
 #include <vector>
 
-#include "render/plant_model.h"
+#include "render/model/plant_model.h"
 #include "scenes/job.h"
 #include "scenes/lighting.h"
 #include "scenes/output_files.h"

@@ -4,9 +4,9 @@
 
 #include <algorithm>
 
-#include "render/gltf.h"
-#include "render/plant_model.h"
-#include "render/vdb.h"
+#include "render/files/gltf.h"
+#include "render/files/vdb.h"
+#include "render/model/plant_model.h"
 #include "scenes/job.h"
 #include "scenes/light_fields.h"
 #include "scenes/lighting.h"

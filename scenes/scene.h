@@ -9,7 +9,7 @@
 #include <string_view>
 #include <vector>
 
-#include "render/camera.h"
+#include "render/image/camera.h"
 #include "rules/language/rule_set.h"
 #include "sim/base/vec.h"
 #include "sim/light/sky.h"

@@ -6,8 +6,8 @@
 #include <numbers>
 #include <tuple>
 
-#include "render/gltf.h"
-#include "render/ray_scene.h"
+#include "render/files/gltf.h"
+#include "render/finish/ray_scene.h"
 #include "sim/base/parallel.h"
 #include "sim/base/random.h"
 #include "sim/light/surface.h"

@@ -9,8 +9,8 @@
 #include <functional>
 #include <string>
 
-#include "render/drawing.h"
-#include "render/image_io.h"
+#include "render/image/drawing.h"
+#include "render/image/image_io.h"
 #include "sim/base/whole_file.h"
 #include "sim/sweep/sweep.h"
 #include "sim/world/field.h"

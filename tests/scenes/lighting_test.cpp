@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "render/visibility.h"
+#include "render/voxels/visibility.h"
 #include "sim/base/parallel.h"
 #include "sim/sweep/sweep.h"
 #include "sim/tile/build_world.h"

@@ -7,8 +7,8 @@
 #include <filesystem>
 #include <string>
 
-#include "render/image.h"
-#include "render/image_io.h"
+#include "render/image/image.h"
+#include "render/image/image_io.h"
 #include "sim/base/whole_file.h"
 
 namespace espalier::tests {

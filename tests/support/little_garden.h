@@ -7,8 +7,8 @@
 #include <utility>
 #include <vector>
 
-#include "render/camera.h"
-#include "render/panels.h"
+#include "render/image/camera.h"
+#include "render/voxels/panels.h"
 #include "sim/base/bits.h"
 #include "sim/base/frame.h"
 #include "sim/world/field.h"

@@ -1,0 +1,22 @@
+#pragma once
+#include <string>
+#include <vector>
+
+#include "render/model/plant_model.h"
+#include "sim/tile/mesh.h"
+
+namespace espalier::render {
+
+/// What a picture or a model file shows. Borrowed: everything must outlive the call.
+struct ModelScene {
+  std::vector<const sim::Mesh*> meshes;
+  std::vector<const PlantModel*> plants;
+};
+
+/// A glTF 2.0 binary (.glb): a node for each scene mesh and, under a node for each plant, one for its stems
+/// and one for each of its elements. Metres, y up. Materials carry the base colours (leaves are
+/// double-sided); COLOR_0 of a plant holds exposure as a grey value. Empty meshes are left out. The same
+/// scene gives the same bytes. Throws InputError when a mesh's index is out of range.
+std::string glbBytes(const ModelScene& scene);
+
+}  // namespace espalier::render

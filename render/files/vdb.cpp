@@ -1,0 +1,253 @@
+#include "render/files/vdb.h"
+
+#include <fmt/format.h>
+#include <openvdb/io/Archive.h>
+#include <openvdb/io/GridDescriptor.h>
+#include <openvdb/openvdb.h>
+#include <openvdb/tree/LeafManager.h>
+#include <xxhash.h>
+
+#include <algorithm>
+#include <bit>
+#include <concepts>
+#include <functional>
+#include <sstream>
+
+#include "sim/base/error.h"
+#include "sim/world/world_grids.h"
+
+namespace espalier::render {
+namespace {
+
+// Magic number (8), file version (4), library version (4 + 4), flag for grid offsets (1), then the id as
+// text.
+constexpr std::size_t kIdAt = 21, kIdLength = 36;
+
+struct About {
+  std::string name;
+  std::string description;
+  std::string unit;
+};
+
+void describe(openvdb::GridBase& grid, const About& about, const sim::Frame& frame) {
+  grid.setName(about.name);
+  grid.setCreator("Espalier");
+  grid.insertMeta("description", openvdb::StringMetadata(about.description));
+  grid.insertMeta("unit", openvdb::StringMetadata(about.unit));
+  grid.insertMeta("voxel_m", openvdb::DoubleMetadata(frame.voxel_m));
+}
+
+/// Shares the grid's tree but not its metadata.
+template <class Grid>
+typename Grid::Ptr shown(const typename Grid::Ptr& grid, const About& about, const sim::Frame& frame,
+                         openvdb::GridClass grid_class = openvdb::GRID_UNKNOWN) {
+  auto result = Grid::create(grid->treePtr());
+  result->setTransform(grid->transform().copy());
+  result->setGridClass(grid_class);
+  describe(*result, about, frame);
+  return result;
+}
+
+openvdb::FloatGrid::Ptr density(const sim::World::Grids& grids) {
+  auto tree = std::make_shared<openvdb::FloatTree>(grids.part->tree(), 0.0f, 1.0f, openvdb::TopologyCopy());
+  auto grid = openvdb::FloatGrid::create(tree);
+  grid->setTransform(grids.part->transform().copy());
+  return grid;
+}
+
+constexpr int kLeafSide = 8;
+
+/// The eight voxels of a set from x on, as the bits of a byte; x is a multiple of 8.
+std::uint8_t eightOf(const sim::VoxelSet& where, int x, int y, int z) {
+  return static_cast<std::uint8_t>(where.bits().row(y, z)[x >> 6] >> (x & 63));
+}
+
+/// Makes the leaves that hold voxels of the set, without values.
+template <class Tree>
+void touchLeaves(Tree& tree, const sim::VoxelSet& where) {
+  const sim::Voxel size = where.bits().size();
+  openvdb::tree::ValueAccessor<Tree> access(tree);
+  std::vector<std::uint64_t> any(static_cast<std::size_t>(where.bits().rowWords() - 1));
+  for (int y0 = 0; y0 < size.y; y0 += kLeafSide) {
+    for (int z0 = 0; z0 < size.z; z0 += kLeafSide) {
+      std::fill(any.begin(), any.end(), 0u);
+      for (int y = y0; y < std::min(size.y, y0 + kLeafSide); ++y) {
+        for (int z = z0; z < std::min(size.z, z0 + kLeafSide); ++z) {
+          const std::uint64_t* const row = where.bits().row(y, z);
+          for (std::size_t w = 0; w < any.size(); ++w) any[w] |= row[w];
+        }
+      }
+      for (int x = 0; x < size.x; x += kLeafSide) {
+        if (((any[static_cast<std::size_t>(x) / 64] >> (x % 64)) & 0xffu) != 0) access.touchLeaf({x, y0, z0});
+      }
+    }
+  }
+}
+
+float toVdb(float value) {
+  return value;
+}
+std::int32_t toVdb(std::int32_t value) {
+  return value;
+}
+openvdb::Vec3f toVdb(sim::Vec3f value) {
+  return {value.x, value.y, value.z};
+}
+
+template <class Value>
+openvdb::GridBase::Ptr gridOf(const std::vector<VdbPart<Value>>& parts, sim::Voxel size) {
+  using Tree = typename openvdb::tree::Tree4<decltype(toVdb(Value{})), 5, 4, 3>::Type;
+  auto grid = openvdb::Grid<Tree>::create();
+  for (const auto& part : parts) touchLeaves(grid->tree(), *part.where);
+  openvdb::tree::LeafManager<Tree>(grid->tree()).foreach ([&](auto& leaf, std::size_t) {
+    const openvdb::Coord low = leaf.origin();
+    for (const auto& part : parts) {
+      for (int y = low.y(); y < std::min(size.y, low.y() + kLeafSide); ++y) {
+        for (int z = low.z(); z < std::min(size.z, low.z() + kLeafSide); ++z) {
+          std::uint8_t left = eightOf(*part.where, low.x(), y, z);
+          if (left == 0) continue;
+          std::size_t number = part.where->number({low.x() + std::countr_zero(left), y, z});
+          for (; left != 0; left = static_cast<std::uint8_t>(left & (left - 1))) {
+            const sim::Voxel v(low.x() + std::countr_zero(left), y, z);
+            leaf.setValueOn({v.x, v.y, v.z}, toVdb(part.value(v, number++)));
+          }
+        }
+      }
+    }
+  });
+  if constexpr (std::same_as<Value, sim::Vec3f>) grid->setVectorType(openvdb::VEC_COVARIANT_NORMALIZE);
+  return grid;
+}
+
+using MakeGrid = std::function<openvdb::GridBase::Ptr()>;
+
+void addFields(std::vector<MakeGrid>& out, const std::vector<VdbField>& fields, const sim::World& world) {
+  const sim::Voxel size = world.frame().size;
+  for (const VdbField& field : fields) {
+    std::visit(
+        [&](const auto& parts) {
+          for (const auto& part : parts) {
+            if (part.where->bits().size() != size)
+              throw sim::InputError(fmt::format("the field {} has another size than the world", field.name));
+          }
+        },
+        field.parts);
+    out.push_back([&field, &world, size] {
+      const auto grid = std::visit([&](const auto& parts) { return gridOf(parts, size); }, field.parts);
+      grid->setTransform(world.grids().part->transform().copy());
+      describe(*grid, {field.name, field.description, field.unit}, world.frame());
+      for (const auto& [name, text] : field.about) grid->insertMeta(name, openvdb::StringMetadata(text));
+      return grid;
+    });
+  }
+}
+
+openvdb::MetaMap aboutFile(const sim::World& world) {
+  openvdb::MetaMap file;
+  file.insertMeta("creator", openvdb::StringMetadata("Espalier"));
+  file.insertMeta("up", openvdb::StringMetadata("+y"));
+  file.insertMeta("unit", openvdb::StringMetadata("metres in world space"));
+  file.insertMeta("layers", openvdb::Int32Metadata(world.layers()));
+  std::string names;
+  for (std::size_t i = 0; i < world.parts().size(); ++i) {
+    const sim::Part& part = world.parts()[i];
+    names += fmt::format("{}\t{}\t{}\n", i + 1, part.object, part.region);
+  }
+  file.insertMeta("parts", openvdb::StringMetadata(names));
+  return file;
+}
+
+/// An id in the shape that OpenVDB expects (a version 8 UUID: its own scheme), from the bytes around it.
+void setId(std::string& bytes) {
+  bytes.replace(kIdAt, kIdLength, kIdLength, '0');
+  const XXH128_hash_t hash = XXH3_128bits(bytes.data(), bytes.size());
+  std::string hex = fmt::format("{:016x}{:016x}", hash.high64, hash.low64);
+  hex[12] = '8';
+  hex[16] = '8';
+  for (const std::size_t at : {8u, 13u, 18u, 23u}) hex.insert(at, 1, '-');
+  bytes.replace(kIdAt, kIdLength, hex);
+}
+
+/// Writes what openvdb::io::Stream would, but makes each grid only when its turn has come: of a large world
+/// no two of them need to be in memory.
+class Writer : public openvdb::io::Archive {
+ public:
+  std::string bytes(const std::vector<MakeGrid>& grids, const openvdb::MetaMap& about) const {
+    std::ostringstream out(std::ios::binary);
+    out.exceptions(std::ios::failbit | std::ios::badbit);
+    writeHeader(out, false);
+    about.writeMeta(out);
+    const auto count = static_cast<std::int32_t>(grids.size());
+    out.write(reinterpret_cast<const char*>(&count), sizeof count);
+    for (const MakeGrid& make : grids) {
+      const openvdb::GridBase::Ptr grid = make();
+      grid->addStatsMetadata();
+      grid->insertMeta(openvdb::GridBase::META_FILE_COMPRESSION,
+                       openvdb::StringMetadata(openvdb::io::compressionToString(compression())));
+      openvdb::io::GridDescriptor descriptor(grid->getName(), grid->type());
+      writeGrid(descriptor, grid, out, false);
+      openvdb::io::setDataCompression(out, compression());  // a grid's own settings end with it
+    }
+    std::string bytes = std::move(out).str();
+    setId(bytes);
+    return bytes;
+  }
+};
+
+}  // namespace
+
+std::string vdbBytes(const sim::World& world, const std::vector<VdbField>& fields) {
+  openvdb::initialize();
+  using openvdb::FloatGrid, openvdb::Int32Grid, openvdb::Vec3SGrid;
+  const sim::World::Grids& grids = world.grids();
+  const sim::Frame& frame = world.frame();
+  const auto fog = openvdb::GRID_FOG_VOLUME;
+
+  std::vector<MakeGrid> out;
+  const auto add = [&](auto make) { out.emplace_back(make); };
+  add([&] {
+    return shown<FloatGrid>(density(grids), {"density", "1 where a voxel is occupied", "1"}, frame, fog);
+  });
+  add([&] {
+    return shown<Int32Grid>(
+        grids.part,
+        {"part", "number of the part that occupies a voxel, as listed in the file's metadata", "1"}, frame);
+  });
+  add([&] {
+    return shown<Vec3SGrid>(grids.colour, {"colour", "mean surface colour, linear RGB", "1"}, frame);
+  });
+  add([&] {
+    return shown<FloatGrid>(grids.coverage,
+                            {"coverage", "occupied fraction of a voxel, 1 inside solids", "1"}, frame, fog);
+  });
+  add([&] {
+    auto normal = shown<Vec3SGrid>(grids.normal,
+                                   {"normal", "mean surface normal, zero where there is none", "1"}, frame);
+    normal->setVectorType(openvdb::VEC_COVARIANT_NORMALIZE);
+    return normal;
+  });
+  add([&] {
+    return shown<Int32Grid>(
+        grids.layer, {"layer", "boundary layer: 0 on the scene, k voxels away from it in layer k", "1"},
+        frame);
+  });
+  add([&] {
+    return shown<Int32Grid>(grids.nearest, {"nearest", "part of the nearest scene voxel", "1"}, frame);
+  });
+  add([&] {
+    return shown<FloatGrid>(
+        grids.distance_vx,
+        {"distance", "distance to the nearest scene voxel, centre to centre", "voxel widths"}, frame);
+  });
+  addFields(out, fields, world);
+  return Writer().bytes(out, aboutFile(world));
+}
+
+std::string fieldVdbBytes(const sim::World& world, const std::vector<VdbField>& fields) {
+  openvdb::initialize();
+  std::vector<MakeGrid> out;
+  addFields(out, fields, world);
+  return Writer().bytes(out, aboutFile(world));
+}
+
+}  // namespace espalier::render

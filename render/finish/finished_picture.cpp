@@ -1,0 +1,262 @@
+#include "render/finish/finished_picture.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <optional>
+
+#include "render/finish/daylight.h"
+#include "render/finish/ground.h"
+#include "render/finish/looks.h"
+#include "render/finish/ray_scene.h"
+#include "render/image/tone.h"
+#include "sim/base/error.h"
+#include "sim/base/parallel.h"
+
+namespace espalier::render {
+namespace {
+
+using sim::Colour;
+using sim::Vec3;
+using sim::Vec3f;
+
+constexpr int kTile = 16;
+constexpr float kSunRadius =
+    0.011f;  // of the disc, radians: a little wider than the real one, for softer edges
+constexpr float kSmoothEnough =
+    0.045f;                         // spread of display values within a pixel that needs no further samples
+constexpr double kHazeReach = 9.0;  // haze and floor, in diagonals of the world
+
+struct SamplePoint {
+  glm::vec2 pixel, sun;  // 0..1
+};
+
+/// A round's samples: a turned grid, moved on between rounds so that all rounds together have every row and
+/// column once. The same for every pixel: penumbras come out as even steps rather than as grain.
+std::array<SamplePoint, kRays> samplePoints(std::uint32_t round) {
+  constexpr std::array<glm::vec2, kRays> kGrid{
+      glm::vec2(0.04f, 0.29f), {0.54f, 0.04f}, {0.29f, 0.79f}, {0.79f, 0.54f}};
+  const auto moved = static_cast<float>(round) / 8.0f;
+  std::array<SamplePoint, kRays> result;
+  for (std::size_t i = 0; i < kRays; ++i) {
+    result[i].pixel = glm::fract(kGrid[i] + glm::vec2(moved, 2.0f * moved));
+    result[i].sun = glm::fract(kGrid[kRays - 1 - i] + glm::vec2(2.0f * moved, moved));
+  }
+  return result;
+}
+
+/// Something that a camera ray met, ready to be lit.
+struct Fragment {
+  Vec3f p_m{0.0f};
+  Vec3f normal{0.0f};  // faces the camera
+  Vec3f flat{0.0f};    // the triangle's own, on the same side
+  Look look;
+  bool blade = false;
+  float distance_m = 0.0f;
+};
+
+class Painter {
+ public:
+  Painter(const FinishedScene& scene, const Camera& camera, int width, int height)
+      : rays_(scene.model),
+        sky_(scene.frame, *scene.occupied, *scene.sky),
+        ground_(groundOf(scene.model.meshes, scene.frame.voxel_m)),
+        camera_(camera, static_cast<double>(width) / height),
+        voxel_m_(static_cast<float>(scene.frame.voxel_m)),
+        width_(width),
+        height_(height) {
+    light_.to_sun = Vec3f(glm::normalize(scene.to_sun));
+    if (light_.to_sun.y <= 0.0f) light_.sun = Colour(0.0f);
+    ground_.height_m -= 0.1 * scene.frame.voxel_m;  // just below a floor that is there
+    const Vec3 extent = Vec3(scene.frame.size) * scene.frame.voxel_m;
+    centre_ = Vec3f(sim::worldFromVoxel(scene.frame, 0.5 * Vec3(scene.frame.size)));
+    diagonal_m_ = static_cast<float>(glm::length(extent));
+    const float up = std::max(light_.to_sun.y, 0.0f);
+    bounce_ = ground_.colour * (0.45f * up * light_.sun + 0.5f * light_.zenith_light);
+    sun_across_ = glm::normalize(
+        glm::cross(light_.to_sun, std::abs(light_.to_sun.y) < 0.9f ? Vec3f(0, 1, 0) : Vec3f(1, 0, 0)));
+    sun_up_ = glm::cross(light_.to_sun, sun_across_);
+  }
+
+  Colour pixel(int x, int y) const;
+
+ private:
+  using Round = std::array<Colour, kRays>;
+  Round round(int x, int y, std::uint32_t number) const;
+  std::optional<Fragment> groundBelow(Vec3f direction) const;
+  Fragment fragmentAt(const SurfaceHit& hit, Vec3f direction) const;
+  Vec3f sunPoint(glm::vec2 disc) const;
+  Colour lit(const Fragment& f, Vec3f direction, float sun_seen) const;
+  Colour hazed(Colour light, const Fragment& f, Vec3f direction) const;
+
+  RayScene rays_;
+  SkyView sky_;
+  Ground ground_;
+  CameraRays camera_;
+  Noise noise_;
+  Daylight light_;
+  Colour bounce_{0.0f};
+  Vec3f sun_across_{0.0f}, sun_up_{0.0f}, centre_{0.0f};
+  float diagonal_m_ = 1.0f, voxel_m_ = 1.0f;
+  int width_, height_;
+};
+
+std::optional<Fragment> Painter::groundBelow(Vec3f direction) const {
+  const float height = static_cast<float>(camera_.eye_m().y - ground_.height_m);
+  if (!(height > 0.0f && direction.y < -1e-5f)) return {};
+  Fragment f;
+  f.distance_m = -height / direction.y;
+  f.p_m = Vec3f(camera_.eye_m()) + f.distance_m * direction;
+  f.normal = f.flat = Vec3f(0, 1, 0);
+  if (f.distance_m > 40.0f * kHazeReach * diagonal_m_) return {};
+  return f;
+}
+
+Fragment Painter::fragmentAt(const SurfaceHit& hit, Vec3f direction) const {
+  const Surface& surface = rays_.surfaces()[hit.surface];
+  Fragment f;
+  f.distance_m = hit.distance_m;
+  f.p_m = Vec3f(camera_.eye_m()) + hit.distance_m * direction;
+  f.flat = glm::dot(hit.normal, direction) > 0.0f ? -hit.normal : hit.normal;
+  f.normal = f.flat;
+  if (surface.kind == SurfaceKind::scene) {
+    const sim::Mesh& mesh = *surface.mesh;
+    f.look = stoneLook(noise_, mesh.materials[mesh.material[hit.triangle]].colour, f.p_m);
+    return f;
+  }
+  const ModelMesh& mesh = *surface.model;
+  const auto& t = mesh.triangles[hit.triangle];
+  f.blade = surface.kind == SurfaceKind::blade;
+  const Vec3f smooth = f.blade ? bulgedNormal(mesh, hit)
+                               : mesh.normals[t[0]] * (1.0f - hit.u - hit.v) + mesh.normals[t[1]] * hit.u +
+                                     mesh.normals[t[2]] * hit.v;
+  if (glm::dot(smooth, smooth) > 1e-6f) {
+    f.normal = glm::normalize(glm::dot(smooth, f.flat) < 0.0f ? -smooth : smooth);
+  }
+  f.look = f.blade ? bladeLook(mesh, hit) : barkLook(noise_, mesh, hit, f.p_m);
+  return f;
+}
+
+Vec3f Painter::sunPoint(glm::vec2 disc) const {
+  // A square of the disc's area serves as well at this width.
+  const glm::vec2 offset = (2.0f * disc - 1.0f) * (0.886f * kSunRadius);
+  return glm::normalize(light_.to_sun + offset.x * sun_across_ + offset.y * sun_up_);
+}
+
+Colour Painter::lit(const Fragment& f, Vec3f direction, float sun_seen) const {
+  const float open = sky_.at(Vec3(f.p_m), f.flat);
+  const float up = f.normal.y;
+  const Colour sky_light =
+      glm::mix(light_.side_light, light_.zenith_light, std::max(up, 0.0f)) * (0.75f + 0.25f * up);
+  const Colour bounced = bounce_ * (0.5f - 0.5f * up) * (0.35f + 0.65f * open);
+  const Colour corners = 0.05f * light_.side_light;  // light that has bounced more than once
+  const float facing = glm::dot(f.normal, light_.to_sun);
+
+  Colour result =
+      f.look.albedo * (open * sky_light + bounced + corners + sun_seen * std::max(facing, 0.0f) * light_.sun);
+  if (f.blade) {
+    result += f.look.through *
+              (sun_seen * std::max(-facing, 0.0f) * light_.sun + 0.35f * open * light_.zenith_light);
+  }
+  if (f.look.gloss > 0.0f) {
+    const Vec3f half = glm::normalize(light_.to_sun - direction);
+    const float lobe = std::max(0.0f, glm::dot(f.normal, half));
+    const float l2 = lobe * lobe, l4 = l2 * l2, l8 = l4 * l4, l32 = l8 * l8 * l8 * l8;
+    const float grazing = 1.0f - std::max(0.0f, -glm::dot(direction, f.normal));
+    const float fresnel = 0.02f + 0.20f * grazing * grazing * grazing * grazing;
+    const float mirrored_up = std::max(0.0f, glm::reflect(direction, f.normal).y);
+    result += f.look.gloss * (fresnel * open * mirrored_up * light_.zenith_light +
+                              (facing > 0.0f ? sun_seen * 0.12f * l32 : 0.0f) * light_.sun);
+  }
+  return result;
+}
+
+Colour Painter::hazed(Colour light, const Fragment& f, Vec3f direction) const {
+  const Vec3f aside(f.p_m.x - centre_.x, 0.0f, f.p_m.z - centre_.z);
+  const float out = std::max(0.0f, glm::length(aside) / diagonal_m_ - 0.75f);
+  const float far = std::max(0.0f, f.distance_m / diagonal_m_ - 1.5f);
+  const float clear = expf(-0.55f * out - far / static_cast<float>(kHazeReach));
+  const Vec3f level = glm::normalize(Vec3f(direction.x, 0.0f, direction.z) + Vec3f(0.0f, 1e-6f, 0.0f));
+  return glm::mix(skySeen(light_, level), light, clear);
+}
+
+Painter::Round Painter::round(int x, int y, std::uint32_t number) const {
+  const auto points = samplePoints(number);
+  std::array<Vec3f, kRays> directions;
+  for (std::size_t i = 0; i < kRays; ++i) {
+    directions[i] = Vec3f(camera_.direction((x + static_cast<double>(points[i].pixel.x)) / width_,
+                                            (y + static_cast<double>(points[i].pixel.y)) / height_));
+  }
+  const auto hits = rays_.firstHits(Vec3f(camera_.eye_m()), directions);
+  std::array<std::optional<Fragment>, kRays> fragments;
+  RayScene::ShadowRays shadows;
+  for (std::size_t i = 0; i < kRays; ++i) {
+    fragments[i] = groundBelow(directions[i]);
+    if (hits[i].any() && !(fragments[i] && fragments[i]->distance_m < hits[i].distance_m)) {
+      fragments[i] = fragmentAt(hits[i], directions[i]);
+    } else if (fragments[i]) {
+      fragments[i]->look = groundLook(noise_, ground_.colour, fragments[i]->p_m);
+    }
+    if (!fragments[i]) continue;
+    const Fragment& f = *fragments[i];
+    const float side = glm::dot(f.flat, light_.to_sun);
+    shadows.wanted[i] =
+        light_.to_sun.y > 0.0f && (f.blade || (side > 0.0f && glm::dot(f.normal, light_.to_sun) > 0.0f));
+    shadows.origins_m[i] = f.p_m + (side > 0.0f ? 0.04f : -0.04f) * voxel_m_ * f.flat;
+    shadows.directions[i] = sunPoint(points[i].sun);
+  }
+  const auto sunlit = rays_.clear(shadows);
+  Round result;
+  for (std::size_t i = 0; i < kRays; ++i) {
+    result[i] = fragments[i] ? hazed(lit(*fragments[i], directions[i], sunlit[i] ? 1.0f : 0.0f),
+                                     *fragments[i], directions[i])
+                             : skySeen(light_, directions[i]);
+  }
+  return result;
+}
+
+Colour Painter::pixel(int x, int y) const {
+  const ToneCurve tone;
+  Colour sum(0.0f);
+  float darkest = 1.0f, brightest = 0.0f;
+  const auto add = [&](const Round& r) {
+    for (const Colour& light : r) {
+      sum += light;
+      const float shown = tone(0.3f * light.r + 0.6f * light.g + 0.1f * light.b);
+      darkest = std::min(darkest, shown);
+      brightest = std::max(brightest, shown);
+    }
+  };
+  add(round(x, y, 0));
+  const float spread = brightest - darkest;
+  const std::uint32_t rounds = spread < kSmoothEnough ? 1 : 2;
+  for (std::uint32_t r = 1; r < rounds; ++r) add(round(x, y, r));
+  return sum / static_cast<float>(rounds * kRays);
+}
+
+}  // namespace
+
+Image finishedPicture(const FinishedScene& scene, const Camera& camera, int width, int height) {
+  if (!scene.occupied || !scene.sky || scene.occupied->size() != scene.frame.size ||
+      scene.sky->size != scene.frame.size) {
+    throw sim::InputError(
+        "finished picture: occupancy and sky exposure must be given and have the world's size");
+  }
+  const Painter painter(scene, camera, width, height);
+  Image image(width, height, 3);
+  const int columns = (width + kTile - 1) / kTile, rows = (height + kTile - 1) / kTile;
+  sim::parallelFor(static_cast<std::size_t>(columns * rows), 4, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t tile = begin; tile < end; ++tile) {
+      const int x0 = static_cast<int>(tile) % columns * kTile, y0 = static_cast<int>(tile) / columns * kTile;
+      for (int y = y0; y < std::min(y0 + kTile, height); ++y) {
+        for (int x = x0; x < std::min(x0 + kTile, width); ++x) {
+          const Colour light = painter.pixel(x, y);
+          std::copy_n(&light.r, 3, image.at(x, y));
+        }
+      }
+    }
+  });
+  return image;
+}
+
+}  // namespace espalier::render

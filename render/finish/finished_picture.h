@@ -1,0 +1,26 @@
+#pragma once
+#include "render/files/gltf.h"
+#include "render/image/camera.h"
+#include "render/image/image.h"
+#include "sim/base/bits.h"
+#include "sim/base/frame.h"
+#include "sim/world/field.h"
+
+namespace espalier::render {
+
+/// What the finished picture is made of. Borrowed: everything must outlive the call.
+struct FinishedScene {
+  ModelScene model;
+  sim::Frame frame;
+  const sim::BitVolume* occupied = nullptr;  ///< scene and plants, as tiled
+  const sim::ExposureField* sky = nullptr;   ///< sky_exposure of every free voxel
+  sim::Vec3 to_sun{0.4, 0.75, 0.5};  ///< need not be of unit length; below the horizon there is no sun
+};
+
+/// The plant itself in daylight: the model diced to the voxel grid, each fragment lit by its voxel (Greene
+/// 1989, section 5), with sharp sunlight, a floor that carries on into haze, and a sky behind. Linear light,
+/// RGB; made for the default ToneCurve. The same scene gives the same picture on any thread count. Throws
+/// InputError where something is missing or of another size than the frame.
+Image finishedPicture(const FinishedScene& scene, const Camera& camera, int width, int height);
+
+}  // namespace espalier::render

@@ -1,0 +1,68 @@
+#pragma once
+#include <array>
+#include <cstdint>
+#include <limits>
+#include <memory>
+
+#include "render/files/gltf.h"
+#include "sim/base/vec.h"
+
+namespace espalier::render {
+
+/// Four rays travel together: the samples of one pixel, which mostly meet the same things.
+inline constexpr int kRays = 4;
+
+struct SurfaceHit {
+  static constexpr std::uint32_t kNothing = 0xffffffffu;
+  std::uint32_t surface = kNothing;  ///< index into RayScene::surfaces
+  std::uint32_t triangle = 0;
+  float u = 0.0f, v = 0.0f;  ///< barycentric weights of the triangle's second and third corner
+  float distance_m = 0.0f;
+  sim::Vec3f normal{0.0f};  ///< unit, of the flat triangle as it is wound
+
+  bool any() const { return surface != kNothing; }
+};
+
+enum class SurfaceKind { scene, stem, blade };
+
+/// What a hit's `surface` stands for: one of the two meshes.
+struct Surface {
+  SurfaceKind kind = SurfaceKind::scene;
+  const sim::Mesh* mesh = nullptr;   ///< of a scene surface
+  const ModelMesh* model = nullptr;  ///< of stems and blades
+};
+
+/// Meshes made ready for rays (Embree). The scene is borrowed. Const members may be called from any number of
+/// threads; answers depend on neither their number nor their order.
+class RayScene {
+ public:
+  explicit RayScene(const ModelScene& scene);
+  RayScene(RayScene&&) noexcept;
+  ~RayScene();
+
+  const std::vector<Surface>& surfaces() const { return surfaces_; }
+
+  std::array<SurfaceHit, kRays> firstHits(sim::Vec3f origin_m,
+                                          const std::array<sim::Vec3f, kRays>& directions) const;
+
+  struct ShadowRays {
+    std::array<sim::Vec3f, kRays> origins_m, directions;
+    std::array<bool, kRays> wanted{};
+    std::array<float, kRays> reach_m = everywhere();  ///< what lies farther does not stand in the way
+
+    static constexpr std::array<float, kRays> everywhere() {
+      std::array<float, kRays> reach{};
+      reach.fill(std::numeric_limits<float>::infinity());
+      return reach;
+    }
+  };
+  /// True where nothing stands in the way of a wanted ray.
+  std::array<bool, kRays> clear(const ShadowRays& rays) const;
+
+ private:
+  struct Device;
+  std::unique_ptr<Device> device_;
+  std::vector<Surface> surfaces_;
+};
+
+}  // namespace espalier::render

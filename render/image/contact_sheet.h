@@ -1,0 +1,26 @@
+#pragma once
+#include <span>
+#include <string>
+
+#include "render/image/image.h"
+
+namespace espalier::render {
+
+struct Captioned {
+  const Image* picture;  ///< display values, RGB
+  std::string letter;    ///< "A"; may be empty
+  std::string caption;   ///< "sun_exposure"
+};
+
+struct SheetLook {
+  int columns = 3;
+  int picture_width_px = 480;
+  std::string title;      ///< may be empty
+  std::string note = {};  ///< below the title, quieter: what the pictures' numbers are; lines by \n
+};
+
+/// Reduced pictures in rows on a quiet ground, each with its caption beneath; display values. All pictures
+/// must have one shape. Throws InputError if there are none.
+Image contactSheet(std::span<const Captioned> pictures, const SheetLook& look = {});
+
+}  // namespace espalier::render

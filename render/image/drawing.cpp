@@ -1,0 +1,179 @@
+#include "render/image/drawing.h"
+
+#include <OpenImageIO/imagebufalgo.h>
+#include <fmt/format.h>
+#include <sstream>
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+#include <utility>
+
+#include "sim/base/error.h"
+
+// OpenImageIO draws text, resizes and copies. Its lines and boxes have hard edges one pixel wide, so those
+// two are laid down here by the share of each pixel that they cover.
+namespace espalier::render {
+namespace {
+
+namespace algo = OIIO::ImageBufAlgo;
+
+const char* fontName(Font font) {
+  return font == Font::bold ? "DejaVuSans-Bold" : "DejaVuSans";
+}
+
+/// Letters are set this many times larger and then reduced: free of the font's hinting, with even spacing.
+constexpr int kTextScale = 4;
+
+/// note: OpenImageIO 2.4 decodes UTF-8 wrongly (a degree sign comes out as "0"), so what is not ASCII is
+/// drawn as a question mark, one a character.
+std::string drawable(const std::string& text) {
+  std::string out;
+  for (const char c : text) {
+    const unsigned char byte = static_cast<unsigned char>(c);
+    if (byte >= 0x80 && byte < 0xc0) continue;  // the rest of a character begun before
+    out += byte >= 0x80 ? '?' : byte < 0x20 ? ' ' : c;
+  }
+  return out;
+}
+
+OIIO::ROI textBounds(const std::string& text, float size_px, Font font) {
+  const OIIO::ROI bounds =
+      algo::text_size(text, static_cast<int>(std::lround(size_px * kTextScale)), fontName(font));
+  if (!bounds.defined()) {
+    throw sim::InputError(fmt::format(
+        "cannot find the font {} for the text in pictures; install fonts-dejavu-core", fontName(font)));
+  }
+  return bounds;
+}
+
+void blend(Image& image, int x, int y, const Ink& ink, float coverage) {
+  const float share = coverage * ink.opacity;
+  float* pixel = image.at(x, y);
+  for (int c = 0; c < 3; ++c) pixel[c] += share * (ink.colour[c] - pixel[c]);
+}
+
+/// The pixels that a shape between two corners may touch.
+struct Reach {
+  int x0, y0, x1, y1;
+};
+Reach reachOf(const Image& image, glm::vec2 low, glm::vec2 high) {
+  const auto within = [](float v, int most) {
+    return static_cast<int>(std::clamp(v, 0.0f, static_cast<float>(most)));
+  };
+  return {within(std::floor(low.x), image.width), within(std::floor(low.y), image.height),
+          within(std::ceil(high.x), image.width), within(std::ceil(high.y), image.height)};
+}
+
+template <typename Coverage>
+void cover(Image& image, const Reach& reach, const Ink& ink, Coverage coverage) {
+  for (int y = reach.y0; y < reach.y1; ++y) {
+    for (int x = reach.x0; x < reach.x1; ++x) {
+      const float share = coverage(glm::vec2(static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f));
+      if (share > 0.0f) blend(image, x, y, ink, std::min(share, 1.0f));
+    }
+  }
+}
+
+OIIO::ImageBuf wrapped(Image& image) {
+  return OIIO::ImageBuf(OIIO::ImageSpec(image.width, image.height, image.channels, OIIO::TypeDesc::FLOAT),
+                        image.pixels.data());
+}
+
+}  // namespace
+
+float textWidth(const std::string& text, float size_px, Font font) {
+  const std::string shown = drawable(text);
+  return shown.empty() ? 0.0f : static_cast<float>(textBounds(shown, size_px, font).width()) / kTextScale;
+}
+
+void drawText(Image& image, glm::vec2 at, const std::string& text, const TextStyle& style) {
+  const std::string shown = drawable(text);
+  if (shown.empty()) return;
+  const OIIO::ROI bounds = textBounds(shown, style.size_px, style.font);
+  const float width = static_cast<float>(bounds.width()) / kTextScale;
+  const float shift = style.align == Align::left ? 0.0f : style.align == Align::centre ? 0.5f : 1.0f;
+
+  // The text's place in the enlarged picture, and the whole pixels around it.
+  const int left = static_cast<int>(std::lround((at.x - shift * width) * kTextScale));
+  const int base = static_cast<int>(std::lround(at.y * kTextScale));
+  const auto floorDiv = [](int v) {
+    return static_cast<int>(std::floor(static_cast<float>(v) / kTextScale));
+  };
+  const int x0 = floorDiv(left) - 1, x1 = floorDiv(left + bounds.width()) + 2;
+  const int y0 = floorDiv(base + bounds.ybegin) - 1, y1 = floorDiv(base + bounds.yend) + 2;
+
+  OIIO::ImageBuf mask(
+      OIIO::ImageSpec((x1 - x0) * kTextScale, (y1 - y0) * kTextScale, 1, OIIO::TypeDesc::FLOAT));
+  algo::zero(mask);
+  const float white = 1.0f;
+  if (!algo::render_text(mask, left - bounds.xbegin - x0 * kTextScale, base - y0 * kTextScale, shown,
+                         static_cast<int>(std::lround(style.size_px * kTextScale)), fontName(style.font),
+                         OIIO::cspan<float>(white), algo::TextAlignX::Left, algo::TextAlignY::Baseline, 0, {},
+                         1))
+    throw sim::InputError(fmt::format("cannot draw the text '{}': {}", text, mask.geterror()));
+
+  const float* letters = static_cast<const float*>(mask.localpixels());
+  const std::ptrdiff_t stride = mask.spec().width;
+  for (int y = std::max(0, y0); y < std::min(image.height, y1); ++y) {
+    for (int x = std::max(0, x0); x < std::min(image.width, x1); ++x) {
+      float sum = 0.0f;
+      for (int j = 0; j < kTextScale; ++j)
+        for (int i = 0; i < kTextScale; ++i)
+          sum += letters[((y - y0) * kTextScale + j) * stride + (x - x0) * kTextScale + i];
+      if (sum > 0.0f) blend(image, x, y, style.ink, sum / (kTextScale * kTextScale));
+    }
+  }
+}
+
+std::vector<std::string> linesOf(const std::string& text) {
+  std::vector<std::string> lines;
+  std::istringstream in(text);
+  for (std::string line; std::getline(in, line);) lines.push_back(line);
+  return lines;
+}
+
+void drawSegment(Image& image, glm::vec2 a, glm::vec2 b, float width_px, Ink ink) {
+  // Thinner than a pixel is a pixel wide and fainter.
+  ink.opacity *= std::min(1.0f, width_px);
+  const float half = 0.5f * std::max(1.0f, width_px);
+  const glm::vec2 along = b - a;
+  const float length2 = glm::dot(along, along);
+  cover(image, reachOf(image, glm::min(a, b) - half - 1.0f, glm::max(a, b) + half + 1.0f), ink,
+        [&](glm::vec2 p) {
+          const float t = length2 > 0.0f ? std::clamp(glm::dot(p - a, along) / length2, 0.0f, 1.0f) : 0.0f;
+          return half + 0.5f - glm::length(p - a - t * along);
+        });
+}
+
+void fillBox(Image& image, glm::vec2 low, glm::vec2 high, Ink ink, float corner_radius_px) {
+  const glm::vec2 middle = 0.5f * (low + high);
+  const glm::vec2 half = 0.5f * (high - low);
+  const float radius = std::min({corner_radius_px, half.x, half.y});
+  cover(image, reachOf(image, low, high), ink, [&](glm::vec2 p) {
+    const glm::vec2 overlap = glm::min(p + 0.5f, high) - glm::max(p - 0.5f, low);
+    if (overlap.x <= 0.0f || overlap.y <= 0.0f) return 0.0f;
+    const glm::vec2 beyond = glm::abs(p - middle) - (half - radius);
+    if (radius <= 0.0f || beyond.x <= 0.0f || beyond.y <= 0.0f) return overlap.x * overlap.y;
+    return std::max(0.0f, radius + 0.5f - glm::length(beyond));
+  });
+}
+
+void paste(Image& onto, const Image& picture, int x, int y) {
+  Image copy = picture;  // ImageBuf wants memory that it may write to
+  OIIO::ImageBuf target = wrapped(onto);
+  if (!algo::paste(target, x, y, 0, 0, wrapped(copy)))
+    throw sim::InputError(fmt::format("cannot place a picture on a sheet: {}", target.geterror()));
+}
+
+Image resized(const Image& image, int width_px, int height_px) {
+  Image copy = image;
+  Image small(width_px, height_px, image.channels);
+  OIIO::ImageBuf target = wrapped(small);
+  // note: lanczos3 takes six times as long here and rings at the sky's edges.
+  if (!algo::resize(target, wrapped(copy), "triangle", 0.0f, {}, 1))
+    throw sim::InputError(fmt::format("cannot resize a picture: {}", target.geterror()));
+  return small;
+}
+
+}  // namespace espalier::render

@@ -1,0 +1,25 @@
+#pragma once
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "render/image/image.h"
+
+/// Pictures as the bytes of a file: write them with sim::writeWhole. The same picture gives the same bytes
+/// always: nothing of the time or the machine is stamped into them. All functions throw sim::InputError when
+/// the encoder fails or a pixel is not a finite number.
+namespace espalier::render {
+
+/// Texts kept in the file's header, by name; stored in the order given.
+using Metadata = std::vector<std::pair<std::string, std::string>>;
+
+/// 8-bit PNG of display values (sRGB, 0..1; what lies outside is clamped) with 1, 3 or 4 channels; alpha, the
+/// fourth, is not premultiplied.
+std::string encodePng(const Image& display, const Metadata& metadata = {});
+
+/// EXR of linear or measured values; one name a channel. Quantities are kept exactly, as 32-bit floats;
+/// colours, whose first channel is "R", are stored as half floats.
+std::string encodeExr(const Image& measured, const std::vector<std::string>& channel_names,
+                      const Metadata& metadata = {});
+
+}  // namespace espalier::render

@@ -1,0 +1,27 @@
+#pragma once
+#include <vector>
+
+#include "render/model/model_mesh.h"
+#include "render/model/radii.h"
+#include "sim/base/frame.h"
+#include "sim/grow/plant.h"
+
+namespace espalier::render {
+
+struct ModelOptions {
+  PipeModel pipe;
+};
+
+/// A plant's surfaces. Meshes may be empty: a lone seed has no stems.
+struct PlantModel {
+  std::string name;
+  ModelMesh stems;
+  std::vector<ModelMesh> elements;  ///< one for each of the plant's shapes: blades with their stalks
+};
+
+/// Models a plant: every stem a closed tube swept along a C2 curve through its nodes, thick as the pipe model
+/// says, a fork's tube beginning inside its parent's; every element's polygons, with a stalk from the stem to
+/// a blade that does not begin on it. Throws InputError as pipeRadii does.
+PlantModel modelPlant(const sim::Plant& plant, const sim::Frame& frame, const ModelOptions& options = {});
+
+}  // namespace espalier::render

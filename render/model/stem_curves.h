@@ -1,0 +1,32 @@
+#pragma once
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "render/model/spline.h"
+#include "sim/grow/plant.h"
+
+namespace espalier::render {
+
+/// A stem from its fork (or seed) to its tip: at each node the thickest child continues it, the straightest
+/// among equals; every other child begins a stem of its own.
+struct StemCurve {
+  std::vector<sim::NodeId> nodes;  ///< from the fork or seed outwards; neighbours never share a position
+  Spline curve;                    ///< through the nodes, voxel space; node i at parameter i
+  bool from_seed = false;
+};
+
+struct StemCurves {
+  std::vector<StemCurve> stems;       ///< a stem comes after the one it forks from
+  std::vector<std::int32_t> stem_of;  ///< per node: the stem that its own segment lies on, -1 for a lone seed
+  std::vector<double> parameter_of;   ///< per node: where on that stem
+
+  /// The point on the smooth stem that belongs to a point of the straight segment between a node and its
+  /// parent.
+  sim::Vec3 onStem(const sim::Skeleton& skeleton, sim::NodeId node, sim::Vec3 on_segment_vx) const;
+};
+
+/// `radii` as from pipeRadii.
+StemCurves stemCurves(const sim::Skeleton& skeleton, std::span<const float> radii);
+
+}  // namespace espalier::render

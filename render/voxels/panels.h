@@ -1,0 +1,91 @@
+#pragma once
+#include <cstdint>
+#include <functional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "render/image/colour_map.h"
+#include "render/image/image.h"
+#include "render/image/tone.h"
+#include "render/voxels/visibility.h"
+
+/// The six panels of Greene 1989, figure 6, and hours of sun: what light does in a world of voxels, each cube
+/// drawn as it stands.
+namespace espalier::render {
+
+enum class Panel {
+  sun_exposure,
+  sky_exposure,
+  threshold,
+  shadow_matte,
+  surface_colour,
+  first_pass,
+  sun_hours
+};
+
+/// What a face of an occupied voxel receives; asked only where the voxel in front of it is not occupied.
+using FaceValue = std::function<float(sim::Voxel voxel, std::uint8_t face)>;
+
+/// What the panels need to know of a world. Several threads may ask at once. What no panel wanted may be left
+/// out.
+struct PanelWorld {
+  const sim::BitVolume& occupied;
+  const sim::Bricks& bricks;
+  FaceValue sun;                                  ///< 0..1
+  FaceValue sky;                                  ///< 0..1
+  std::function<sim::Colour(sim::Voxel)> colour;  ///< linear, of an occupied voxel
+  FaceValue sun_hours = {};
+};
+
+struct PanelLook {
+  float blend_sun = 0.8f, blend_sky = 0.2f;  ///< of exposure
+  float threshold = 0.3f;                    ///< least exposure at which the plant lives
+  sim::Vec3 to_sun{0.0, 1.0, 0.0};           ///< unit; the sun of the shadow matte and of the first pass
+  std::string sun_map = "magma";
+  std::string sky_map = "viridis";
+  std::string hours_map = "plasma";
+  float most_hours = 12.0f;  ///< that the map's bright end stands for
+  ToneCurve tone;            ///< of the first pass
+};
+
+struct PanelPicture {
+  Image display;   ///< RGB display values, for the eye
+  Image measured;  ///< pure values, for measuring: no shading, no smoothing
+  /// Of `measured`. Fields: the panel's value as the mean over what a pixel shows of the world, 0 where it
+  /// shows sky alone, then "coverage", the pixel's share that is not sky. Colours: R, G, B, premultiplied by
+  /// A.
+  std::vector<std::string> channel_names;
+};
+
+/// Shades what a camera sees.
+class PanelPainter {
+ public:
+  /// Prepares what these panels need. What is given must outlive the painter.
+  PanelPainter(const Visibility& seen, const PanelWorld& world, PanelLook look,
+               std::span<const Panel> panels);
+  /// One of the panels named to the constructor.
+  PanelPicture paint(Panel panel) const;
+
+ private:
+  const Visibility& seen_;
+  PanelLook look_;
+  std::vector<float> relief_;  ///< how bright a cube's face is drawn; for each fragment, as all that follows
+  struct Shown {
+    std::vector<float> pure, smooth;  ///< as it is, and smoothed over faces side by side
+  };
+  Shown sun_, sky_, hours_;
+  std::vector<float> lit_;
+  std::vector<sim::Colour> colour_;
+};
+
+/// The two colours of the threshold panel, display values, for its legend.
+struct ThresholdColours {
+  sim::Colour above, below;
+};
+ThresholdColours thresholdColours();
+
+/// The sky behind pictures in colour, linear light, in a direction of unit length.
+sim::Colour skyColour(sim::Vec3 direction);
+
+}  // namespace espalier::render

@@ -1,0 +1,180 @@
+#include "render/model/plant_model.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+#include "render/model/leaves.h"
+#include "sim/base/error.h"
+#include "tests/support/small_vine.h"
+
+namespace espalier {
+namespace {
+
+using render::ModelMesh;
+using render::modelPlant;
+using sim::Vec3;
+using sim::Vec3f;
+
+const sim::Frame kUnit{sim::Vec3(0.0), 1.0, sim::Voxel(16)};
+
+void expectSound(const ModelMesh& mesh) {
+  const std::size_t count = mesh.positions_m.size();
+  EXPECT_EQ(mesh.normals.size(), count);
+  EXPECT_EQ(mesh.uvs.size(), count);
+  EXPECT_EQ(mesh.exposures.size(), count);
+  EXPECT_EQ(mesh.youths.size(), count);
+  EXPECT_EQ(mesh.pieces.size(), count);
+  for (std::size_t i = 0; i < count; ++i) {
+    EXPECT_TRUE(std::isfinite(glm::dot(mesh.positions_m[i], mesh.positions_m[i])));
+    EXPECT_NEAR(glm::length(mesh.normals[i]), 1.0f, 1e-4f);
+    EXPECT_TRUE(mesh.exposures[i] >= 0.0f && mesh.exposures[i] <= 1.0f);
+    EXPECT_TRUE(mesh.youths[i] >= 0.0f && mesh.youths[i] <= 1.0f);
+  }
+  for (const auto& t : mesh.triangles) {
+    for (const std::uint32_t corner : t) EXPECT_LT(corner, count);
+  }
+}
+
+double distanceTo(const ModelMesh& mesh, Vec3 p) {
+  double nearest = std::numeric_limits<double>::infinity();
+  for (const Vec3f q : mesh.positions_m) nearest = std::min(nearest, glm::distance(Vec3(q), p));
+  return nearest;
+}
+
+TEST(PlantModel, StemsPassThroughTheNodes) {
+  const sim::Plant plant = tests::smallVine();
+  const auto model = modelPlant(plant, tests::kVineFrame);
+  expectSound(model.stems);
+  const auto radii = render::pipeRadii(plant.skeleton, {});
+  for (std::size_t n = 0; n < radii.size(); ++n) {
+    const Vec3 node_m = sim::worldFromVoxel(tests::kVineFrame, plant.skeleton.position_vx[n]);
+    EXPECT_LE(distanceTo(model.stems, node_m) / tests::kVineFrame.voxel_m,
+              static_cast<double>(radii[n]) * 1.01)
+        << n;
+  }
+}
+
+TEST(PlantModel, IsLight) {
+  const sim::Plant plant = tests::smallVine();
+  const auto model = modelPlant(plant, tests::kVineFrame);
+  const auto segments = static_cast<std::size_t>(plant.skeleton.size());
+  EXPECT_LT(model.stems.triangles.size(), 45 * segments);
+  EXPECT_EQ(model.elements[0].triangles.size(), (6 + 10) * plant.elements.size());  // blade and stalk
+}
+
+TEST(PlantModel, ExposureComesFromTheNodes) {
+  sim::Plant plant;
+  tests::addNode(plant.skeleton, sim::kNoNode, {0, 0, 0}, 0, 0.25f);
+  tests::addNode(plant.skeleton, 0, {0, 3, 0}, 4, 0.75f);
+  const auto model = modelPlant(plant, kUnit);
+  for (std::size_t i = 0; i < model.stems.positions_m.size(); ++i) {
+    const float y = model.stems.positions_m[i].y;
+    if (y < 0.01f) {
+      EXPECT_EQ(model.stems.exposures[i], 0.25f);
+    } else if (y > 2.99f) {
+      EXPECT_EQ(model.stems.exposures[i], 0.75f);
+      EXPECT_EQ(model.stems.youths[i], 1.0f);
+    }
+  }
+}
+
+TEST(PlantModel, DegeneratePlants) {
+  sim::Plant plant;
+  EXPECT_TRUE(modelPlant(plant, kUnit).stems.empty());
+  tests::addNode(plant.skeleton, sim::kNoNode, {1, 1, 1});
+  EXPECT_TRUE(modelPlant(plant, kUnit).stems.empty());
+  tests::addNode(plant.skeleton, 0, {1, 1, 1});  // in the seed's own place
+  EXPECT_TRUE(modelPlant(plant, kUnit).stems.empty());
+  tests::addNode(plant.skeleton, 1, {1, 3, 1});
+  plant.shapes = {tests::keeledLeaf(), {"nothing", {}, {}}};
+  plant.elements.resize(2);
+  plant.elements[0].node = 1;
+  plant.elements[1] = {0, 1, {1, 1, 1}};
+  const auto model = modelPlant(plant, kUnit);
+  EXPECT_FALSE(model.stems.empty());
+  expectSound(model.stems);
+  expectSound(model.elements[0]);
+  EXPECT_EQ(model.elements.size(), 2u);
+  EXPECT_TRUE(model.elements[1].empty());
+  EXPECT_THROW(modelPlant(plant, kUnit, {{-1.0f, 0.1f, 1.0f}}), sim::InputError);
+}
+
+TEST(Leaves, AreWhereTheyWerePlaced) {
+  sim::PlacedElement element;
+  element.position_vx = {3, 4, 5};
+  element.x = {0, 0, -1};
+  element.y = {1, 0, 0};
+  element.z = {0, -1, 0};
+  element.scale = 2.0;
+  element.exposure = 0.4f;
+  const sim::Frame frame{sim::Vec3(10, 0, 0), 0.5, sim::Voxel(16)};
+  const sim::ElementShape shape{"tile", {{{-1, 0, 0}, {1, 0, 0}, {1, 1, 0}, {-1, 1, 0}}}, {}};
+  ModelMesh mesh;
+  render::appendElement(mesh, element, shape, frame, 0.5f, 9);
+  expectSound(mesh);
+  ASSERT_EQ(mesh.positions_m.size(), 4u);
+  // (-1, 0, 0): 2 * -x = +z 2 -> voxel (3, 4, 7) -> metres (11.5, 2, 3.5)
+  EXPECT_EQ(mesh.positions_m[0], Vec3f(11.5f, 2.0f, 3.5f));
+  EXPECT_EQ(mesh.positions_m[2], Vec3f(12.5f, 2.0f, 1.5f));
+  EXPECT_EQ(mesh.normals[0], Vec3f(0, -1, 0));
+  EXPECT_EQ(mesh.uvs[2], glm::vec2(1, 1));
+  EXPECT_EQ(mesh.exposures[0], 0.4f);
+  EXPECT_EQ(mesh.pieces[0], 9u);
+}
+
+TEST(Leaves, FaceTheirOwnFaceHoweverTheyAreWound) {
+  ModelMesh mesh;
+  render::appendElement(mesh, {}, tests::keeledLeaf(), kUnit, 0.0f, 0);
+  for (const auto& t : mesh.triangles) {
+    const Vec3f a = mesh.positions_m[t[0]], b = mesh.positions_m[t[1]], c = mesh.positions_m[t[2]];
+    EXPECT_GT(glm::cross(b - a, c - a).z, 0.0f);
+    EXPECT_GT(mesh.normals[t[0]].z, 0.0f);
+  }
+}
+
+double areaOf(const std::vector<Vec3>& corners) {
+  const render::Fan fan = render::fanOf(corners);
+  std::vector<Vec3> points = corners;
+  if (fan.with_centre) points.push_back(render::centreOf(corners));
+  double area = 0.0;
+  for (const auto& t : fan.triangles)
+    area += 0.5 * glm::length(glm::cross(points[t[1]] - points[t[0]], points[t[2]] - points[t[0]]));
+  return area;
+}
+
+TEST(Leaves, FansCoverConvexAndHollowPolygons) {
+  EXPECT_DOUBLE_EQ(areaOf({{0, 0, 0}, {2, 0, 0}, {2, 3, 0}, {0, 3, 0}}), 6.0);
+  // A star of four points, begun at a point: corner 0 does not see the whole of it.
+  const std::vector<Vec3> star{{3, 0, 0},  {1, 1, 0},   {0, 3, 0},  {-1, 1, 0},
+                               {-3, 0, 0}, {-1, -1, 0}, {0, -3, 0}, {1, -1, 0}};
+  EXPECT_TRUE(render::fanOf(star).with_centre);
+  EXPECT_NEAR(areaOf(star), 12.0, 1e-12);
+  EXPECT_TRUE(render::fanOf(std::vector<Vec3>{{0, 0, 0}, {1, 0, 0}}).triangles.empty());
+  EXPECT_TRUE(render::fanOf(std::vector<Vec3>{{0, 0, 0}, {1, 0, 0}, {2, 0, 0}}).triangles.empty());
+}
+
+TEST(Leaves, StalksReachFromTheStemToTheBlade) {
+  sim::Plant plant;
+  tests::addNode(plant.skeleton, sim::kNoNode, {5, 0, 5});
+  tests::addNode(plant.skeleton, 0, {5, 6, 5});
+  plant.shapes = {tests::keeledLeaf()};
+  sim::PlacedElement element;
+  element.node = 1;
+  element.position_vx = {5, 3, 5};
+  element.x = {0, 0, -1};
+  element.y = {1, 0, 0};
+  element.z = {0, -1, 0};
+  element.scale = 4.0;
+  plant.elements = {element};
+  const auto with_stalk = modelPlant(plant, kUnit).elements[0];
+  const Vec3 base = sim::placed(element, render::bladeBase(plant.shapes[0]));
+  EXPECT_LT(distanceTo(with_stalk, {5, 3, 5}), 0.1);
+  EXPECT_LT(distanceTo(with_stalk, base), 1e-5);
+  plant.shapes[0].polygons = {{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}}};  // begins on the stem
+  EXPECT_EQ(modelPlant(plant, kUnit).elements[0].triangles.size(), 1u);
+}
+
+}  // namespace
+}  // namespace espalier

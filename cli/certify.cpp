@@ -7,9 +7,9 @@
 #include <memory>
 
 #include "cli/commands.h"
-#include "scenes/accuracy_study.h"
-#include "scenes/certificate.h"
-#include "scenes/read_scene.h"
+#include "scenes/accuracy/accuracy_study.h"
+#include "scenes/accuracy/certificate.h"
+#include "scenes/read/read_scene.h"
 
 namespace espalier::cli {
 namespace {

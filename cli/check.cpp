@@ -7,7 +7,7 @@
 #include <memory>
 
 #include "cli/commands.h"
-#include "scenes/read_scene.h"
+#include "scenes/read/read_scene.h"
 
 namespace espalier::cli {
 

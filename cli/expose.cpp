@@ -7,7 +7,7 @@
 
 #include "cli/commands.h"
 #include "cli/job_options.h"
-#include "scenes/expose.h"
+#include "scenes/job/expose.h"
 
 namespace espalier::cli {
 namespace {

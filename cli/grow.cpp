@@ -6,7 +6,7 @@
 
 #include "cli/commands.h"
 #include "cli/job_options.h"
-#include "scenes/run.h"
+#include "scenes/job/run.h"
 
 namespace espalier::cli {
 

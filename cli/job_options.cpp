@@ -9,8 +9,8 @@
 #include "cli/commands.h"
 #include "cli/interrupt.h"
 #include "cli/progress.h"
-#include "scenes/job.h"
-#include "scenes/read_scene.h"
+#include "scenes/prepare/job.h"
+#include "scenes/read/read_scene.h"
 #include "sim/base/parallel.h"
 
 namespace espalier::cli {

@@ -3,7 +3,7 @@
 #include <functional>
 #include <string>
 
-#include "scenes/run.h"
+#include "scenes/job/run.h"
 #include "scenes/scene.h"
 
 namespace espalier::cli {

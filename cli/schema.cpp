@@ -6,7 +6,7 @@
 #include <memory>
 
 #include "cli/commands.h"
-#include "scenes/json_schema.h"
+#include "scenes/read/json_schema.h"
 
 namespace espalier::cli {
 

@@ -16,7 +16,7 @@
 #include "sim/light/sun.h"
 
 /// A scene as plain structs: what was asked for, with nothing yet read but the rule files it names.
-/// Positions are in world metres, y up. scenes/registry.h describes every key.
+/// Positions are in world metres, y up. scenes/read/registry.h describes every key.
 namespace espalier::scenes {
 
 enum class RegionsFrom { group, material };

@@ -6,7 +6,7 @@
 #include <exception>
 #include <set>
 
-#include "scenes/read_scene.h"
+#include "scenes/read/read_scene.h"
 #include "sim/base/error.h"
 #include "tests/bench/machine.h"
 #include "tests/bench/rows.h"

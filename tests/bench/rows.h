@@ -1,5 +1,5 @@
 #pragma once
-#include "scenes/job.h"
+#include "scenes/prepare/job.h"
 #include "tests/bench/report.h"
 
 /// The rows of the report. Each prints what it does, checks that the answers agree, and adds its figures.

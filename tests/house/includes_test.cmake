@@ -7,7 +7,7 @@ set(sees_rules rules sim)
 set(sees_render render sim)
 set(sees_scenes scenes rules render sim)
 set(sees_cli cli scenes rules render sim)
-set(announced sim/world/world_grids.h scenes/mesh_folder_io.h) # they say themselves that they are heavy
+set(announced sim/world/world_grids.h scenes/import/mesh_folder_io.h) # they say themselves that they are heavy
 set(faults "")
 foreach(room sim rules render scenes cli)
   file(GLOB_RECURSE files RELATIVE ${SOURCE} ${SOURCE}/${room}/*.h ${SOURCE}/${room}/*.cpp)

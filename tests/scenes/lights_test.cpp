@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "scenes/job.h"
+#include "scenes/prepare/job.h"
 
 namespace espalier::scenes {
 namespace {

@@ -1,6 +1,6 @@
 // How much of the sky the surfaces of a mesh see: consumer MESH
+#include <scenes/import/world_of.h>
 #include <scenes/lighting.h>
-#include <scenes/world_of.h>
 
 #include <cstdio>
 

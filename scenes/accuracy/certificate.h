@@ -1,0 +1,61 @@
+#pragma once
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "scenes/prepare/job.h"
+#include "sim/base/vec.h"
+#include "sim/light/sky.h"
+
+namespace espalier::scenes {
+
+/// How exact a scene's maps of sky_exposure are: shapes whose answer is known, built of voxels of the scene's
+/// own size and seen by its own sky, and the scene's own triangles, seen by rays (Embree). Errors are value
+/// minus truth, in shares of the whole sky (0..1).
+struct Certificate {
+  /// One place in one shape (scenes/accuracy/known_shapes.h).
+  struct Line {
+    std::string shape;    ///< "endless street"
+    std::string place;    ///< "middle of the floor"
+    double size_m = 0.0;  ///< width of the street or court, diameter of the pit; 0 where size does not matter
+    int voxels = 0;       ///< the same in voxels
+    double truth = 0.0, value = 0.0;  ///< means over the place's voxels
+    double rms = 0.0, worst = 0.0;    ///< of the single voxels' errors
+
+    double error() const { return value - truth; }
+  };
+  /// Points drawn evenly by area on the scene's triangles.
+  struct SpotCheck {
+    std::size_t points = 0;    ///< compared
+    std::size_t left_out = 0;  ///< drawn, but in joints, on backs of what is thinner than a voxel, or outside
+    int rays = 0;              ///< from each point
+    double bias = 0.0, rms = 0.0, median = 0.0, percentile_95 = 0.0;  ///< the last two of the error's size
+    struct Worst {
+      sim::Vec3 at_m{0.0};
+      std::string object, region;
+      double truth = 0.0, value = 0.0;
+    } worst;
+  };
+
+  sim::Weighting weighting = sim::Weighting::uniform;
+  std::size_t directions = 0;
+  double voxel_m = 0.0;
+  std::vector<Line> lines;
+  double bias = 0.0, rms = 0.0;    ///< mean of the lines' errors; root of the mean square of their rms
+  std::optional<SpotCheck> spots;  ///< where the scene has triangles that light can reach
+};
+
+/// Of a scene: shapes whose width is 8, 16, 32 and 64 voxels of the scene, as far as they are no wider than
+/// the scene's longest side, and as high (the pit: as deep as its radius); and the spot check. The street,
+/// which must be very long, goes to 32.
+Certificate certify(const Job& job);
+
+/// Of a voxel size and a sky: the shapes alone.
+Certificate certifyShapes(const sim::Sky& sky, double voxel_m, const std::vector<int>& widths);
+
+/// A table to be read on a terminal or in a report. Names the weighting.
+std::string toText(const Certificate& certificate);
+std::string toJson(const Certificate& certificate);
+
+}  // namespace espalier::scenes

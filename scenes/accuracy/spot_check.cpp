@@ -1,0 +1,209 @@
+#include "scenes/accuracy/spot_check.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numbers>
+#include <tuple>
+
+#include "render/files/gltf.h"
+#include "render/finish/ray_scene.h"
+#include "sim/base/parallel.h"
+#include "sim/base/random.h"
+#include "sim/light/surface.h"
+#include "sim/sweep/sweep.h"
+#include "sim/tile/tiling.h"
+
+namespace espalier::scenes {
+namespace {
+
+using sim::Vec3;
+using sim::Vec3f;
+using sim::Voxel;
+
+constexpr int kPoints = 3000;
+constexpr int kRays = 1024;  // spread over the hemisphere of the sky
+
+struct Point {
+  Vec3 p_m;
+  Vec3 normal;  ///< of its triangle; of a solid's, outwards
+  std::size_t mesh, triangle;
+  Voxel voxel;
+};
+
+/// Points of the triangles that lie within the world, and not inside of it: stones reach into walls.
+std::vector<Point> drawPoints(const Job& job) {
+  std::vector<double> ends;  // of each triangle's share of the area
+  std::vector<std::pair<std::size_t, std::size_t>> triangles;
+  double area = 0.0;
+  for (std::size_t m = 0; m < job.meshes.size(); ++m) {
+    const sim::Mesh& mesh = job.meshes[m].mesh;
+    for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+      const auto& [a, b, c] = mesh.triangles[t];
+      const Vec3 u = mesh.vertices_m[b] - mesh.vertices_m[a], v = mesh.vertices_m[c] - mesh.vertices_m[a];
+      area += glm::length(glm::cross(u, v));
+      ends.push_back(area);
+      triangles.emplace_back(m, t);
+    }
+  }
+  std::vector<Point> points;
+  if (!(area > 0.0)) return points;
+  for (std::uint32_t i = 0; i < kPoints; ++i) {
+    sim::Draws draws({job.scene.seed, 0, i, 0}, sim::Purpose::spot);
+    const auto found = std::upper_bound(ends.begin(), ends.end(), draws.uniform(0.0, area));
+    const auto [m, t] = triangles[std::min(static_cast<std::size_t>(found - ends.begin()), ends.size() - 1)];
+    const sim::Mesh& mesh = job.meshes[m].mesh;
+    const auto& [a, b, c] = mesh.triangles[t];
+    const Vec3 u = mesh.vertices_m[b] - mesh.vertices_m[a], v = mesh.vertices_m[c] - mesh.vertices_m[a];
+    double s = draws.uniform(), r = draws.uniform();
+    if (s + r > 1.0) {
+      s = 1.0 - s;
+      r = 1.0 - r;
+    }
+    const Vec3 p = mesh.vertices_m[a] + s * u + r * v;
+    const Vec3 q = sim::voxelFromWorld(job.world.frame(), p);
+    const Voxel nearest = sim::voxelAt(q);
+    if (!sim::contains(job.world.frame().size, nearest) || !(glm::length(glm::cross(u, v)) > 0.0)) continue;
+    Vec3 normal = glm::normalize(glm::cross(u, v));
+    const auto solid = [&](const Vec3& way) { return job.world.opaque().at(sim::voxelAt(q + way)); };
+    if (job.meshes[m].solid && solid(normal) && !solid(-normal)) normal = -normal;
+    if (!solid(normal)) points.push_back({p, normal, m, t, sim::tilePoint(q)});
+  }
+  return points;
+}
+
+/// Evenly spread over the hemisphere y > 0: equal steps of height, golden-ratio steps of azimuth.
+std::vector<Vec3> hemisphere() {
+  std::vector<Vec3> directions;
+  for (int i = 0; i < kRays; ++i) {
+    const double y = (i + 0.5) / kRays, across = std::sqrt(1.0 - y * y);
+    const auto azimuth = static_cast<float>(2.0 * std::numbers::pi * std::fmod(i * std::numbers::phi, 1.0));
+    directions.emplace_back(across * std::cos(azimuth), y, across * std::sin(azimuth));
+  }
+  return directions;
+}
+
+/// How far a ray runs until it leaves the world: beyond its edge nothing hides the sky.
+float reach(const sim::Frame& frame, Vec3 p_m, Vec3 direction) {
+  const Vec3 p = sim::voxelFromWorld(frame, p_m);
+  double nearest = 1e30;
+  for (int axis = 0; axis < 3; ++axis) {
+    const double edge = direction[axis] > 0.0 ? frame.size[axis] - 0.5 : -0.5;
+    if (direction[axis] != 0.0) nearest = std::min(nearest, (edge - p[axis]) / direction[axis]);
+  }
+  return static_cast<float>(std::max(0.0, nearest) * frame.voxel_m);
+}
+
+Vec3f start(const Job& job, const Point& point) {
+  return Vec3f(point.p_m + 1e-3 * job.world.frame().voxel_m * point.normal);
+}
+
+/// Whether something stands before the point, nearer than a voxel: a joint between things, which no map
+/// shows.
+bool inJoint(const Job& job, const render::RayScene& scene, const Point& point) {
+  render::RayScene::ShadowRays rays;
+  rays.origins_m[0] = start(job, point);
+  rays.directions[0] = Vec3f(point.normal);
+  rays.reach_m[0] = static_cast<float>(job.world.frame().voxel_m);
+  rays.wanted[0] = true;
+  return !scene.clear(rays)[0];
+}
+
+/// What the point receives by the rays, as sim::surfaceSky has it.
+double traced(const Job& job, const render::RayScene& scene, const std::vector<Vec3>& directions,
+              const Point& point) {
+  double received = 0.0, most = 0.0;
+  for (std::size_t first = 0; first < directions.size(); first += render::kRays) {
+    render::RayScene::ShadowRays rays;
+    std::array<double, render::kRays> amount{};
+    for (std::size_t k = 0; k < render::kRays; ++k) {
+      const Vec3& d = directions[first + k];
+      if (!(glm::dot(d, point.normal) > 0.0)) continue;
+      amount[k] = sim::received(job.sky.weighting, d, point.normal);
+      most += amount[k];
+      rays.origins_m[k] = start(job, point);
+      rays.directions[k] = Vec3f(d);
+      rays.reach_m[k] = reach(job.world.frame(), point.p_m, d);
+      rays.wanted[k] = true;
+    }
+    const auto clear = scene.clear(rays);
+    for (std::size_t k = 0; k < render::kRays; ++k) received += clear[k] ? amount[k] : 0.0;
+  }
+  return most > 0.0 ? received / most * sim::openSky(job.sky.weighting, point.normal) : 0.0;
+}
+
+struct RowOrder {
+  bool operator()(Voxel a, Voxel b) const { return std::tie(a.y, a.z, a.x) < std::tie(b.y, b.z, b.x); }
+};
+
+struct Mapped {
+  double value;
+  Vec3f normal;
+};
+
+/// The map's values at the points' voxels.
+std::map<Voxel, Mapped, RowOrder> mapAt(const Job& job, const std::vector<Point>& points) {
+  std::map<Voxel, Mapped, RowOrder> values;
+  for (const Point& point : points) values[point.voxel] = {};
+  std::vector<sim::TiledVoxel> tiled;
+  for (const auto& [voxel, value] : values) {
+    if (const auto surface = job.world.surfaceAt(voxel)) tiled.push_back({voxel, *surface});
+  }
+  const auto sensors = sim::surfaceSensors(job.world, std::move(tiled));
+  const auto open = sim::sweepOpen(job.world.opaque(), job.sky.directions, sensors.places);
+  const auto sky = sim::surfaceSky(sensors, open, job.sky);
+  values.clear();
+  for (std::size_t i = 0; i < sky.size(); ++i)
+    values[sensors.surfaces[i].voxel] = {static_cast<double>(sky[i]), sensors.surfaces[i].surface.normal};
+  return values;
+}
+
+}  // namespace
+
+std::optional<Certificate::SpotCheck> spotCheck(const Job& job) {
+  render::ModelScene model;
+  for (const sim::TiledMesh& tiled : job.meshes) model.meshes.push_back(&tiled.mesh);
+  const render::RayScene scene(model);
+  std::vector<Point> points = drawPoints(job);
+  std::erase_if(points, [&](const Point& p) { return inJoint(job, scene, p); });
+  const auto map = mapAt(job, points);
+  Certificate::SpotCheck check;
+  check.rays = kRays;
+  // A voxel has one value and one normal: where faces meet in it, the point's may be another.
+  constexpr double kSameFace = 0.7;
+  std::erase_if(points, [&](const Point& p) {
+    const auto found = map.find(p.voxel);
+    return found == map.end() || glm::dot(p.normal, Vec3(found->second.normal)) < kSameFace;
+  });
+  check.points = points.size();
+  check.left_out = kPoints - points.size();
+  if (points.empty()) return std::nullopt;
+
+  const auto directions = hemisphere();
+  std::vector<double> truths(points.size());
+  sim::parallelForEach(points.size(),
+                       [&](std::size_t i) { truths[i] = traced(job, scene, directions, points[i]); });
+
+  std::vector<double> sizes;
+  double squares = 0.0;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const double value = map.at(points[i].voxel).value, error = value - truths[i];
+    check.bias += error;
+    squares += error * error;
+    if (sizes.empty() || std::abs(error) > *std::max_element(sizes.begin(), sizes.end())) {
+      const sim::Mesh& mesh = job.meshes[points[i].mesh].mesh;
+      check.worst = {points[i].p_m, mesh.name, mesh.regions[mesh.region[points[i].triangle]], truths[i],
+                     value};
+    }
+    sizes.push_back(std::abs(error));
+  }
+  const auto n = static_cast<double>(points.size());
+  check.bias /= n;
+  check.rms = std::sqrt(squares / n);
+  std::sort(sizes.begin(), sizes.end());
+  check.median = sizes[sizes.size() / 2];
+  check.percentile_95 = sizes[sizes.size() * 95 / 100];
+  return check;
+}
+
+}  // namespace espalier::scenes

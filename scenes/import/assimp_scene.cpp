@@ -1,0 +1,172 @@
+#include "scenes/import/assimp_scene.h"
+
+#include <assimp/scene.h>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <string_view>
+
+#include "scenes/clean_text.h"
+#include "scenes/import/triangulate.h"
+#include "sim/base/error.h"
+
+namespace espalier::scenes {
+namespace {
+
+/// The names that Assimp makes up where a file gives none: `nodes[3]`, `<STL_BINARY>`.
+bool isMadeUp(std::string_view name) {
+  return name == "defaultobject" || name == AI_DEFAULT_MATERIAL_NAME || name.starts_with("nodes[") ||
+         name.starts_with("meshes[") || (name.front() == '<' && name.back() == '>');
+}
+
+/// The name, or nothing where Assimp made it up.
+std::string nameIn(const aiString& raw) {
+  const auto name = cleanText({raw.data, std::min<std::size_t>(raw.length, MAXLEN - 1)});
+  return name.empty() || isMadeUp(name) ? std::string() : name;
+}
+
+/// A display value as linear light (IEC 61966-2-1).
+float linearFromSrgb(float v) {
+  return v <= 0.04045f ? v / 12.92f : std::pow((v + 0.055f) / 1.055f, 2.4f);
+}
+
+sim::Material materialOf(const aiMaterial& from, const std::string& stem, bool is_gltf) {
+  sim::Material material;
+  material.name = stem;
+  aiString name;
+  if (from.Get(AI_MATKEY_NAME, name) == AI_SUCCESS) {
+    if (name == aiString(AI_DEFAULT_MATERIAL_NAME)) return material;  // Assimp's own, where the file has none
+    const std::string given = nameIn(name);
+    if (!given.empty()) material.name = given;
+  }
+  aiColor4D found;
+  const bool has_colour = (is_gltf ? from.Get(AI_MATKEY_BASE_COLOR, found)
+                                   : from.Get(AI_MATKEY_COLOR_DIFFUSE, found)) == AI_SUCCESS;
+  if (!has_colour) return material;
+  for (int c = 0; c < 3; ++c) {
+    const float value = found[static_cast<unsigned>(c)];
+    if (!std::isfinite(value)) {
+      throw sim::InputError(fmt::format("the colour of material '{}' is not a finite number", material.name));
+    }
+    const float clamped = std::clamp(value, 0.0f, 1.0f);
+    material.colour[c] = is_gltf ? clamped : linearFromSrgb(clamped);
+  }
+  return material;
+}
+
+glm::dmat4 matrixOf(const aiMatrix4x4& m) {
+  return {
+      {m.a1, m.b1, m.c1, m.d1}, {m.a2, m.b2, m.c2, m.d2}, {m.a3, m.b3, m.c3, m.d3}, {m.a4, m.b4, m.c4, m.d4}};
+}
+
+std::string groupOf(const aiNode& node, const aiMesh& mesh) {
+  std::string name = nameIn(node.mName);
+  if (!name.empty()) return name;
+  name = nameIn(mesh.mName);
+  // Assimp splits a glTF mesh by its primitives and numbers them: wall-0, wall-1.
+  if (node.mNumMeshes > 1) name.resize(std::min(name.size(), name.find_last_of('-')));
+  return name;
+}
+
+class MeshBuilder {
+ public:
+  explicit MeshBuilder(const std::string& stem) { mesh_.name = stem; }
+
+  void add(const MeshInstance& instance, const std::string& region_name, const sim::Material& material) {
+    const auto& from = *instance.mesh;
+    const auto base = static_cast<std::uint32_t>(mesh_.vertices_m.size());
+    for (unsigned v = 0; v < from.mNumVertices; ++v) {
+      const auto& p = from.mVertices[v];
+      mesh_.vertices_m.emplace_back(instance.world_from_mesh * glm::dvec4(p.x, p.y, p.z, 1.0));
+    }
+    std::vector<sim::Vec3> corners;
+    for (unsigned f = 0; f < from.mNumFaces; ++f) {
+      const aiFace& face = from.mFaces[f];
+      if (face.mNumIndices < 3) continue;  // points and lines
+      corners.clear();
+      for (unsigned c = 0; c < face.mNumIndices; ++c)
+        corners.push_back(mesh_.vertices_m[base + face.mIndices[c]]);
+      for (const auto& [a, b, c] : triangulate(corners)) {
+        mesh_.triangles.push_back(
+            {base + face.mIndices[a], base + face.mIndices[b], base + face.mIndices[c]});
+        mesh_.region.push_back(regionIndex(region_name));
+        mesh_.material.push_back(materialIndex(from.mMaterialIndex, material));
+      }
+    }
+  }
+
+  sim::Mesh take() { return std::move(mesh_); }
+
+ private:
+  std::uint32_t regionIndex(const std::string& name) {
+    const auto [at, is_new] =
+        region_index_.try_emplace(name, static_cast<std::uint32_t>(mesh_.regions.size()));
+    if (is_new) mesh_.regions.push_back(name);
+    return at->second;
+  }
+  std::uint32_t materialIndex(unsigned index_in_file, const sim::Material& material) {
+    const auto [at, is_new] =
+        material_index_.try_emplace(index_in_file, static_cast<std::uint32_t>(mesh_.materials.size()));
+    if (is_new) mesh_.materials.push_back(material);
+    return at->second;
+  }
+
+  std::map<std::string, std::uint32_t> region_index_;
+  std::map<unsigned, std::uint32_t> material_index_;
+  sim::Mesh mesh_;
+};
+
+}  // namespace
+
+std::vector<MeshInstance> instancesOf(const aiScene& scene) {
+  struct Open {
+    const aiNode* node;
+    glm::dmat4 world_from_parent;
+  };
+  std::vector<MeshInstance> instances;
+  std::vector<Open> open{{scene.mRootNode, glm::dmat4(1.0)}};
+  std::size_t corners = 0;
+  while (!open.empty()) {
+    const Open next = open.back();
+    open.pop_back();
+    const glm::dmat4 world_from_mesh = next.world_from_parent * matrixOf(next.node->mTransformation);
+    for (unsigned i = 0; i < next.node->mNumMeshes; ++i) {
+      const aiMesh* mesh = scene.mMeshes[next.node->mMeshes[i]];
+      for (unsigned f = 0; f < mesh->mNumFaces; ++f) corners += mesh->mFaces[f].mNumIndices;
+      if (corners > 3 * kMostTriangles) {
+        throw sim::InputError(
+            fmt::format("there are more than {} triangles; make the mesh simpler first", kMostTriangles));
+      }
+      instances.push_back({world_from_mesh, mesh, groupOf(*next.node, *mesh)});
+    }
+    for (unsigned i = next.node->mNumChildren; i-- > 0;)
+      open.push_back({next.node->mChildren[i], world_from_mesh});
+  }
+  return instances;
+}
+
+sim::Mesh meshOf(const aiScene& scene, const std::vector<MeshInstance>& instances, RegionsFrom regions_from,
+                 const std::string& stem, MeshColours colours) {
+  const sim::Material plain{.name = stem};
+  std::vector<sim::Material> materials(scene.mNumMaterials, plain);
+  // Behind a glTF file's own materials Assimp puts one more, for primitives that have none.
+  const unsigned given = scene.mNumMaterials - (colours == MeshColours::linear ? 1 : 0);
+  for (unsigned i = 0; i < given && colours != MeshColours::none; ++i) {
+    materials[i] = materialOf(*scene.mMaterials[i], stem, colours == MeshColours::linear);
+  }
+  const bool has_groups =
+      std::any_of(instances.begin(), instances.end(), [](const MeshInstance& i) { return !i.group.empty(); });
+  const bool by_group = regions_from == RegionsFrom::group && has_groups;
+  MeshBuilder builder(stem);
+  for (const auto& instance : instances) {
+    const auto& material = materials.at(instance.mesh->mMaterialIndex);
+    const std::string& region = by_group ? instance.group : material.name;
+    builder.add(instance, region.empty() ? stem : region, material);
+  }
+  return builder.take();
+}
+
+}  // namespace espalier::scenes

@@ -1,0 +1,181 @@
+#include "scenes/import/mesh_import.h"
+
+#include <fmt/format.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cmath>
+#include <cstring>
+#include <glm/gtc/constants.hpp>
+#include <glm/mat3x3.hpp>
+
+#include "scenes/clean_text.h"
+#include "scenes/import/assimp_reader.h"
+#include "scenes/import/mesh_wire.h"
+#include "sim/base/error.h"
+
+namespace espalier::scenes {
+namespace {
+
+constexpr std::uintmax_t kMostBytes = std::uintmax_t{256} << 20;
+constexpr double kThinnest = 1e-7;
+
+/// The size of a regular file; throws for anything else.
+std::uintmax_t sizeOf(const std::filesystem::path& file) {
+  struct stat about {};
+  if (::stat(file.c_str(), &about) != 0)
+    throw sim::InputError(fmt::format("cannot open the mesh: {}", std::strerror(errno)));
+  if (S_ISDIR(about.st_mode)) throw sim::InputError("is a folder, not a mesh file");
+  if (!S_ISREG(about.st_mode)) throw sim::InputError("is not a regular file");
+  if (::access(file.c_str(), R_OK) != 0)
+    throw sim::InputError(fmt::format("cannot open the mesh: {}", std::strerror(errno)));
+  const auto bytes = static_cast<std::uintmax_t>(about.st_size);
+  if (bytes == 0) throw sim::InputError("the file is empty");
+  if (bytes > kMostBytes) {
+    throw sim::InputError(
+        fmt::format("the file has {} MB; a mesh file may have at most {} MB", bytes >> 20, kMostBytes >> 20));
+  }
+  return bytes;
+}
+
+/// Ample for slow machines: a 2.4 MB OBJ file takes a quarter of a second on a common one.
+ChildLimits limitsFor(std::uintmax_t bytes) {
+  ChildLimits limits;
+  limits.cpu = std::chrono::seconds(10 + static_cast<long>(bytes >> 22));
+  limits.wall = 3 * limits.cpu;
+  return limits;
+}
+
+sim::Mesh readInChild(const std::filesystem::path& file, RegionsFrom regions_from,
+                      const ChildLimits& limits) {
+  const ChildResult result = runInChild([&] { return packMesh(readWithAssimp(file, regions_from)); }, limits);
+  switch (result.end) {
+    case ChildEnd::finished:
+      break;
+    case ChildEnd::threw:
+      throw sim::InputError(cleanText(result.bytes));
+    case ChildEnd::crashed:
+      throw sim::InputError(
+          fmt::format("the file is damaged: it made the mesh reader crash ({})", result.bytes));
+    case ChildEnd::out_of_time:
+      throw sim::InputError(
+          fmt::format("the file is damaged or far too complex: the mesh reader was not done with it in {} s",
+                      limits.cpu.count()));
+    case ChildEnd::out_of_memory:
+      throw sim::InputError(
+          fmt::format("the file is damaged or far too complex: reading it took more than {} MB",
+                      limits.memory_bytes >> 20));
+  }
+  try {
+    return unpackMesh(result.bytes);
+  } catch (const std::exception& error) {
+    throw sim::InputError(fmt::format("the file is damaged: it confused the mesh reader ({})", error.what()));
+  }
+}
+
+void requireFinite(const sim::Mesh& mesh) {
+  for (std::size_t v = 0; v < mesh.vertices_m.size(); ++v) {
+    const sim::Vec3& p = mesh.vertices_m[v];
+    if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z)) {
+      throw sim::InputError(fmt::format("vertex {} of {} does not lie at a finite place ({}, {}, {})", v,
+                                        mesh.name, p.x, p.y, p.z));
+    }
+  }
+}
+
+void requireIndices(const sim::Mesh& mesh) {
+  for (const auto& triangle : mesh.triangles) {
+    for (const auto corner : triangle) {
+      if (corner >= mesh.vertices_m.size()) {
+        throw sim::InputError(
+            fmt::format("a triangle asks for vertex {} of {}", corner, mesh.vertices_m.size()));
+      }
+    }
+  }
+}
+
+/// Twice the area against the longest edge squared is the height against that edge.
+bool isDegenerate(const sim::Vec3& a, const sim::Vec3& b, const sim::Vec3& c) {
+  const sim::Vec3 ab = b - a;
+  const sim::Vec3 ac = c - a;
+  const sim::Vec3 bc = c - b;
+  const double longest2 = std::max({glm::dot(ab, ab), glm::dot(ac, ac), glm::dot(bc, bc)});
+  return !(glm::length(glm::cross(ab, ac)) > kThinnest * longest2);
+}
+
+void dropDegenerate(sim::Mesh& mesh) {
+  std::size_t kept = 0;
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    const auto [a, b, c] = mesh.triangles[t];
+    if (isDegenerate(mesh.vertices_m[a], mesh.vertices_m[b], mesh.vertices_m[c])) continue;
+    mesh.triangles[kept] = mesh.triangles[t];
+    mesh.region[kept] = mesh.region[t];
+    mesh.material[kept] = mesh.material[t];
+    ++kept;
+  }
+  mesh.degenerate_dropped += mesh.triangles.size() - kept;
+  mesh.triangles.resize(kept);
+  mesh.region.resize(kept);
+  mesh.material.resize(kept);
+}
+
+sim::Mesh checked(sim::Mesh mesh) {
+  requireFinite(mesh);
+  requireIndices(mesh);
+  dropDegenerate(mesh);
+  if (!mesh.triangles.empty()) return mesh;
+  if (mesh.degenerate_dropped == 0) throw sim::InputError("there are no triangles in the file");
+  throw sim::InputError(fmt::format("all {} triangles in the file are degenerate", mesh.degenerate_dropped));
+}
+
+/// Sine and cosine that are exact for quarter turns and the same on every machine: of the double functions in
+/// glibc only the square root is. The float sine's error turns the mesh by less than 1e-7.
+std::pair<double, double> sineAndCosine(double degrees) {
+  const double quarters = std::nearbyint(degrees / 90.0);
+  const auto rest_deg = static_cast<float>(degrees - 90.0 * quarters);
+  const double s = std::sin(rest_deg * (glm::pi<float>() / 180.0f));
+  const double c = std::sqrt(1.0 - s * s);
+  switch (static_cast<int>(std::fmod(quarters, 4.0) + 4.0) % 4) {
+    case 0:
+      return {s, c};
+    case 1:
+      return {c, -s};
+    case 2:
+      return {-s, -c};
+    default:
+      return {-c, s};
+  }
+}
+
+/// glm's matrices are written column by column.
+glm::dmat3 turnAbout(int axis, double degrees) {
+  const auto [s, c] = sineAndCosine(degrees);
+  if (axis == 0) return {{1, 0, 0}, {0, c, s}, {0, -s, c}};
+  if (axis == 1) return {{c, 0, -s}, {0, 1, 0}, {s, 0, c}};
+  return {{c, s, 0}, {-s, c, 0}, {0, 0, 1}};
+}
+
+}  // namespace
+
+sim::Mesh importMesh(const std::filesystem::path& file, RegionsFrom regions_from,
+                     std::optional<ChildLimits> limits) {
+  try {
+    const std::uintmax_t bytes = sizeOf(file);
+    requireMeshFormat(file);
+    return checked(readInChild(file, regions_from, limits.value_or(limitsFor(bytes))));
+  } catch (const sim::InputError& error) {
+    throw sim::InputError(fmt::format("{}: {}", file.string(), error.what()));
+  }
+}
+
+sim::Mesh placeMesh(sim::Mesh mesh, double scale, const sim::Vec3& rotate_deg, const sim::Vec3& translate_m) {
+  const glm::dmat3 turn =
+      turnAbout(2, rotate_deg.z) * turnAbout(1, rotate_deg.y) * turnAbout(0, rotate_deg.x);
+  for (auto& p : mesh.vertices_m) p = turn * (p * scale) + translate_m;
+  requireFinite(mesh);
+  return mesh;
+}
+
+}  // namespace espalier::scenes

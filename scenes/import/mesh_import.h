@@ -1,0 +1,37 @@
+#pragma once
+#include <filesystem>
+#include <optional>
+
+#include "scenes/import/child_process.h"
+#include "scenes/scene.h"
+#include "sim/tile/mesh.h"
+
+namespace espalier::scenes {
+
+/// Reads an OBJ (with its MTL), glTF 2 (.gltf, .glb), PLY or STL file.
+///
+/// Node transforms are applied and polygons triangulated; points and lines are left out. Regions are the
+/// file's groups (OBJ: `g` and `o`; glTF: the node's name, or its mesh's; STL: the solid's) or its materials,
+/// in the order of first use. Where groups are asked for and the file names none, its materials stand in;
+/// what has no name at all becomes a region named after the file. Materials carry base colours as linear RGB:
+/// glTF's are linear; Kd of an MTL file, of which its format says nothing, is taken as a display value
+/// (sRGB), as a colour picker shows it. Textures and vertex colours are not read.
+///
+/// Triangles with two equal corners or a height below 1e-7 of their longest edge are dropped and counted, at
+/// any size.
+///
+/// The file is read in a child process (scenes/import/child_process.h) that sees regular files in the mesh's
+/// folder only: one that makes the reader crash, hang or eat memory is an error like any other. Throws
+/// sim::InputError that begins with the file's path: missing, not a regular file, above 256 MB, of an unknown
+/// format, damaged, without triangles, with more than 8 million, with a vertex that is not finite, or with an
+/// index that is out of range.
+///
+/// `limits` are by default what suits the file's size.
+sim::Mesh importMesh(const std::filesystem::path& file, RegionsFrom regions_from,
+                     std::optional<ChildLimits> limits = std::nullopt);
+
+/// The mesh scaled about the origin, turned about the x, then the y, then the z axis, then moved. Quarter
+/// turns are exact. Throws sim::InputError where the result is not finite.
+sim::Mesh placeMesh(sim::Mesh mesh, double scale, const sim::Vec3& rotate_deg, const sim::Vec3& translate_m);
+
+}  // namespace espalier::scenes

@@ -1,0 +1,139 @@
+#include "scenes/job/expose.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "render/files/vdb.h"
+#include "scenes/accuracy/certificate.h"
+#include "scenes/job/stages.h"
+#include "scenes/lighting.h"
+#include "scenes/prepare/job.h"
+#include "scenes/show/expose_pictures.h"
+#include "scenes/show/exposure_table.h"
+#include "scenes/show/light_fields.h"
+#include "scenes/show/pictures.h"
+#include "scenes/write/output_files.h"
+#include "sim/base/error.h"
+#include "sim/world/band.h"
+
+namespace espalier::scenes {
+namespace {
+
+std::shared_ptr<const sim::VoxelSet> spaceWanted(const sim::World& world, const ExposureSpec& spec) {
+  switch (spec.where) {
+    case ExposureWhere::surfaces:
+      return nullptr;
+    case ExposureWhere::band:
+      return std::make_shared<const sim::VoxelSet>(sim::freeBand(world, world.occupied(), spec.band_vx));
+    case ExposureWhere::everything:
+      break;
+  }
+  return std::make_shared<const sim::VoxelSet>(sim::freeVoxels(world));
+}
+
+/// Each free voxel takes two bytes a field, four in its grid and four in the file, for three fields.
+void requireSpaceFits(const Scene& scene, const sim::Frame& frame, const sim::VoxelSet& space) {
+  constexpr double kBytes = 3 * (2 + 4 + 4);
+  const double voxels = static_cast<double>(frame.size.x) * frame.size.y * frame.size.z;
+  try {
+    sim::requireFits(frame, {0, kBytes * static_cast<double>(space.count()) / voxels});
+  } catch (const sim::InputError& error) {
+    throw sim::InputError(
+        fmt::format("{}: {}, and so would less of its free space (exposure.where, exposure.band)",
+                    scene.file.string(), error.what()));
+  }
+}
+
+}  // namespace
+
+ExposeResult exposeScene(Scene scene, const RunOptions& options) {
+  ExposeResult result;
+  Report& report = result.report;
+  Stages stages(options, report);
+  scene.world.layers = 0;  // nothing grows, so nothing needs to feel its way
+  Job job = stages.run("tiling", [&] { return prepareJob(std::move(scene)); });
+  describeWorld(report, job);
+
+  std::shared_ptr<const sim::VoxelSet> space;
+  const Lighting light = stages.run("lighting", [&] {
+    space = spaceWanted(job.world, job.scene.exposure);
+    if (space) requireSpaceFits(job.scene, job.world.frame(), *space);
+    LightWanted wanted;
+    wanted.brightest = true;
+    wanted.space = space;
+    wanted.space_hours = true;
+    wanted.random_sky = job.random_sky;
+    return lightOf(job.world, job.sky, job.sun, wanted);
+  });
+  if (light.surfaces.empty() && !space) {
+    throw sim::InputError(fmt::format(
+        "{}: the world has no surface that can be lit; expected a mesh, or exposure: {{where: everything}}",
+        job.scene.file.string()));
+  }
+  report.light = light.about;
+  report.exposure = {light.surfaces.size(), light.gaps->count(), space ? space->count() : 0};
+
+  if (!job.random_sky && !light.surfaces.empty())
+    report.certificate = stages.run("certifying", [&] { return certify(job); });
+  const ExposureTable table = stages.run("counting", [&] { return exposureTable(job, light); });
+  result.table = toText(table);
+  std::vector<OutputFile> files = {
+      {"exposure.csv", [&] { return toCsv(table); }},
+      {"exposure.json", [&] { return toJson(table); }},
+      {"exposure.vdb", [&] { return render::fieldVdbBytes(job.world, exposureFields(light, space.get())); }}};
+  const sim::Growth nothing;
+  const std::vector<render::PlantModel> no_models;
+  if (options.pictures) {
+    stages.run("drawing", [&] {
+      if (job.scene.cameras.empty()) {
+        const double aspect = static_cast<double>(job.scene.image_width) / job.scene.image_height;
+        job.scene.cameras.push_back(overview(job.world.frame(), light.surfaces, job.sun, aspect));
+      }
+      job.scene.images = exposureImages(job.scene, job.sun);
+      for (OutputFile& file : drawPictures({job, nothing, light, no_models}, options.stop))
+        files.push_back(std::move(file));
+    });
+  }
+  stages.run("writing", [&] { writeAll(options.folder, files); });
+  writeReport(options.folder, files, report);
+  return result;
+}
+
+namespace {
+
+/// The certificate in a line or two; all of it is in report.json.
+std::string errors(const Certificate& c) {
+  std::string text = fmt::format(
+      "error of sky_exposure, {} weighting: bias {:+.4f}, RMS {:.4f} over known shapes of such voxels\n",
+      sim::nameOf(c.weighting), c.bias, c.rms);
+  if (c.spots) {
+    text += fmt::format(
+        "  and bias {:+.4f}, RMS {:.4f}, 95% within {:.4f} against rays from {} points of the meshes\n",
+        c.spots->bias, c.spots->rms, c.spots->percentile_95, c.spots->points);
+  }
+  return text;
+}
+
+}  // namespace
+
+std::string summary(const ExposeResult& result, const std::filesystem::path& folder) {
+  const Report& report = result.report;
+  const auto& size = report.frame.size;
+  std::string text = fmt::format("{}: {} x {} x {} voxels of {:.4g} m; {} surface voxels", report.scene,
+                                 size.x, size.y, size.z, report.frame.voxel_m, report.exposure->surfaces);
+  if (report.exposure->in_space > 0) text += fmt::format(", {} in free space", report.exposure->in_space);
+  text += "\n";
+  text += "sky: " + report.light.sky + "\n";
+  if (!report.light.sun.empty()) text += report.light.sun + "\n";
+  text += "\n" + result.table + "\n";
+  if (report.certificate) text += errors(*report.certificate);
+  if (report.exposure->gaps > 0) {
+    text += fmt::format(
+        "note: {} voxels, deep in corners or gaps, have no place in front and are not in the table\n",
+        report.exposure->gaps);
+  }
+  return text + endOfSummary(report, folder);
+}
+
+}  // namespace espalier::scenes

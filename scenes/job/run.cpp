@@ -1,0 +1,148 @@
+#include "scenes/job/run.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "render/files/gltf.h"
+#include "render/files/vdb.h"
+#include "render/model/plant_model.h"
+#include "scenes/job/stages.h"
+#include "scenes/lighting.h"
+#include "scenes/prepare/job.h"
+#include "scenes/show/light_fields.h"
+#include "scenes/show/pictures.h"
+#include "scenes/write/output_files.h"
+#include "sim/base/error.h"
+#include "sim/base/parallel.h"
+#include "sim/world/band.h"
+
+namespace espalier::scenes {
+namespace {
+
+std::vector<render::PlantModel> modelPlants(const Job& job, const std::vector<sim::Plant>& plants) {
+  std::vector<render::PlantModel> models(plants.size());
+  sim::parallelFor(plants.size(), 1, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      render::ModelOptions options;
+      options.pipe.tip_radius_vx = static_cast<float>(plants[i].stem_radius_vx);
+      models[i] = render::modelPlant(plants[i], job.world.frame(), options);
+    }
+  });
+  return models;
+}
+
+std::string glb(const Job& job, const std::vector<render::PlantModel>& models) {
+  render::ModelScene scene;
+  for (const auto& tiled : job.meshes) scene.meshes.push_back(&tiled.mesh);
+  for (const auto& model : models) scene.plants.push_back(&model);
+  return render::glbBytes(scene);
+}
+
+Report::Growth countPlants(const sim::World& world, const sim::Growth& growth) {
+  Report::Growth counts{
+      growth.iterations, {}, growth.buds, growth.trials, sim::stateHash(world, growth.plants)};
+  for (const sim::Plant& plant : growth.plants) {
+    counts.plants.push_back(
+        {plant.name, {static_cast<std::size_t>(plant.skeleton.size() - 1), plant.elements.size()}});
+  }
+  return counts;
+}
+
+/// The free voxels of the boundary layers, which lie around the scene.
+sim::VoxelSet openLayers(const sim::BitVolume& scene, const sim::World& grown) {
+  return sim::VoxelSet(sim::freeBand(grown, scene, grown.layers()));
+}
+
+bool drawsVines(const Scene& scene) {
+  return std::any_of(scene.images.begin(), scene.images.end(),
+                     [](const ImageSpec& image) { return image.kind == ImageKind::vines; });
+}
+
+}  // namespace
+
+Report runScene(Scene scene, const RunOptions& options) {
+  Report report;
+  Stages stages(options, report);
+  Job job = stages.run("tiling", [&] { return prepareJob(std::move(scene)); });
+  describeWorld(report, job);
+  const sim::BitVolume before = job.world.occupied();
+
+  sim::GrowthSettings settings = growthSettings(job);
+  settings.stop = options.stop;
+  settings.progress = options.on_growth;
+  const sim::Growth growth = stages.run("growing", [&] {
+    try {
+      return sim::grow(job.world, job.plantings, settings);
+    } catch (const sim::InputError& error) {
+      throw sim::InputError(fmt::format("{}: {}", job.scene.file.string(), error.what()));
+    }
+  });
+  report.growth = countPlants(job.world, growth);
+  report.occupied_voxels = job.world.occupied().count();
+
+  std::shared_ptr<const sim::VoxelSet> layers;
+  const Lighting light = stages.run("lighting", [&] {
+    layers = std::make_shared<const sim::VoxelSet>(openLayers(before, job.world));
+    LightWanted wanted;
+    wanted.space = layers;
+    wanted.dense = options.pictures && drawsVines(job.scene);  // leaves are lit by what is around them
+    if (wanted.dense) sim::requireFits(job.world.frame(), {job.world.layers(), 2 * 2.0});
+    wanted.random_sky = job.random_sky;
+    return lightOf(job.world, job.sky, job.sun, wanted);
+  });
+  report.light = light.about;
+  const auto models = stages.run("modelling", [&] { return modelPlants(job, growth.plants); });
+  std::vector<OutputFile> files;
+  files.push_back({"plant.glb", [&] { return glb(job, models); }});
+  files.push_back({"world.vdb", [&] { return render::vdbBytes(job.world, worldFields(light, *layers)); }});
+  if (options.pictures) {
+    stages.run("drawing", [&] {
+      for (OutputFile& file : drawPictures({job, growth, light, models}, options.stop)) {
+        files.push_back(std::move(file));
+      }
+    });
+  }
+  stages.run("writing", [&] { writeAll(options.folder, files); });
+  writeReport(options.folder, files, report);
+  return report;
+}
+
+namespace {
+
+/// Why buds ended, and which seeds never grew: what somebody who wonders about a thin plant wants to know.
+std::string fates(const Report::Growth& report) {
+  const auto of = [&](sim::Outcome outcome) { return report.buds[static_cast<std::size_t>(outcome)]; };
+  std::string text =
+      fmt::format("buds that ended: {} found no way, {} too dark, {} too bright, {} in forbidden regions\n",
+                  of(sim::Outcome::no_trial), of(sim::Outcome::too_dark), of(sim::Outcome::too_bright),
+                  of(sim::Outcome::forbidden));
+  std::vector<std::string> dead;
+  for (const auto& [name, counts] : report.plants) {
+    if (counts[0] == 0) dead.push_back(name);
+  }
+  if (!dead.empty()) {
+    text += fmt::format("note: {} of {} seeds did not grow: {}\n", dead.size(), report.plants.size(),
+                        fmt::join(dead, ", "));
+  }
+  return text;
+}
+
+}  // namespace
+
+std::string summary(const Report& report, const std::filesystem::path& folder) {
+  const Report::Growth& growth = *report.growth;
+  std::size_t segments = 0, elements = 0;
+  for (const auto& [name, counts] : growth.plants) {
+    segments += counts[0];
+    elements += counts[1];
+  }
+  const auto& size = report.frame.size;
+  return fmt::format(
+             "{}: {} x {} x {} voxels of {:.4g} m; {} plants, {} segments, {} leaves in {} iterations\n",
+             report.scene, size.x, size.y, size.z, report.frame.voxel_m, growth.plants.size(), segments,
+             elements, growth.iterations) +
+         fates(growth) + endOfSummary(report, folder);
+}
+
+}  // namespace espalier::scenes

@@ -1,0 +1,29 @@
+#pragma once
+#include <filesystem>
+#include <functional>
+#include <stop_token>
+#include <string>
+
+#include "scenes/job/report.h"
+#include "scenes/scene.h"
+
+namespace espalier::scenes {
+
+struct RunOptions {
+  std::filesystem::path folder;  ///< made if it is not there
+  bool pictures = true;          ///< draw the scene's images
+  std::stop_token stop;
+  std::function<void(const std::string& stage)> on_stage;  ///< as each begins
+  std::function<void(const sim::GrowthProgress&)> on_growth;
+};
+
+/// The main job: reads a scene's meshes, tiles them, grows its plants, and writes the model (plant.glb), the
+/// world (world.vdb), the pictures that the scene asks for and report.json into the folder, every file whole
+/// or not at all, the report last. Nothing is written before the growth is done. Throws sim::InputError;
+/// MeshMissing; sim::Stopped when stopped, and then nothing more is written.
+Report runScene(Scene scene, const RunOptions& options);
+
+/// What a person wants to know of a run: a few lines that end with the files.
+std::string summary(const Report& report, const std::filesystem::path& folder);
+
+}  // namespace espalier::scenes

@@ -1,0 +1,42 @@
+#pragma once
+#include <chrono>
+#include <string>
+#include <utility>
+
+#include "scenes/job/report.h"
+#include "scenes/job/run.h"
+#include "sim/base/error.h"
+
+namespace espalier::scenes {
+
+/// Names and times the stages of a run, and stops it between them. Borrows both.
+class Stages {
+ public:
+  Stages(const RunOptions& options, Report& report) : options_(options), report_(report) {}
+
+  template <typename Work>
+  auto run(const std::string& name, Work work) {
+    if (options_.stop.stop_requested()) throw sim::Stopped();
+    if (options_.on_stage) options_.on_stage(name);
+    const Timer timer{report_, name};
+    return work();
+  }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  struct Timer {
+    Report& report;
+    std::string name;
+    Clock::time_point began = Clock::now();
+    ~Timer() {
+      const double seconds = std::chrono::duration<double>(Clock::now() - began).count();
+      report.run.stages_s.emplace_back(name, seconds);
+      report.run.total_s += seconds;
+    }
+  };
+
+  const RunOptions& options_;
+  Report& report_;
+};
+
+}  // namespace espalier::scenes

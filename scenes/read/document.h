@@ -1,0 +1,27 @@
+#pragma once
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "scenes/problem.h"
+#include "scenes/yaml/yaml_tree.h"
+
+/// Rule and scene files as such: what their first key says, and the paths in them.
+namespace espalier::scenes {
+
+/// What a file's first key says of it.
+enum class FileKind { rules, scene };
+
+/// A file's root mapping, or null. `asker` is the place that names the file; the file itself where nothing
+/// does. Without `expected` any kind will do.
+std::shared_ptr<const YamlNode> readDocument(const std::string& path, const Place& asker,
+                                             std::optional<FileKind> expected, Problems& problems);
+
+/// The kind that the header names, or nothing after a problem was reported.
+std::optional<FileKind> headerOf(const YamlNode& root, Problems& problems);
+
+/// A path as it stands in the file of `node`, from where that file lies.
+std::filesystem::path beside(const YamlNode& node, std::string_view path);
+
+}  // namespace espalier::scenes

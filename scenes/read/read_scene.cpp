@@ -1,0 +1,108 @@
+#include "scenes/read/read_scene.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <system_error>
+
+#include "scenes/read/document.h"
+#include "scenes/read/read_rules.h"
+#include "scenes/read/read_table.h"
+#include "scenes/read/registry.h"
+#include "scenes/read/rule_loader.h"
+
+namespace espalier::scenes {
+namespace {
+
+namespace fs = std::filesystem;
+
+void fillNames(Scene& scene) {
+  for (auto& mesh : scene.meshes) {
+    if (mesh.name.empty()) mesh.name = mesh.file.stem().string();
+  }
+  for (std::size_t i = 0; i < scene.plants.size(); ++i) {
+    if (scene.plants[i].name.empty()) scene.plants[i].name = fmt::format("plant_{}", i + 1);
+  }
+  for (auto& image : scene.images) {
+    if (image.name.empty()) image.name = nameOf(image.kind);
+  }
+}
+
+bool isKnownMesh(const fs::path& file) {
+  constexpr std::array<std::string_view, 5> kEndings{".obj", ".gltf", ".glb", ".ply", ".stl"};
+  auto ending = file.extension().string();
+  std::transform(ending.begin(), ending.end(), ending.begin(),
+                 [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
+  return std::find(kEndings.begin(), kEndings.end(), ending) != kEndings.end();
+}
+
+/// Turns the meshes' paths, so far as the file has them, into paths from here.
+void findMeshes(Scene& scene, const YamlNode& root, const rules::Check::Complain& complain) {
+  for (std::size_t i = 0; i < scene.meshes.size(); ++i) {
+    auto& mesh = scene.meshes[i];
+    if (mesh.file.empty()) continue;
+    const auto key = fmt::format("meshes[{}].file", i);
+    const auto written = mesh.file.string();
+    mesh.file = beside(root, written);
+    std::error_code error;
+    if (!isKnownMesh(mesh.file)) {
+      complain(key, fmt::format("{} is no mesh file that is known; expected .obj, .gltf, .glb, .ply or .stl",
+                                inQuotes(written)));
+    } else if (!mesh.optional && !fs::is_regular_file(mesh.file, error)) {
+      complain(key,
+               fmt::format("there is no mesh file {}; expected one, or optional: true", mesh.file.string()));
+    }
+  }
+}
+
+Scene readRoot(const YamlNode& root, const fs::path& path, Problems& problems) {
+  static const auto paths = pathsOf(sceneTable());
+  Scene scene;
+  scene.file = path;
+  RuleLoader loader(problems);
+  Reading reading{problems, paths};
+  reading.special = [&](const YamlNode& node, const rules::Key& key, void* target, const std::string& at) {
+    if (key.kind != rules::Kind::rules) return;
+    const bool in_file = node.kind == YamlNode::Kind::scalar;
+    rules::RuleReference reference{in_file ? beside(node, node.text).string() : "",
+                                   loader.reference(node, at, {})};
+    if (reference.rules) {
+      key.set(target, reference);
+    } else {
+      reading.failed.insert(at);
+    }
+  };
+  readTable(root, sceneTable(), &scene, "", reading);
+  auto checks = sceneChecks();
+  checks.push_back(
+      {{}, [&](const void*, const auto&, const auto& complain) { findMeshes(scene, root, complain); }});
+  fillNames(scene);
+  runChecks(checks, &scene, {&root}, reading);
+  return scene;
+}
+
+}  // namespace
+
+Result<Scene> readScene(const fs::path& path) {
+  Problems problems;
+  const Place asker{std::make_shared<const std::string>(path.string()), 0, 0};
+  const auto root = readDocument(path.string(), asker, FileKind::scene, problems);
+  if (!root) return problems.sorted();
+  auto scene = readRoot(*root, path, problems);
+  if (!problems.empty()) return problems.sorted();
+  return scene;
+}
+
+std::vector<Problem> checkFile(const fs::path& path) {
+  Problems problems;
+  const Place asker{std::make_shared<const std::string>(path.string()), 0, 0};
+  const auto root = readDocument(path.string(), asker, std::nullopt, problems);
+  if (!root) return problems.sorted();
+  const auto kind = headerOf(*root, problems);
+  if (kind == FileKind::rules) return readRules(path).problems();
+  if (kind == FileKind::scene) return readScene(path).problems();
+  return problems.sorted();
+}
+
+}  // namespace espalier::scenes

@@ -1,0 +1,147 @@
+#include "scenes/read/reference.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "rules/language/registry.h"
+#include "scenes/read/read_table.h"
+#include "scenes/read/registry.h"
+
+namespace espalier::scenes {
+namespace {
+
+using rules::Key;
+using rules::Kind;
+using rules::Table;
+
+const char* const kRuleWords = R"(# Rule files: every key
+
+A rule file tells one kind of plant how to grow. It begins with `espalier: rules`; every other key may be left out.
+**bias** bends each trial, **require** rejects those that do not meet it, **prefer** picks among the survivors.
+
+How values are written:
+
+- *number*: decimal, such as `2.4` or `.5`. No units, no leading zeros.
+- *value*: a number; or a range `[a, b]`, from which every use draws evenly; or a curve
+  `{over: exposure, points: [[0.3, 1], [1, 1.8]]}`, straight between its points and level beyond them. `over` is
+  `exposure` (0 to 1), `age` (iterations since the plant was seeded) or `height` (metres above the world's floor).
+- *length*: a value in voxel widths; or text with a unit, `12 cm`, `0.12 m`, `120 mm`, `2.4 vx`, which stays the same
+  when the voxels change.
+- *colour*: `"#4f7a2c"`, in quotes, for an unquoted `#` begins a comment; or `[r, g, b]` from 0 to 1. Both sRGB.
+- *rule set*: a rule file's path, relative to this file; or a mapping of keys that change the rule set around it.
+
+`base: other.yaml` builds on another file: whatever is not said here is as it is there. Lists (`elements`) are replaced
+as a whole, regions one by one.
+
+`regions` maps the names of the scene's regions to `forbid`, to a rule set's file, to `{rules: file.yaml}`, or to keys
+that differ there: `regions: {paving: forbid, wall: {bias: {up: 0.2}}}`.
+
+The last column has the name in Ned Greene's *Voxel Space Automata* (SIGGRAPH 1989), where the paper has one.
+)";
+
+const char* const kSceneWords = R"(# Scene files: every key
+
+A scene file names the meshes of a world, how they become voxels, what grows there, and the pictures wanted. It begins
+with `espalier: scene`. Positions are in world space: metres, right-handed, y up. Paths are relative to the file.
+
+How values are written:
+
+- *number*: decimal, such as `2.4` or `.5`. No leading zeros.
+- *length*: metres, as a number or as text with a unit: `0.04`, `4 cm`, `40 mm`, `0.04 m`.
+- *point*: `[x, y, z]`; *place*: the same in lengths.
+- *colour*: `"#a05f46"`, in quotes, for an unquoted `#` begins a comment; or `[r, g, b]` from 0 to 1. Both sRGB.
+- *date*: `2026-06-21`; or `06-21`, of 2017, the year of the common tables of the sun.
+- *name*: letters, digits, `_`, `-` and `.`: it may become part of a file's name.
+- *rule set*: a rule file's path, or a mapping of the keys of one (see the page of rule files).
+
+`world` needs either a voxel size or a resolution. An entry of `meshes` may be just a path, one of `images` just its kind.
+`sun` is an inclined arc, or with `place` a real sun on a date or a range of dates.
+)";
+
+std::string kindText(const Key& key) {
+  switch (key.kind) {
+    case Kind::header:
+      return "word";
+    case Kind::flag:
+      return "true or false";
+    case Kind::whole:
+      return "whole number";
+    case Kind::whole_range:
+      return "whole number or range";
+    case Kind::number:
+      return "number";
+    case Kind::value:
+      return "value";
+    case Kind::length:
+    case Kind::metres:
+      return "length";
+    case Kind::colour:
+      return "colour";
+    case Kind::point:
+      return "point";
+    case Kind::place:
+      return "place";
+    case Kind::places:
+      return "list of places";
+    case Kind::polygons:
+      return "list of polygons";
+    case Kind::choice:
+      return fmt::format("`{}`", fmt::join(key.choices, "`, `"));
+    case Kind::date:
+      return "date";
+    case Kind::name:
+      return "name";
+    case Kind::text:
+      return "text";
+    case Kind::names:
+      return "list of names";
+    case Kind::file:
+    case Kind::base:
+      return "path";
+    case Kind::rules:
+      return "rule set";
+    case Kind::regions:
+      return "mapping of regions";
+    case Kind::section:
+      return "mapping";
+    case Kind::entries:
+      return "list of mappings";
+    case Kind::named:
+      return "mapping of names to mappings";
+  }
+  return "";
+}
+
+std::string defaultText(const Key& key) {
+  if (key.required) return "required";
+  const auto text = rules::written(key.default_value);
+  return text.empty() ? "" : "`" + text + "`";
+}
+
+std::string rangeOf(const Key& key) {
+  const bool has_numbers = key.kind != Kind::colour && key.kind != Kind::section;
+  auto text = has_numbers ? rules::rangeText(key.limits) : "";
+  if (key.most > 0) text += fmt::format("{}at most {} entries", text.empty() ? "" : "; ", key.most);
+  return text;
+}
+
+}  // namespace
+
+std::string referenceFor(FileKind kind) {
+  const bool is_rules = kind == FileKind::rules;
+  std::string page = is_rules ? kRuleWords : kSceneWords;
+  page += "\nThis page is made from the program's own registry of keys.\n\n";
+  page += is_rules
+              ? "| key | value | unit | default | range | meaning | Greene |\n| --- | --- | --- | --- | --- "
+                "| --- | --- |\n"
+              : "| key | value | unit | default | range | meaning |\n| --- | --- | --- | --- | --- | --- |\n";
+  forEachKey(is_rules ? rules::ruleTable() : sceneTable(), [&](const std::string& path, const Key& key) {
+    page += fmt::format("| `{}` | {} | {} | {} | {} | {} |", path, kindText(key), key.unit, defaultText(key),
+                        rangeOf(key), key.meaning);
+    if (is_rules) page += key.greene.empty() ? "  |" : fmt::format(" `{}` |", key.greene);
+    page += "\n";
+  });
+  return page;
+}
+
+}  // namespace espalier::scenes

@@ -1,0 +1,214 @@
+#include "scenes/read/registry.h"
+
+#include "rules/language/key_builder.h"
+#include "scenes/read/light_keys.h"
+#include "scenes/scene.h"
+
+namespace espalier::scenes {
+namespace {
+
+using rules::About;
+using rules::Datum;
+using rules::Kind;
+using rules::Limits;
+using rules::RuleReference;
+using rules::Table;
+using rules::TableOf;
+
+constexpr Limits kPositive{0.0, 1e6, true};
+constexpr Limits kCoordinate{-1e6, 1e6};
+constexpr std::size_t kMostEntries = 1000;
+const char* const kMetres = "metres";
+const char* const kDegrees = "degrees";
+
+std::shared_ptr<const Table> meshKeys() {
+  return TableOf<SceneMesh>()
+      .file("file", &SceneMesh::file,
+            {.meaning = "The mesh: .obj, .gltf, .glb, .ply or .stl.", .required = true})
+      .name("name", &SceneMesh::name,
+            {.meaning = "What reports and outputs call it; without it, the file's name without its ending."})
+      .choice<RegionsFrom>(
+          "regions", &SceneMesh::regions_from,
+          {{"group", RegionsFrom::group}, {"material", RegionsFrom::material}},
+          {.meaning = "Whether the file's groups or its materials become regions that rules can name."})
+      .flag("solid", &SceneMesh::solid, {.meaning = "Fills the inside too."})
+      .flag("optional", &SceneMesh::optional,
+            {.meaning = "Where the file is missing, the scene is skipped instead of being an error."})
+      .number(
+          "scale", &SceneMesh::scale,
+          {.unit = "factor", .limits = kPositive, .meaning = "Metres for a unit of the file; applied first."})
+      .point("rotate", &SceneMesh::rotate_deg,
+             {.unit = kDegrees,
+              .limits = {-360.0, 360.0},
+              .meaning = "About x, then y, then z; applied second."})
+      .place("translate", &SceneMesh::translate_m,
+             {.unit = kMetres, .limits = kCoordinate, .meaning = "Applied last."})
+      .colour("colour", &SceneMesh::colour, {.meaning = "Instead of the file's own colours."})
+      .shared();
+}
+
+std::shared_ptr<const Table> worldKeys() {
+  using Bounds = std::array<sim::Vec3, 2>;
+  const auto bounds = TableOf<Bounds>()
+                          .place("min", [](auto& b) -> auto& { return b[0]; },
+                                 {.unit = kMetres,
+                                  .limits = kCoordinate,
+                                  .meaning = "The corner with the least x, y and z.",
+                                  .required = true})
+                          .place("max", [](auto& b) -> auto& { return b[1]; },
+                                 {.unit = kMetres,
+                                  .limits = kCoordinate,
+                                  .meaning = "The corner with the greatest x, y and z.",
+                                  .required = true})
+                          .shared();
+  return TableOf<WorldSpec>()
+      .metres("voxel", &WorldSpec::voxel_m,
+              {.unit = kMetres,
+               .limits = {1e-5, 1e6},
+               .meaning = "Edge of a voxel; either this or a resolution."})
+      .whole("resolution", &WorldSpec::resolution,
+             {.unit = "voxels",
+              .limits = {1.0, 4096.0},
+              .meaning = "Voxels along the world's longest side; either this or a voxel size."})
+      .metres("margin", &WorldSpec::margin_m,
+              {.unit = kMetres,
+               .limits = {0.0, 1e6},
+               .meaning = "Free space around the meshes on every side, where no bounds are given."})
+      .section("bounds", &WorldSpec::bounds_m, bounds,
+               {.meaning = "The world's box; without it, the meshes' box plus the margin."})
+      .whole("layers", &WorldSpec::layers,
+             {.unit = "layers",
+              .limits = {0.0, 64.0},
+              .meaning = "Boundary layers around the scene's objects: as far as plants can feel."})
+      .shared();
+}
+
+std::shared_ptr<const Table> exposureKeys() {
+  return TableOf<ExposureSpec>()
+      .choice<ExposureWhere>("where", &ExposureSpec::where,
+                             {{"surfaces", ExposureWhere::surfaces},
+                              {"band", ExposureWhere::band},
+                              {"everything", ExposureWhere::everything}},
+                             {.meaning = "On surfaces alone, in the free space near them too, or in all of "
+                                         "the world's free space."})
+      .whole("band", &ExposureSpec::band_vx,
+             {.unit = "voxels",
+              .limits = {1.0, 64.0},
+              .meaning = "How far the free space near surfaces reaches, for where: band."})
+      .shared();
+}
+
+std::shared_ptr<const Table> plantKeys() {
+  const auto scatter =
+      TableOf<Scatter>()
+          .text("region", &Scatter::region,
+                {.meaning = "Seeds stand on this region's voxels that look up.", .required = true})
+          .whole("count", &Scatter::count,
+                 {.unit = "seeds", .limits = {1.0, 100'000.0}, .meaning = "How many.", .required = true})
+          .shared();
+  return TableOf<PlantSpec>()
+      .custom(
+          "rules", Kind::rules,
+          [](PlantSpec& p, const Datum& d) {
+            const auto& reference = std::get<RuleReference>(d);
+            p.rules_file = reference.file;
+            p.rules = reference.rules;
+          },
+          [](const PlantSpec& p) {
+            return p.rules ? Datum{RuleReference{p.rules_file.string(), p.rules}} : Datum{};
+          },
+          {.meaning = "How it grows: a rule file, or rule keys in place.", .required = true})
+      .name("name", &PlantSpec::name,
+            {.meaning = "What reports and outputs call it; without it, plant_1, plant_2 and so on."})
+      .places("seeds", &PlantSpec::seeds_m,
+              {.unit = kMetres, .limits = kCoordinate, .meaning = "Where it starts, once for each point."})
+      .section("scatter", &PlantSpec::scatter, scatter,
+               {.meaning = "Seeds strewn at random, beside those that are given."})
+      .shared();
+}
+
+std::shared_ptr<const Table> cameraKeys() {
+  return TableOf<NamedCamera>()
+      .place("eye", [](auto& c) -> auto& { return c.camera.eye_m; },
+             {.unit = kMetres, .limits = kCoordinate, .meaning = "Where it stands.", .required = true})
+      .place("target", [](auto& c) -> auto& { return c.camera.target_m; },
+             {.unit = kMetres, .limits = kCoordinate, .meaning = "What it looks at.", .required = true})
+      .number("fov", [](auto& c) -> auto& { return c.camera.fov_deg; },
+              {.unit = kDegrees, .limits = {1.0, 170.0}, .meaning = "Vertical field of view."})
+      .shared();
+}
+
+std::shared_ptr<const Table> imageKeys() {
+  std::vector<std::pair<std::string, ImageKind>> kinds;
+  for (const auto kind :
+       {ImageKind::sun_exposure, ImageKind::sky_exposure, ImageKind::threshold, ImageKind::shadow_matte,
+        ImageKind::surface_colour, ImageKind::first_pass, ImageKind::sun_hours, ImageKind::vines,
+        ImageKind::section, ImageKind::attempts, ImageKind::contact_sheet}) {
+    kinds.emplace_back(nameOf(kind), kind);
+  }
+  return TableOf<ImageSpec>()
+      .choice("kind", &ImageSpec::kind, kinds, {.meaning = "What it shows.", .required = true})
+      .name("name", &ImageSpec::name,
+            {.meaning = "The picture's file name without an ending; without it, its kind."})
+      .text("camera", &ImageSpec::camera, {.meaning = "One of the scene's cameras; without it, the first."})
+      .text("caption", &ImageSpec::caption, {.meaning = "A line below the picture."})
+      .text("letter", &ImageSpec::letter,
+            {.meaning = "On a contact sheet, beside the caption; by default A, B, C .. in order."})
+      .choice<char>("axis", &ImageSpec::axis, {{"x", 'x'}, {"y", 'y'}, {"z", 'z'}},
+                    {.meaning = "Of a section: the way in which the cut looks."})
+      .metres("at", &ImageSpec::at_m,
+              {.unit = kMetres,
+               .limits = kCoordinate,
+               .meaning = "Of a section: where on that axis the cut lies."})
+      .names("of", &ImageSpec::of,
+             {.meaning = "Of a contact_sheet: the names of the images on it, in order."})
+      .shared();
+}
+
+Table makeTable() {
+  const auto image =
+      TableOf<Scene>()
+          .whole("width", &Scene::image_width,
+                 {.unit = "pixels", .limits = {16.0, 16'384.0}, .meaning = "Width of every image."})
+          .whole("height", &Scene::image_height,
+                 {.unit = "pixels", .limits = {16.0, 16'384.0}, .meaning = "Height of every image."})
+          .shared();
+  return TableOf<Scene>()
+      .header(
+          {.meaning = "The kind of this file and, if wanted, the version of the language: scene or scene/1."})
+      .text("name", &Scene::name, {.meaning = "A name for people."})
+      .list<SceneMesh>("meshes", Kind::entries, &Scene::meshes, meshKeys(),
+                       {.meaning = "What the world is made of; the first to claim a voxel keeps it.",
+                        .most = kMostEntries},
+                       "file")
+      .section("world", &Scene::world, worldKeys(),
+               {.meaning = "How the meshes become voxels.", .required = true})
+      .section("sky", &Scene::sky, skyKeys(), {.meaning = "How sky_exposure is found."})
+      .section("sun", &Scene::sun, sunKeys(),
+               {.meaning = "How sun_exposure is found: Greene's inclined arc, or with a place the real sun."})
+      .section("exposure", &Scene::exposure, exposureKeys(),
+               {.meaning = "What espalier expose finds beside the exposure of surfaces."})
+      .list<PlantSpec>("plants", Kind::entries, &Scene::plants, plantKeys(),
+                       {.meaning = "What grows.", .most = kMostEntries})
+      .whole("iterations", &Scene::iterations,
+             {.unit = "iterations", .limits = {0.0, 100'000.0}, .meaning = "How long it grows."})
+      .whole("seed", &Scene::seed,
+             {.limits = {0.0, 9'007'199'254'740'991.0},
+              .meaning = "Of every random number: another seed, another plant."})
+      .section("image", std::identity{}, image, {.meaning = "The shape of the images."})
+      .list<NamedCamera>("cameras", Kind::named, &Scene::cameras, cameraKeys(),
+                         {.meaning = "From where images are taken; the first is the one that is meant.",
+                          .most = kMostEntries})
+      .list<ImageSpec>("images", Kind::entries, &Scene::images, imageKeys(),
+                       {.meaning = "The images wanted.", .most = kMostEntries}, "kind")
+      .table();
+}
+
+}  // namespace
+
+const Table& sceneTable() {
+  static const Table table = makeTable();
+  return table;
+}
+
+}  // namespace espalier::scenes

@@ -1,0 +1,165 @@
+#include "scenes/read/rule_loader.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <system_error>
+
+#include "rules/language/registry.h"
+#include "scenes/read/document.h"
+#include "scenes/read/read_table.h"
+
+namespace espalier::scenes {
+namespace {
+
+namespace fs = std::filesystem;
+using rules::RuleSet;
+using RulesPointer = std::shared_ptr<const RuleSet>;
+
+/// Rule sets in one run, files and mappings together; each may hold a megabyte.
+constexpr int kMostRuleSets = 256;
+
+const YamlNode* lastGiven(const std::vector<const YamlNode*>& layers, std::string_view key) {
+  for (auto layer = layers.rbegin(); layer != layers.rend(); ++layer) {
+    if (const auto* entry = (*layer)->entry(key)) return &entry->value;
+  }
+  return nullptr;
+}
+
+}  // namespace
+
+RulesPointer RuleLoader::file(const fs::path& path, const Place& asker) {
+  const File* file = load(path, asker);
+  return file ? file->rules : nullptr;
+}
+
+RulesPointer RuleLoader::reference(const YamlNode& node, const std::string& path, const RuleSet& enclosing) {
+  if (node.refused) return nullptr;
+  if (node.kind == YamlNode::Kind::scalar && !node.text.empty())
+    return file(beside(node, node.text), node.place);
+  if (node.kind == YamlNode::Kind::map) return inPlace(node, enclosing);
+  problems_.add(node.place,
+                fmt::format("{} is {}; expected the path of a rule file, or a mapping of rule keys", path,
+                            described(node)));
+  return nullptr;
+}
+
+const RuleLoader::File* RuleLoader::load(const fs::path& path, const Place& asker) {
+  std::error_code error;
+  const auto shown = path.string();
+  auto canonical = fs::weakly_canonical(path, error).string();
+  if (error) canonical = shown;
+  const auto same = [&](const auto& file) { return file.first == canonical; };
+  if (const auto start = std::find_if(open_.begin(), open_.end(), same); start != open_.end()) {
+    std::string chain;
+    for (auto file = start; file != open_.end(); ++file) chain += file->second + " -> ";
+    problems_.add(
+        asker,
+        fmt::format("rule files that name each other in a circle: {}{}; expected each to end somewhere",
+                    chain, shown));
+    return nullptr;
+  }
+  if (const auto known = files_.find(canonical); known != files_.end()) return &known->second;
+  if (!countOne(asker)) return nullptr;
+  auto root = readDocument(shown, asker, FileKind::rules, problems_);
+  if (!root) return nullptr;
+  auto& file = files_[canonical];
+  file.root = std::move(root);
+  open_.emplace_back(canonical, shown);
+  if (const auto* base = file.root->entry("base"); base && base->value.kind == YamlNode::Kind::scalar) {
+    if (const auto* under = load(beside(base->value, base->value.text), base->value.place))
+      file.layers = under->layers;
+  }
+  file.layers.push_back(file.root.get());
+  file.rules = build(file.layers, RuleSet{});
+  open_.pop_back();
+  return &file;
+}
+
+RulesPointer RuleLoader::inPlace(const YamlNode& map, const RuleSet& enclosing) {
+  if (!countOne(map.place)) return nullptr;
+  if (map.entry("espalier")) headerOf(map, problems_);
+  const auto* base = map.entry("base");
+  if (!base || base->value.kind != YamlNode::Kind::scalar) return build({&map}, enclosing);
+  Layers layers;
+  if (const auto* under = load(beside(base->value, base->value.text), base->value.place))
+    layers = under->layers;
+  layers.push_back(&map);
+  return build(layers, RuleSet{});
+}
+
+RulesPointer RuleLoader::build(const Layers& layers, RuleSet rules) {
+  static const auto paths = pathsOf(rules::ruleTable());
+  Reading reading{problems_, paths};
+  reading.special = [&](const YamlNode& node, const rules::Key& key, void*, const std::string& path) {
+    const bool path_wanted = key.kind == rules::Kind::base;
+    if (path_wanted && !node.refused && (node.kind != YamlNode::Kind::scalar || node.text.empty())) {
+      problems_.add(node.place,
+                    fmt::format("{} is {}; expected {}", path, described(node), rules::expectation(key)));
+    }
+  };
+  for (const auto* layer : layers) readTable(*layer, rules::ruleTable(), &rules, "", reading);
+  runChecks(rules::ruleChecks(), &rules, layers, reading);
+  if (const auto* otherwise = lastGiven(layers, "otherwise")) {
+    // A rule set in place changes this one as far as it has been read: without regions and without an
+    // otherwise.
+    rules.otherwise = reference(*otherwise, "otherwise", rules);
+  }
+  addRegions(layers, rules);
+  rules::finish(rules);
+  return std::make_shared<const RuleSet>(std::move(rules));
+}
+
+void RuleLoader::addRegions(const Layers& layers, RuleSet& rules) {
+  const RuleSet plain = rules;
+  for (const auto* layer : layers) {
+    const auto* regions = layer->entry("regions");
+    if (!regions || regions->value.refused) continue;
+    const auto& map = regions->value;
+    const auto* key = rules::find(rules::ruleTable(), "regions");
+    if (map.kind != YamlNode::Kind::map || map.entries.size() > key->most) {
+      problems_.add(map.place,
+                    fmt::format("regions is {} of {}; expected {}, at most {} of them", described(map),
+                                map.items.size() + map.entries.size(), rules::expectation(*key), key->most));
+      continue;
+    }
+    for (const auto& entry : map.entries) {
+      rules.regions[entry.key] = region(entry.value, "regions." + entry.key, plain);
+    }
+  }
+}
+
+rules::RegionRule RuleLoader::region(const YamlNode& node, const std::string& path,
+                                     const RuleSet& enclosing) {
+  if (node.kind == YamlNode::Kind::scalar && node.text == "forbid") return {true, nullptr};
+  const bool is_word =
+      node.kind == YamlNode::Kind::scalar && node.text.find_first_of("./") == std::string::npos;
+  if (is_word && !node.refused) {
+    problems_.add(
+        node.place,
+        fmt::format("{} is {}; expected 'forbid', the path of a rule file, or a mapping of rule keys{}", path,
+                    described(node), didYouMean(node.text, {"forbid"})));
+    return {};
+  }
+  const auto* whole = node.entry("rules");
+  if (!whole) return {false, reference(node, path, enclosing)};
+  for (const auto& entry : node.entries) {
+    if (entry.key == "rules") continue;
+    problems_.add(
+        entry.place,
+        fmt::format(
+            "the key {} beside 'rules', which names a whole rule set; expected it alone; did you mean "
+            "'base' instead of 'rules'?",
+            inQuotes(entry.key)));
+  }
+  return {false, reference(whole->value, path + ".rules", enclosing)};
+}
+
+bool RuleLoader::countOne(const Place& place) {
+  if (++sets_ <= kMostRuleSets) return true;
+  problems_.add(place,
+                fmt::format("too many rule sets; expected at most {} in all the files", kMostRuleSets));
+  return false;
+}
+
+}  // namespace espalier::scenes

@@ -1,0 +1,49 @@
+#pragma once
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "rules/language/rule_set.h"
+#include "scenes/problem.h"
+#include "scenes/yaml/yaml_tree.h"
+
+namespace espalier::scenes {
+
+/// Reads rule sets, each file once. Problems go to the list that it was given; where there were some, the
+/// rule sets that it returns are not to be used, or null.
+class RuleLoader {
+ public:
+  explicit RuleLoader(Problems& problems) : problems_(problems) {}
+
+  /// `asker` is the place that names the file.
+  std::shared_ptr<const rules::RuleSet> file(const std::filesystem::path& path, const Place& asker);
+  /// A value of Kind::rules: a path beside the file of the node, or a mapping of rule keys. The mapping's
+  /// keys change `enclosing`.
+  std::shared_ptr<const rules::RuleSet> reference(const YamlNode& node, const std::string& path,
+                                                  const rules::RuleSet& enclosing);
+
+ private:
+  using Layers = std::vector<const YamlNode*>;
+  struct File {
+    std::shared_ptr<const YamlNode> root;
+    Layers layers;  ///< the files that it builds on, the farthest first, and itself
+    std::shared_ptr<const rules::RuleSet> rules;
+  };
+
+  const File* load(const std::filesystem::path& path, const Place& asker);
+  std::shared_ptr<const rules::RuleSet> inPlace(const YamlNode& map, const rules::RuleSet& enclosing);
+  std::shared_ptr<const rules::RuleSet> build(const Layers& layers, rules::RuleSet rules);
+  void addRegions(const Layers& layers, rules::RuleSet& rules);
+  rules::RegionRule region(const YamlNode& node, const std::string& path, const rules::RuleSet& enclosing);
+  bool countOne(const Place& place);
+
+  Problems& problems_;
+  std::map<std::string, File> files_;                      ///< by canonical path
+  std::vector<std::pair<std::string, std::string>> open_;  ///< files being read: canonical and shown paths
+  int sets_ = 0;
+};
+
+}  // namespace espalier::scenes

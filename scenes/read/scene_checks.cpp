@@ -1,0 +1,198 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "scenes/problem.h"
+#include "scenes/read/light_keys.h"
+#include "scenes/read/registry.h"
+#include "scenes/scene.h"
+
+namespace espalier::scenes {
+namespace {
+
+using rules::Check;
+using Given = Check::Given;
+using Complain = Check::Complain;
+
+constexpr double kMostVoxels =
+    1e11;  // more than fit any machine; what fits this one is found out when the world is built
+
+Check check(std::vector<std::string> reads, void (*run)(const Scene&, const Given&, const Complain&)) {
+  return {std::move(reads), [run](const void* scene, const Given& given, const Complain& complain) {
+            run(*static_cast<const Scene*>(scene), given, complain);
+          }};
+}
+
+void checkWorldSize(const Scene& scene, const Given&, const Complain& complain) {
+  const auto& world = scene.world;
+  if (world.voxel_m && world.resolution) {
+    complain("world.resolution", "both voxel and resolution are given; expected one of them");
+  } else if (!world.voxel_m && !world.resolution) {
+    complain("world", "neither voxel nor resolution is given; expected voxel: 4 cm, or resolution: 200");
+  }
+}
+
+void checkBounds(const Scene& scene, const Given& given, const Complain& complain) {
+  if (!scene.world.bounds_m) return;
+  const auto& [low, high] = *scene.world.bounds_m;
+  for (int axis = 0; axis < 3; ++axis) {
+    if (low[axis] < high[axis]) continue;
+    complain("world.bounds.max",
+             fmt::format("max.{0} is {1} and min.{0} is {2}; expected max to be more than min", "xyz"[axis],
+                         high[axis], low[axis]));
+    return;
+  }
+  if (given("world.margin"))
+    complain("world.margin",
+             "both bounds and margin are given; expected a margin only where the meshes make the bounds");
+  if (!scene.world.voxel_m) return;
+  const auto voxels = (high - low) / *scene.world.voxel_m;
+  if (voxels.x * voxels.y * voxels.z <= kMostVoxels) return;
+  complain("world.voxel",
+           fmt::format(
+               "voxels of {} m make a world of {:.3g}; expected at most {:.3g} voxels, so at least {:.2g} m",
+               *scene.world.voxel_m, voxels.x * voxels.y * voxels.z, kMostVoxels,
+               std::cbrt((high.x - low.x) * (high.y - low.y) * (high.z - low.z) / kMostVoxels)));
+}
+
+void checkSeeds(const Scene& scene, const Given&, const Complain& complain) {
+  if (!scene.world.bounds_m) return;
+  const auto& [low, high] = *scene.world.bounds_m;
+  for (std::size_t p = 0; p < scene.plants.size(); ++p) {
+    const auto& seeds = scene.plants[p].seeds_m;
+    for (std::size_t s = 0; s < seeds.size(); ++s) {
+      if (glm::all(glm::greaterThanEqual(seeds[s], low)) && glm::all(glm::lessThanEqual(seeds[s], high)))
+        continue;
+      complain(fmt::format("plants[{}].seeds[{}]", p, s),
+               fmt::format("the seed [{}, {}, {}] lies outside the world; expected it within [{}, {}, {}] "
+                           "and [{}, {}, {}]",
+                           seeds[s].x, seeds[s].y, seeds[s].z, low.x, low.y, low.z, high.x, high.y, high.z));
+    }
+  }
+}
+
+void checkMeshes(const Scene& scene, const Given&, const Complain& complain) {
+  if (scene.meshes.empty() && !scene.world.bounds_m) {
+    complain("meshes",
+             "no mesh and no world.bounds; expected at least one mesh, or the bounds of an empty world");
+  }
+}
+
+void checkPlants(const Scene& scene, const Given&, const Complain& complain) {
+  for (std::size_t p = 0; p < scene.plants.size(); ++p) {
+    const auto& plant = scene.plants[p];
+    if (plant.seeds_m.empty() && !plant.scatter) {
+      complain(
+          fmt::format("plants[{}]", p),
+          "a plant without seeds; expected seeds: [[x, y, z], ...] or scatter: {region: name, count: 10}");
+    }
+  }
+}
+
+/// Complains about every name that stood before. `what` is "meshes", "plants" ...
+template <class Item>
+void checkNames(const std::vector<Item>& items, std::string_view what, const Complain& complain) {
+  std::set<std::string> seen;
+  for (std::size_t i = 0; i < items.size(); ++i) {
+    if (items[i].name.empty() || seen.insert(items[i].name).second) continue;
+    complain(fmt::format("{}[{}].name", what, i),
+             fmt::format("a second one of the {} is called '{}'; expected names that differ (name: ...)",
+                         what, items[i].name));
+  }
+}
+
+void checkCameras(const Scene& scene, const Given&, const Complain& complain) {
+  for (const auto& [name, camera] : scene.cameras) {
+    if (camera.eye_m == camera.target_m) {
+      complain(fmt::format("cameras.{}.target", name),
+               "the camera looks at the point where it stands; expected target to differ from eye");
+    }
+  }
+}
+
+bool needsCamera(ImageKind kind) {
+  return kind != ImageKind::section && kind != ImageKind::attempts && kind != ImageKind::contact_sheet;
+}
+
+void checkImageCameras(const Scene& scene, const Given&, const Complain& complain) {
+  std::vector<std::string> names;
+  for (const auto& camera : scene.cameras) names.push_back(camera.name);
+  for (std::size_t i = 0; i < scene.images.size(); ++i) {
+    const auto& image = scene.images[i];
+    const auto path = fmt::format("images[{}]", i);
+    if (image.camera.empty()) {
+      if (names.empty() && needsCamera(image.kind)) {
+        complain(path, fmt::format("the image {} needs a camera and the scene has none; expected cameras: "
+                                   "{{main: {{eye: ..., target: ...}}}}",
+                                   image.name));
+      }
+    } else if (std::find(names.begin(), names.end(), image.camera) == names.end()) {
+      complain(path + ".camera",
+               fmt::format("no camera is called {}; expected one of {}{}", inQuotes(image.camera),
+                           listed(names), didYouMean(image.camera, names)));
+    }
+  }
+}
+
+void checkImages(const Scene& scene, const Given& given, const Complain& complain) {
+  for (std::size_t i = 0; i < scene.images.size(); ++i) {
+    const auto& image = scene.images[i];
+    const auto path = fmt::format("images[{}]", i);
+    for (const std::string key : {"axis", "at"}) {
+      if (image.kind == ImageKind::section || !given(path + "." + key)) continue;
+      complain(path + "." + key, fmt::format("{} means nothing to kind: {}; expected it with kind: section",
+                                             key, nameOf(image.kind)));
+    }
+    const bool is_sheet = image.kind == ImageKind::contact_sheet;
+    if (!is_sheet && given(path + ".of"))
+      complain(path + ".of", fmt::format("of means nothing to kind: {}; expected it with kind: contact_sheet",
+                                         nameOf(image.kind)));
+    if (is_sheet && image.of.empty())
+      complain(path, "a contact_sheet of no images; expected of: [name, ...]");
+  }
+}
+
+void checkSheets(const Scene& scene, const Given&, const Complain& complain) {
+  std::vector<std::string> names;
+  for (const auto& image : scene.images) {
+    if (image.kind != ImageKind::contact_sheet) names.push_back(image.name);
+  }
+  for (std::size_t i = 0; i < scene.images.size(); ++i) {
+    const auto& of = scene.images[i].of;
+    for (std::size_t k = 0; k < of.size(); ++k) {
+      if (std::find(names.begin(), names.end(), of[k]) != names.end()) continue;
+      complain(fmt::format("images[{}].of[{}]", i, k),
+               fmt::format("no image is called {}; expected one of {}{}", inQuotes(of[k]), listed(names),
+                           didYouMean(of[k], names)));
+    }
+  }
+}
+
+}  // namespace
+
+const std::vector<Check>& sceneChecks() {
+  static const std::vector<Check> checks = {
+      check({"world.voxel", "world.resolution"}, checkWorldSize),
+      check({"world.bounds", "world.voxel"}, checkBounds),
+      check({"world.bounds"}, checkSeeds),
+      check({"meshes", "world.bounds"}, checkMeshes),
+      check({"sky"}, checkSky),
+      check({"sun"}, checkSun),
+      check({}, checkPlants),
+      check({}, [](const Scene& s, const Given&,
+                   const Complain& complain) { checkNames(s.meshes, "meshes", complain); }),
+      check({}, [](const Scene& s, const Given&,
+                   const Complain& complain) { checkNames(s.plants, "plants", complain); }),
+      check({"images"}, [](const Scene& s, const Given&,
+                           const Complain& complain) { checkNames(s.images, "images", complain); }),
+      check({}, checkCameras),
+      check({"cameras"}, checkImageCameras),
+      check({"images"}, checkImages),
+      check({"images"}, checkSheets),
+  };
+  return checks;
+}
+
+}  // namespace espalier::scenes

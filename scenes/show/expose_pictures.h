@@ -1,0 +1,16 @@
+#pragma once
+#include <vector>
+
+#include "scenes/prepare/job.h"
+
+namespace espalier::scenes {
+
+/// A camera that shows all surfaces (or all of an empty world) from their sunny side, slightly above, and
+/// fills a picture of this width over height.
+NamedCamera overview(const sim::Frame& frame, const std::vector<sim::TiledVoxel>& surfaces,
+                     const sim::Sun& sun, double aspect);
+
+/// The panels that make sense for a scene's light, for each of its cameras, with a contact sheet for each.
+std::vector<ImageSpec> exposureImages(const Scene& scene, const sim::Sun& sun);
+
+}  // namespace espalier::scenes

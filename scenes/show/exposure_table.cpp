@@ -1,0 +1,218 @@
+#include "scenes/show/exposure_table.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "scenes/show/light_json.h"
+#include "sim/base/parallel.h"
+
+namespace espalier::scenes {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// So many decimals, and not more digits in the files than mean something.
+double rounded(double value, double scale) {
+  return std::round(value * scale) / scale;
+}
+constexpr double kDecimals = 1e4;
+
+double sixDigits(double value) {
+  return std::stod(fmt::format("{:.6g}", value));
+}
+
+/// The least value at or below which lies so great a share of the area.
+double quantile(const std::vector<std::pair<float, float>>& sorted, double area, double share) {
+  double below = 0.0;
+  for (const auto& [value, part] : sorted) {
+    below += static_cast<double>(part);
+    if (below >= share * area) return static_cast<double>(value);
+  }
+  return static_cast<double>(sorted.back().first);
+}
+
+/// Of values with their areas, in any order.
+Spread spreadOf(std::vector<std::pair<float, float>> values, double range) {
+  std::sort(values.begin(), values.end());
+  double area = 0.0, sum = 0.0, squares = 0.0;
+  for (const auto& [value, part] : values) {
+    area += static_cast<double>(part);
+    sum += static_cast<double>(part) * static_cast<double>(value);
+  }
+  Spread spread;
+  const double mean = area > 0.0 ? sum / area : 0.0;
+  for (const auto& [value, part] : values) {
+    const double off = static_cast<double>(value) - mean;
+    squares += static_cast<double>(part) * off * off;
+    const auto bin = static_cast<std::size_t>(
+        std::clamp(static_cast<double>(value) / range * Spread::kBins, 0.0, Spread::kBins - 1.0));
+    spread.histogram[bin] += static_cast<double>(part);
+  }
+  const auto tidy = [](double value) { return rounded(value, kDecimals); };
+  spread.mean = tidy(mean);
+  spread.deviation = tidy(area > 0.0 ? std::sqrt(squares / area) : 0.0);
+  spread.least = tidy(static_cast<double>(values.front().first));
+  spread.lower_quartile = tidy(quantile(values, area, 0.25));
+  spread.median = tidy(quantile(values, area, 0.5));
+  spread.upper_quartile = tidy(quantile(values, area, 0.75));
+  spread.greatest = tidy(static_cast<double>(values.back().first));
+  for (double& share : spread.histogram) share = tidy(area > 0.0 ? share / area : 0.0);
+  return spread;
+}
+
+/// Text in a field of RFC 4180.
+std::string field(const std::string& text) {
+  if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
+  std::string quoted = "\"";
+  for (const char c : text) quoted += c == '"' ? std::string("\"\"") : std::string(1, c);
+  return quoted + "\"";
+}
+
+std::string joined(const std::vector<std::string>& fields) {
+  return fmt::format("{}\r\n", fmt::join(fields, ","));
+}
+
+std::vector<std::pair<const char*, double>> numbersOf(const Spread& s) {
+  return {{"mean", s.mean},       {"standard_deviation", s.deviation},
+          {"minimum", s.least},   {"lower_quartile", s.lower_quartile},
+          {"median", s.median},   {"upper_quartile", s.upper_quartile},
+          {"maximum", s.greatest}};
+}
+
+Json rowJson(const ExposureTable& table, const ExposureRow& row) {
+  Json json = Json::object();
+  if (!row.object.empty()) json = {{"object", row.object}, {"region", row.region}};
+  json["voxels"] = row.voxels;
+  json["area_m2"] = row.area_m2;
+  for (std::size_t q = 0; q < table.quantities.size(); ++q) {
+    Json spread = Json::object();
+    for (const auto& [name, value] : numbersOf(row.spreads[q])) spread[name] = value;
+    spread["histogram"] = row.spreads[q].histogram;
+    json[table.quantities[q].name] = spread;
+  }
+  return json;
+}
+
+}  // namespace
+
+ExposureTable exposureTable(const Job& job, const Lighting& light) {
+  ExposureTable table{job.scene.name, light.about, {}, {}};
+  std::vector<const Received*> received = {&light.sky};
+  table.quantities.push_back(
+      {"sky_exposure", "1", "what a surface receives of the sky by its own normal; open ground: 1", 1.0});
+  if (!light.about.sun.empty()) {
+    table.quantities.push_back({"sun_exposure", "1", "weighted share of the sun's way in sight", 1.0});
+    table.quantities.push_back({"sun_hours", "hours a day", "direct sun", light.about.sun_hours});
+    received.insert(received.end(), {&light.sun, &light.sun_hours});
+  }
+  const sim::World& world = job.world;
+  const std::size_t parts = world.parts().size();
+  std::vector<std::vector<std::size_t>> of(parts + 1);  // surfaces by part; the last holds all
+  for (std::size_t i = 0; i < light.surfaces.size(); ++i)
+    of[static_cast<std::size_t>(light.surfaces[i].surface.part - 1)].push_back(i);
+  of.back().resize(light.surfaces.size());
+  std::iota(of.back().begin(), of.back().end(), std::size_t{0});
+  const double face_m2 = world.frame().voxel_m * world.frame().voxel_m;
+  for (std::size_t p = 0; p <= parts; ++p) {
+    if (of[p].empty()) continue;
+    ExposureRow row;
+    if (p < parts) {
+      row.object = world.parts()[p].object;
+      row.region = world.parts()[p].region;
+    }
+    row.voxels = of[p].size();
+    for (const std::size_t i : of[p]) row.area_m2 += static_cast<double>(light.surfaces[i].surface.coverage);
+    row.area_m2 = sixDigits(row.area_m2 * face_m2);
+    row.spreads.resize(received.size());
+    sim::parallelForEach(received.size(), [&](std::size_t q) {
+      std::vector<std::pair<float, float>> values;
+      values.reserve(of[p].size());
+      for (const std::size_t i : of[p])
+        values.emplace_back(received[q]->values[i], light.surfaces[i].surface.coverage);
+      row.spreads[q] = spreadOf(std::move(values), table.quantities[q].range);
+    });
+    table.rows.push_back(std::move(row));
+  }
+  return table;
+}
+
+std::string toCsv(const ExposureTable& table) {
+  std::vector<std::string> header = {"scene",  "voxel_m", "object",   "region",
+                                     "voxels", "area_m2", "quantity", "unit"};
+  for (const auto& [name, value] : numbersOf({})) header.emplace_back(name);
+  header.emplace_back("histogram_to");
+  for (std::size_t bin = 1; bin <= Spread::kBins; ++bin) header.push_back(fmt::format("share_{}", bin));
+  for (const auto& [name, text] : texts(table.about)) header.push_back(name);
+  std::string csv = joined(header);
+  for (const ExposureRow& row : table.rows) {
+    const bool total = row.object.empty();
+    for (std::size_t q = 0; q < table.quantities.size(); ++q) {
+      std::vector<std::string> fields = {field(table.scene),
+                                         fmt::format("{:.6g}", table.about.voxel_m),
+                                         total ? "total" : field(row.object),
+                                         field(row.region),
+                                         std::to_string(row.voxels),
+                                         fmt::format("{}", row.area_m2),
+                                         table.quantities[q].name,
+                                         table.quantities[q].unit};
+      for (const auto& [name, value] : numbersOf(row.spreads[q])) fields.push_back(fmt::format("{}", value));
+      fields.push_back(fmt::format("{}", rounded(table.quantities[q].range, kDecimals)));
+      for (const double share : row.spreads[q].histogram) fields.push_back(fmt::format("{}", share));
+      for (const auto& [name, text] : texts(table.about)) fields.push_back(field(text));
+      csv += joined(fields);
+    }
+  }
+  return csv;
+}
+
+std::string toJson(const ExposureTable& table) {
+  Json json;
+  json["scene"] = table.scene;
+  json["light"] = lightJson(table.about);
+  for (const auto& quantity : table.quantities) {
+    json["quantities"][quantity.name] = {{"unit", quantity.unit},
+                                         {"meaning", quantity.meaning},
+                                         {"histogram_to", rounded(quantity.range, kDecimals)}};
+  }
+  json["weighted_by"] = "area";
+  json["regions"] = Json::array();
+  for (const ExposureRow& row : table.rows) {
+    if (row.object.empty()) {
+      json["total"] = rowJson(table, row);
+    } else {
+      json["regions"].push_back(rowJson(table, row));
+    }
+  }
+  return json.dump(2) + "\n";
+}
+
+std::string toText(const ExposureTable& table) {
+  const bool objects = std::any_of(table.rows.begin(), table.rows.end(), [&](const ExposureRow& row) {
+    return !row.object.empty() && row.object != table.rows.front().object;
+  });
+  const auto nameOf = [&](const ExposureRow& row) {
+    if (row.object.empty()) return std::string("all surfaces");
+    return objects ? row.object + ", " + row.region : row.region;
+  };
+  std::size_t width = 0;
+  for (const ExposureRow& row : table.rows) width = std::max(width, nameOf(row).size());
+  std::string text = fmt::format("{:{}}  {:>10}", "", width, "area m2");
+  for (const auto& [name, unit, meaning, range] : table.quantities)
+    text += fmt::format("  {:>22}", unit == "1" ? name : name + ", " + unit);
+  text += "\n";
+  for (const ExposureRow& row : table.rows) {
+    text += fmt::format("{:{}}  {:>10.2f}", nameOf(row), width, row.area_m2);
+    for (std::size_t q = 0; q < table.quantities.size(); ++q) {
+      const Spread& s = row.spreads[q];
+      text += fmt::format(
+          "  {:>22}", fmt::format("{:.2f} ({:.2f} .. {:.2f})", s.mean, s.lower_quartile, s.upper_quartile));
+    }
+    text += "\n";
+  }
+  return text + "means by area, with the quartiles\n";
+}
+
+}  // namespace espalier::scenes

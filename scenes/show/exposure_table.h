@@ -1,0 +1,50 @@
+#pragma once
+#include <array>
+#include <string>
+#include <vector>
+
+#include "scenes/lighting.h"
+#include "scenes/prepare/job.h"
+
+namespace espalier::scenes {
+
+/// How one quantity is spread over an area. Everything is weighted by area: a voxel that a surface only
+/// touches counts little.
+struct Spread {
+  static constexpr std::size_t kBins = 20;
+
+  double mean = 0.0, deviation = 0.0;  ///< standard deviation
+  double least = 0.0, lower_quartile = 0.0, median = 0.0, upper_quartile = 0.0, greatest = 0.0;
+  std::array<double, kBins>
+      histogram{};  ///< shares of the area by equal steps from 0 to the quantity's range
+};
+
+struct ExposureRow {
+  std::string object, region;  ///< both empty: all surfaces
+  std::size_t voxels = 0;
+  double area_m2 = 0.0;         ///< coverage times a voxel's face, summed
+  std::vector<Spread> spreads;  ///< by ExposureTable::quantities
+};
+
+/// Statistics of the exposure of a world's surfaces, by region.
+struct ExposureTable {
+  struct Quantity {
+    std::string name, unit, meaning;
+    double range = 1.0;  ///< from 0 to this
+  };
+  std::string scene;
+  LightAbout about;
+  std::vector<Quantity> quantities;  ///< those of a sun only where there is one
+  std::vector<ExposureRow> rows;     ///< regions that have surfaces, then the total
+};
+
+ExposureTable exposureTable(const Job& job, const Lighting& light);
+
+/// A row for each region and quantity, RFC 4180, with a header that names units; exposures to 4 decimals.
+std::string toCsv(const ExposureTable& table);
+/// The same numbers.
+std::string toJson(const ExposureTable& table);
+/// Means by region, as a text to read.
+std::string toText(const ExposureTable& table);
+
+}  // namespace espalier::scenes

@@ -1,0 +1,79 @@
+#include "scenes/show/flat_pictures.h"
+
+#include <fmt/format.h>
+
+#include <utility>
+#include <vector>
+
+#include "render/voxels/attempts.h"
+#include "render/voxels/section.h"
+#include "sim/base/error.h"
+
+namespace espalier::scenes {
+namespace {
+
+/// A cut's picture axes in the world: along which the picture runs across and up.
+std::pair<int, int> picturePlane(int axis) {
+  switch (axis) {
+    case 0:
+      return {2, 1};
+    case 1:
+      return {0, 2};
+    default:
+      return {0, 1};
+  }
+}
+
+}  // namespace
+
+render::Image drawSection(const sim::World& world, const ImageSpec& image) {
+  const int axis = image.axis - 'x';
+  const auto [across, up] = picturePlane(axis);
+  const sim::Frame& frame = world.frame();
+  sim::Vec3 point_m = frame.origin_m;
+  point_m[axis] = image.at_m;
+  const int at = sim::voxelAt(sim::voxelFromWorld(frame, point_m))[axis];
+  if (at < 0 || at >= frame.size[axis]) {
+    throw sim::InputError(
+        fmt::format("image '{}': a cut at {} = {} m misses the world", image.name, image.axis, image.at_m));
+  }
+  render::SectionLook look;
+  look.size = {frame.size[across], frame.size[up]};
+  look.layers = world.layers();
+  if (!image.caption.empty()) look.title = image.caption;
+  return render::drawSection(
+      [&, across = across, up = up](glm::ivec2 p) {
+        sim::Voxel v(0);
+        v[axis] = at;
+        v[across] = p.x;
+        v[up] = p.y;
+        render::Cut cut;
+        if (const auto surface = world.surfaceAt(v)) {
+          cut.occupied = true;
+          cut.colour = surface->colour;
+        } else if (const auto nearness = world.nearnessAt(v)) {
+          cut.layer = nearness->layer;
+        }
+        return cut;
+      },
+      look);
+}
+
+render::Image drawAttempts(const sim::World& world, const sim::Growth& growth) {
+  const sim::Voxel size = world.frame().size;
+  const int axis = size.x == 1 ? 0 : size.y == 1 ? 1 : 2;
+  const auto [across, up] = picturePlane(axis);
+  std::vector<render::Attempt> drawn;
+  for (const sim::Attempt& a : growth.attempts) {
+    drawn.push_back({{a.from_vx[across], a.from_vx[up]}, {a.to_vx[across], a.to_vx[up]}, a.taken});
+  }
+  std::vector<glm::ivec2> occupied;
+  for (const sim::TiledVoxel& tiled : world.surfaces()) {
+    occupied.emplace_back(tiled.voxel[across], tiled.voxel[up]);
+  }
+  render::AttemptsLook look;
+  look.size = {size[across], size[up]};
+  return render::drawAttempts(drawn, occupied, look);
+}
+
+}  // namespace espalier::scenes

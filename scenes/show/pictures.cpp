@@ -1,0 +1,293 @@
+#include "scenes/show/pictures.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+#include <memory>
+#include <optional>
+
+#include "render/finish/finished_picture.h"
+#include "render/image/contact_sheet.h"
+#include "render/image/image_io.h"
+#include "render/image/legend.h"
+#include "render/voxels/panels.h"
+#include "render/voxels/visibility.h"
+#include "scenes/lights.h"
+#include "scenes/show/flat_pictures.h"
+#include "sim/base/error.h"
+#include "sim/base/parallel.h"
+#include "sim/world/ray.h"
+
+namespace espalier::scenes {
+namespace {
+
+using render::Image;
+using render::Panel;
+
+std::optional<Panel> panelOf(ImageKind kind) {
+  switch (kind) {
+    case ImageKind::sun_exposure:
+      return Panel::sun_exposure;
+    case ImageKind::sky_exposure:
+      return Panel::sky_exposure;
+    case ImageKind::threshold:
+      return Panel::threshold;
+    case ImageKind::shadow_matte:
+      return Panel::shadow_matte;
+    case ImageKind::surface_colour:
+      return Panel::surface_colour;
+    case ImageKind::first_pass:
+      return Panel::first_pass;
+    case ImageKind::sun_hours:
+      return Panel::sun_hours;
+    default:
+      return std::nullopt;
+  }
+}
+
+/// What an image's numbers are, for its header.
+render::Metadata metadataOf(const Finished& finished, const ImageSpec& image) {
+  render::Metadata metadata = {{"Title", finished.job.scene.name + ": " + image.name}};
+  metadata.emplace_back("espalier:voxel_m", fmt::format("{:.6g}", finished.light.about.voxel_m));
+  for (const auto& [name, text] : texts(finished.light.about))
+    metadata.emplace_back("espalier:" + name, text);
+  return metadata;
+}
+
+/// Broken after commas into lines that a legend has room for.
+std::string wrapped(const std::string& text) {
+  constexpr std::size_t kWidth = 62;
+  std::string out, line;
+  for (std::size_t at = 0; at < text.size();) {
+    const std::size_t comma = std::min(text.find(", ", at), text.size() - 2);
+    const std::string piece = text.substr(at, comma + 2 - at);
+    if (!line.empty() && line.size() + piece.size() > kWidth) {
+      out += line + "\n";
+      line.clear();
+    }
+    line += piece;
+    at = comma + 2;
+  }
+  return out + line;
+}
+
+const render::Camera& cameraOf(const Scene& scene, const ImageSpec& image) {
+  for (const NamedCamera& camera : scene.cameras) {
+    if (image.camera.empty() || camera.name == image.camera) return camera.camera;
+  }
+  throw sim::InputError(fmt::format("{}: image '{}' needs a camera", scene.file.string(), image.name));
+}
+
+/// The cameras' views and the painters of their panels, each made once.
+class Studio {
+ public:
+  explicit Studio(const Finished& finished);
+  render::PanelPicture paint(const ImageSpec& image, Panel panel);
+  /// Draws a panel's legend onto its picture.
+  std::function<void(Image&)> legend(Panel panel) const;
+  Image vines(const ImageSpec& image) const;
+
+ private:
+  struct View {
+    View(render::Visibility visible, const render::PanelWorld& world, const render::PanelLook& look,
+         const std::vector<Panel>& panels)
+        : seen(std::move(visible)), painter(seen, world, look, panels) {}
+    render::Visibility seen;
+    render::PanelPainter painter;
+  };
+
+  render::FaceValue faces(const Received& received) const {
+    return [&light = finished_.light, &received](sim::Voxel v, std::uint8_t face) {
+      return light.atFace(received, v, face);
+    };
+  }
+
+  const Finished& finished_;
+  const Scene& scene_;
+  sim::Bricks bricks_;
+  render::PanelWorld world_;
+  render::PanelLook look_;
+  std::map<std::string, std::unique_ptr<View>> views_;  // by camera
+};
+
+Studio::Studio(const Finished& finished)
+    : finished_(finished),
+      scene_(finished.job.scene),
+      bricks_(finished.job.world.occupied()),
+      world_{finished.job.world.occupied(),
+             bricks_,
+             faces(finished.light.sun),
+             faces(finished.light.sky),
+             [&world = finished.job.world](sim::Voxel v) {
+               const auto surface = world.surfaceAt(v);
+               return surface ? surface->colour : sim::Colour(0.0f);
+             },
+             faces(finished.light.sun_hours)} {
+  look_.most_hours = std::max(0.01f, static_cast<float>(finished.light.about.sun_hours));
+  if (!scene_.plants.empty()) {
+    const rules::RuleSet& rules = *scene_.plants.front().rules;
+    const double sum = rules.light.sun + rules.light.sky;
+    look_.blend_sun = static_cast<float>(rules.light.sun / sum);
+    look_.blend_sky = static_cast<float>(rules.light.sky / sum);
+    look_.threshold = static_cast<float>(rules.require.exposure_min);
+  }
+  look_.to_sun = shadowDirection(scene_.sun);
+}
+
+render::PanelPicture Studio::paint(const ImageSpec& image, Panel panel) {
+  auto& view = views_[image.camera];
+  if (!view) {
+    std::vector<Panel> panels;
+    for (const ImageSpec& other : scene_.images) {
+      const auto wanted = panelOf(other.kind);
+      if (wanted && other.camera == image.camera) panels.push_back(*wanted);
+    }
+    view = std::make_unique<View>(
+        render::see(finished_.job.world.frame(), finished_.job.world.occupied(), bricks_,
+                    cameraOf(scene_, image), scene_.image_width, scene_.image_height),
+        world_, look_, panels);
+  }
+  return view->painter.paint(panel);
+}
+
+std::function<void(Image&)> Studio::legend(Panel panel) const {
+  const auto bar = [](const std::string& title, const std::string& note, const std::string& map,
+                      float most = 1.0f, float step = 0.25f) {
+    return [=](Image& picture) {
+      render::drawLegend(picture, render::BarLegend{title, note, most, step}, render::ColourMap(map));
+    };
+  };
+  const std::string sky = wrapped(finished_.light.about.sky);
+  const std::string sun = wrapped(finished_.light.about.sun);
+  switch (panel) {
+    case Panel::sun_exposure:
+      return bar("sun exposure", "share of the sun's way in sight\n" + sun, look_.sun_map);
+    case Panel::sky_exposure:
+      return bar("sky exposure", sky, look_.sky_map);
+    case Panel::sun_hours:
+      return bar("hours of direct sun a day", sun, look_.hours_map, look_.most_hours,
+                 look_.most_hours > 8.0f   ? 2.0f
+                 : look_.most_hours > 3.0f ? 1.0f
+                                           : 0.5f);
+    case Panel::threshold: {
+      const auto [above, below] = render::thresholdColours();
+      const render::SwatchLegend swatches{
+          "exposure of the vine",
+          fmt::format("{:.2g} sun + {:.2g} sky\n{}", look_.blend_sun, look_.blend_sky, sky),
+          {{above, fmt::format("{:.2g} and more: it grows", look_.threshold)}, {below, "less: too dark"}}};
+      return [swatches](Image& picture) { render::drawLegend(picture, swatches); };
+    }
+    default:
+      return [](Image&) {};
+  }
+}
+
+Image Studio::vines(const ImageSpec& image) const {
+  render::FinishedScene scene;
+  for (const auto& tiled : finished_.job.meshes) scene.model.meshes.push_back(&tiled.mesh);
+  for (const auto& model : finished_.models) scene.model.plants.push_back(&model);
+  scene.frame = finished_.job.world.frame();
+  scene.occupied = &finished_.job.world.occupied();
+  scene.sky = finished_.light.space_sky.get();
+  scene.to_sun = look_.to_sun;
+  Image picture =
+      render::finishedPicture(scene, cameraOf(scene_, image), scene_.image_width, scene_.image_height);
+  for (std::size_t i = 0; i + 2 < picture.pixels.size(); i += 3) {
+    const sim::Colour display =
+        look_.tone(sim::Colour(picture.pixels[i], picture.pixels[i + 1], picture.pixels[i + 2]));
+    for (std::size_t c = 0; c < 3; ++c) picture.pixels[i + c] = display[static_cast<int>(c)];
+  }
+  return picture;
+}
+
+OutputFile png(const std::string& name, std::shared_ptr<const Image> picture, render::Metadata metadata) {
+  return {name + ".png", [picture, metadata] { return render::encodePng(*picture, metadata); }};
+}
+
+Image contactSheet(const Scene& scene, const LightAbout& about, const ImageSpec& sheet,
+                   const std::map<std::string, std::shared_ptr<const Image>>& pictures) {
+  std::vector<render::Captioned> captioned;
+  bool light = false;
+  for (const std::string& name : sheet.of) {
+    const auto spec = std::find_if(scene.images.begin(), scene.images.end(),
+                                   [&](const ImageSpec& image) { return image.name == name; });
+    light = light || panelOf(spec->kind).has_value();
+    const std::string letter(1, static_cast<char>('A' + captioned.size()));
+    captioned.push_back({pictures.at(name).get(), spec->letter.empty() ? letter : spec->letter,
+                         spec->caption.empty() ? name : spec->caption});
+  }
+  render::SheetLook look;
+  look.columns = captioned.size() <= 4 ? static_cast<int>(captioned.size()) : captioned.size() <= 6 ? 3 : 4;
+  look.title = sheet.caption.empty() ? scene.name : sheet.caption;
+  if (light) look.note = "sky: " + about.sky + (about.sun.empty() ? "" : "\n" + about.sun);
+  return render::contactSheet(captioned, look);
+}
+
+}  // namespace
+
+std::vector<OutputFile> drawPictures(const Finished& finished, const std::stop_token& stop) {
+  const Scene& scene = finished.job.scene;
+  Studio studio(finished);
+  std::vector<OutputFile> files;
+  std::map<std::string, std::shared_ptr<const Image>> pictures;  // without legends, for the contact sheets
+  const auto keep = [&](const ImageSpec& image, Image picture) {
+    const auto kept = std::make_shared<const Image>(std::move(picture));
+    pictures[image.name] = kept;
+    return kept;
+  };
+  const auto metadata = [&](const ImageSpec& image) { return metadataOf(finished, image); };
+  // The two that take time, side by side: each has stretches that keep one core alone busy.
+  std::map<std::string, render::PanelPicture> panels;
+  std::map<std::string, Image> vines;
+  const auto forEach = [&](const auto& wanted, const auto& draw) {
+    for (const ImageSpec& image : scene.images) {
+      if (stop.stop_requested()) throw sim::Stopped();
+      if (wanted(image)) draw(image);
+    }
+  };
+  sim::parallelInvoke(
+      [&] {
+        forEach(
+            [](const ImageSpec& image) { return panelOf(image.kind).has_value(); },
+            [&](const ImageSpec& image) { panels[image.name] = studio.paint(image, *panelOf(image.kind)); });
+      },
+      [&] {
+        forEach([](const ImageSpec& image) { return image.kind == ImageKind::vines; },
+                [&](const ImageSpec& image) { vines[image.name] = studio.vines(image); });
+      });
+  for (const ImageSpec& image : scene.images) {
+    if (const auto panel = panelOf(image.kind)) {
+      render::PanelPicture& painted = panels.at(image.name);
+      const auto display = keep(image, std::move(painted.display));
+      files.push_back(
+          {image.name + ".png", [display, legend = studio.legend(*panel), about = metadata(image)] {
+             Image labelled = *display;
+             legend(labelled);
+             return render::encodePng(labelled, about);
+           }});
+      const auto measured = std::make_shared<const Image>(std::move(painted.measured));
+      files.push_back(
+          {image.name + ".exr", [measured, channels = painted.channel_names, about = metadata(image)] {
+             return render::encodeExr(*measured, channels, about);
+           }});
+    } else if (image.kind == ImageKind::vines) {
+      files.push_back(png(image.name, keep(image, std::move(vines.at(image.name))), metadata(image)));
+    } else if (image.kind == ImageKind::section) {
+      files.push_back(png(image.name, keep(image, drawSection(finished.job.world, image)), metadata(image)));
+    } else if (image.kind == ImageKind::attempts) {
+      files.push_back(
+          png(image.name, keep(image, drawAttempts(finished.job.world, finished.growth)), metadata(image)));
+    }
+  }
+  for (const ImageSpec& image : scene.images) {
+    if (image.kind != ImageKind::contact_sheet) continue;
+    files.push_back({image.name + ".png",
+                     [&scene, &light = finished.light.about, image, pictures, about = metadata(image)] {
+                       return render::encodePng(contactSheet(scene, light, image, pictures), about);
+                     }});
+  }
+  return files;
+}
+
+}  // namespace espalier::scenes

@@ -1,0 +1,136 @@
+#include "scenes/yaml/yaml_text.h"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+
+namespace espalier::scenes {
+namespace {
+
+class Descriptor {
+ public:
+  explicit Descriptor(int descriptor) : descriptor_(descriptor) {}
+  Descriptor(const Descriptor&) = delete;
+  Descriptor& operator=(const Descriptor&) = delete;
+  ~Descriptor() {
+    if (descriptor_ >= 0) close(descriptor_);
+  }
+  int get() const { return descriptor_; }
+
+ private:
+  int descriptor_;
+};
+
+/// Bytes of the character at the front, 0 where it is no well-formed UTF-8 (RFC 3629).
+std::size_t characterBytes(std::string_view rest, std::uint32_t& code) {
+  const auto byte = [&](std::size_t i) {
+    return static_cast<std::uint32_t>(static_cast<unsigned char>(rest[i]));
+  };
+  const std::uint32_t first = byte(0);
+  const std::size_t bytes = first < 0x80   ? 1
+                            : first < 0xc2 ? 0
+                            : first < 0xe0 ? 2
+                            : first < 0xf0 ? 3
+                            : first < 0xf5 ? 4
+                                           : 0;
+  if (bytes == 0 || rest.size() < bytes) return 0;
+  code = bytes == 1 ? first : first & (0x7fu >> bytes);
+  for (std::size_t i = 1; i < bytes; ++i) {
+    if ((byte(i) & 0xc0) != 0x80) return 0;
+    code = (code << 6) | (byte(i) & 0x3f);
+  }
+  const bool overlong = (bytes == 3 && code < 0x800) || (bytes == 4 && code < 0x10000);
+  const bool surrogate = code >= 0xd800 && code < 0xe000;
+  return overlong || surrogate || code > 0x10ffff ? 0 : bytes;
+}
+
+bool isControl(std::uint32_t code) {
+  return (code < 0x20 && code != '\t' && code != '\n') || (code >= 0x7f && code < 0xa0);
+}
+
+/// YAML indents by spaces only; yaml-cpp's word for a tab there is "illegal map value".
+bool checkIndents(const std::string& text, const std::shared_ptr<const std::string>& path,
+                  Problems& problems) {
+  bool good = true;
+  int line = 1;
+  for (std::size_t start = 0; start < text.size(); ++line) {
+    const auto tab = std::min(text.find_first_not_of(' ', start), text.size());
+    const auto word = std::min(text.find_first_not_of(" \t", tab), text.size());
+    const bool says_something =
+        word < text.size() && text[word] != '#' && text[word] != '\n' && text[word] != '\r';
+    if (tab < word && says_something) {
+      problems.add({path, line, static_cast<int>(tab - start) + 1},
+                   "a tab before the first word; expected spaces");
+      good = false;
+    }
+    const auto end = text.find('\n', word);
+    start = end == text.npos ? text.size() : end + 1;
+  }
+  return good;
+}
+
+}  // namespace
+
+std::optional<std::string> readText(const std::string& path, const Place& asker, Problems& problems) {
+  const auto refuse = [&](std::string_view why) {
+    problems.add(asker, *asker.path == path ? std::string(why) : fmt::format("{}: {}", path, why));
+    return std::nullopt;
+  };
+  // Opened without waiting, then asked what it is: a pipe must not hang us, nor may the file change in
+  // between.
+  const Descriptor file(open(path.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC | O_NOCTTY));
+  if (file.get() < 0)
+    return refuse(fmt::format("cannot be opened ({}); expected a readable file", std::strerror(errno)));
+  struct stat status {};
+  if (fstat(file.get(), &status) != 0)
+    return refuse(fmt::format("cannot be examined ({})", std::strerror(errno)));
+  if (!S_ISREG(status.st_mode)) return refuse("is no regular file; expected a text file");
+  std::string text;
+  char buffer[65536];
+  while (true) {
+    const auto got = read(file.get(), buffer, sizeof buffer);
+    if (got < 0 && errno == EINTR) continue;
+    if (got < 0) return refuse(fmt::format("cannot be read ({})", std::strerror(errno)));
+    if (got == 0) break;
+    text.append(buffer, static_cast<std::size_t>(got));
+    if (text.size() > kMaxTextBytes)
+      return refuse(fmt::format("is too large; expected at most {} bytes", kMaxTextBytes));
+  }
+  if (text.starts_with("\xef\xbb\xbf")) text.erase(0, 3);
+  return text;
+}
+
+bool checkText(const std::string& text, const std::shared_ptr<const std::string>& path, Problems& problems) {
+  bool good = true;
+  int line = 1, column = 1, last_bad_line = 0;
+  for (std::size_t i = 0; i < text.size();) {
+    std::uint32_t code = 0;
+    const std::size_t bytes = characterBytes(std::string_view(text).substr(i), code);
+    const bool line_end = code == '\r' && i + 1 < text.size() && text[i + 1] == '\n';
+    if ((bytes == 0 || (isControl(code) && !line_end)) && line != last_bad_line) {
+      problems.add(
+          {path, line, column},
+          bytes == 0 ? fmt::format("byte 0x{:02x} is no UTF-8; expected text in UTF-8",
+                                   static_cast<unsigned char>(text[i]))
+                     : fmt::format("the control character U+{:04X}; expected text without control characters",
+                                   code));
+      last_bad_line = line;
+      good = false;
+    }
+    if (code == '\n') {
+      ++line;
+      column = 1;
+    } else {
+      ++column;
+    }
+    i += bytes == 0 ? 1 : bytes;
+  }
+  return checkIndents(text, path, problems) && good;
+}
+
+}  // namespace espalier::scenes

@@ -1,0 +1,179 @@
+#include "scenes/accuracy/certificate.h"
+
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "scenes/accuracy/accuracy_study.h"
+#include "scenes/accuracy/known_shapes.h"
+#include "scenes/accuracy/spot_check.h"
+#include "scenes/read/read_scene.h"
+#include "tests/support/scratch.h"
+
+namespace espalier::scenes {
+namespace {
+
+using sim::Vec3;
+using sim::Weighting;
+
+const Vec3 kUp(0, 1, 0);
+
+double at(const KnownShape& shape, Weighting weighting, Vec3 p) {
+  return shape.truth(weighting, p, kUp);
+}
+
+// Published closed forms of radiation heat transfer.
+TEST(KnownShapes, AnEndlessStreet) {
+  const struct {
+    double h, cosine, floor_mean, wall_mean, uniform, overcast;
+  } kRows[] = {{0.25, 0.89443, 0.78078, 0.43845, 0.70483, 0.93160},
+               {0.5, 0.70711, 0.61803, 0.38197, 0.50000, 0.77065},
+               {1.0, 0.44721, 0.41421, 0.29289, 0.29517, 0.50585},
+               {2.0, 0.24254, 0.23607, 0.19098, 0.15596, 0.27866},
+               {4.0, 0.12403, 0.12311, 0.10961, 0.07917, 0.14317}};
+  for (const auto& row : kRows) {
+    const KnownShape shape = street(10.0, 10.0 * row.h, 0.0, 0.1);
+    EXPECT_NEAR(at(shape, Weighting::cosine, Vec3(0.0)), row.cosine, 2e-4);
+    EXPECT_NEAR(at(shape, Weighting::uniform, Vec3(0.0)), row.uniform, 2e-4);
+    EXPECT_NEAR(at(shape, Weighting::cie_overcast, Vec3(0.0)), row.overcast, 2e-4);
+    double floor = 0.0, wall = 0.0;
+    constexpr int kSamples = 100;
+    for (int i = 0; i < kSamples; ++i) {
+      const double part = (i + 0.5) / kSamples;
+      floor += at(shape, Weighting::cosine, Vec3(-5.0 + 10.0 * part, 0.0, 0.0)) / kSamples;
+      wall += shape.truth(Weighting::cosine, Vec3(-5.0, 10.0 * row.h * part, 0.0), Vec3(1, 0, 0)) / kSamples;
+    }
+    EXPECT_NEAR(floor, row.floor_mean, 5e-4);
+    EXPECT_NEAR(wall, row.wall_mean, 5e-4);
+  }
+}
+
+TEST(KnownShapes, ASquareCourt) {
+  const struct {
+    double height, centre, corner, edge, uniform, overcast;
+  } kRows[] = {{5, 0.55413, 0.20776, 0.33475, 0.33333, 0.63799},
+               {10, 0.23946, 0.13853, 0.18037, 0.12819, 0.29468},
+               {20, 0.07348, 0.05986, 0.06618, 0.03747, 0.09325}};
+  for (const double turn : {0.0, 30.0}) {
+    const double s = std::sin(turn * 3.14159265358979 / 180), c = std::cos(turn * 3.14159265358979 / 180);
+    const auto turned = [&](double x, double z) { return Vec3(c * x - s * z, 0.0, s * x + c * z); };
+    for (const auto& row : kRows) {
+      const KnownShape shape = court(10.0, row.height, turn, 0.1);
+      EXPECT_NEAR(at(shape, Weighting::cosine, Vec3(0.0)), row.centre, 2e-4);
+      EXPECT_NEAR(at(shape, Weighting::cosine, turned(4.9999, 4.9999)), row.corner, 3e-3);
+      EXPECT_NEAR(at(shape, Weighting::cosine, turned(4.9999, 0.0)), row.edge, 2e-3);
+      EXPECT_NEAR(at(shape, Weighting::uniform, Vec3(0.0)), row.uniform, 2e-4);
+      EXPECT_NEAR(at(shape, Weighting::cie_overcast, Vec3(0.0)), row.overcast, 2e-4);
+    }
+  }
+}
+
+TEST(KnownShapes, ARoundPit) {
+  for (const double depth : {0.5, 1.0, 3.0}) {  // over the radius
+    const KnownShape shape = pit(2.0, depth, 0.05);
+    EXPECT_NEAR(at(shape, Weighting::cosine, Vec3(0.0)), 1.0 / (1.0 + depth * depth), 1e-6);
+    EXPECT_NEAR(at(shape, Weighting::uniform, Vec3(0.0)), 1.0 - depth / std::sqrt(1.0 + depth * depth), 1e-6);
+    // A small level patch and a disc that is not above it (configuration factors, Howell's B-13).
+    const double x = 0.6, r2 = 1.0, h2 = depth * depth, q = x * x + h2 + r2;
+    const double beside = 0.5 * (1.0 - (x * x + h2 - r2) / std::sqrt(q * q - 4.0 * r2 * x * x));
+    EXPECT_NEAR(at(shape, Weighting::cosine, Vec3(0.0, 0.0, x)), beside, 1e-5);
+  }
+}
+
+/// With so many directions that what is left is the voxels' error.
+TEST(Certificate, VoxelsErrLittleAndLessWhereTheyAreFiner) {
+  sim::Sky sky = sim::makeSky({.directions = 1000});
+  for (const Weighting weighting : {Weighting::uniform, Weighting::cie_overcast}) {
+    sky.weighting = weighting;
+    const Certificate coarse = certifyShapes(sky, 0.25, {8}), fine = certifyShapes(sky, 0.25, {24});
+    EXPECT_LT(std::abs(coarse.bias), 0.012);
+    EXPECT_LT(coarse.rms, 0.03);
+    EXPECT_LT(std::abs(fine.bias), 0.003);
+    EXPECT_LT(fine.rms, 0.5 * coarse.rms);
+    EXPECT_EQ(fine.weighting, weighting);
+    EXPECT_EQ(fine.lines.size(), 7u + 3 + 3 + 2);
+    for (const auto& line : fine.lines) {
+      EXPECT_LT(std::abs(line.error()), 0.025) << line.shape << ", " << line.place;
+      EXPECT_LT(line.rms, 0.025) << line.shape << ", " << line.place;
+    }
+  }
+}
+
+Job smallJob() {
+  auto scene = readScene(std::string(ESPALIER_SOURCE_DIR) + "/scenes/library/figure_3.yaml");
+  return prepareJob(std::move(*scene));
+}
+
+TEST(Certificate, OfASceneAgreesWithRaysOnItsTriangles) {
+  const Job job = smallJob();
+  const Certificate certificate = certify(job);
+  ASSERT_TRUE(certificate.spots);
+  const auto& spots = *certificate.spots;
+  EXPECT_GT(spots.points, 2000u);
+  EXPECT_LT(std::abs(spots.bias), 0.01);
+  EXPECT_LT(spots.median, 0.01);
+  EXPECT_LT(spots.percentile_95, 0.08);
+  EXPECT_EQ(certificate.voxel_m, job.world.frame().voxel_m);
+  EXPECT_EQ(certificate.directions, job.sky.directions.size());
+  // The worst place is a place of the scene.
+  EXPECT_TRUE(sim::contains(job.world.frame().size,
+                            sim::voxelAt(sim::voxelFromWorld(job.world.frame(), spots.worst.at_m))));
+  EXPECT_EQ(spotCheck(job)->rms, spots.rms);  // the same points in every run
+  const auto json = nlohmann::json::parse(toJson(certificate));
+  EXPECT_EQ(json["weighting"], std::string(sim::nameOf(job.sky.weighting)));
+  EXPECT_EQ(json["shapes"].size(), certificate.lines.size());
+  EXPECT_NE(toText(certificate).find(std::string(sim::nameOf(job.sky.weighting)) + " weighting"),
+            std::string::npos);
+}
+
+/// Between these lines docs/accuracy.md holds what the program says. ESPALIER_UPDATE_DOCS=1 writes it anew.
+const char* const kShapesBegin = "<!-- espalier certify -->\n";
+const char* const kMeshesBegin = "<!-- its own meshes -->\n";
+const char* const kSharedBegin = "<!-- meshes of others -->\n";
+const char* const kEnd = "<!-- end -->";
+
+void put(std::string& page, const std::string& begin, const std::string& text) {
+  const std::size_t from = page.find(begin) + begin.size();
+  page.replace(from, page.find(kEnd, from) - from, text);
+}
+
+std::vector<std::filesystem::path> sharedMeshes() {
+  std::vector<std::filesystem::path> meshes;
+  for (const char* name : {"house_3.obj", "ruin_wall.glb", "bunny.obj"}) {
+    const auto file = std::filesystem::path(ESPALIER_SHARED_MESHES) / name;
+    if (std::filesystem::exists(file)) meshes.push_back(file);
+  }
+  return meshes;
+}
+
+TEST(AccuracyPage, SaysWhatTheProgramSays) {
+  const auto path = tests::sourceFolder() / "docs/accuracy.md";
+  if (std::getenv("ESPALIER_UPDATE_DOCS")) {
+    std::string page = tests::fileText(path);
+    put(page, kShapesBegin, accuracyStudy());
+    put(page, kMeshesBegin,
+        accuracyOnMeshes({tests::sourceFolder() / "scenes/meshes/courtyard.obj",
+                          tests::sourceFolder() / "scenes/meshes/column.obj"}));
+    if (sharedMeshes().size() == 3) put(page, kSharedBegin, accuracyOnMeshes(sharedMeshes()));
+    std::ofstream(path, std::ios::binary) << page;
+  }
+  // The whole study takes its time; these sections stand for the others.
+  const std::string page = tests::fileText(path);
+  for (const char* section : {"Open planes", "Raster tools"}) {
+    EXPECT_NE(page.find(accuracyStudy(section)), std::string::npos)
+        << section << ": run this test once with ESPALIER_UPDATE_DOCS=1 and commit the page";
+  }
+}
+
+TEST(AccuracyPage, SaysWhatTheProgramSaysOfOthersMeshes) {
+  if (sharedMeshes().size() < 3) GTEST_SKIP() << "no meshes in " << ESPALIER_SHARED_MESHES;
+  const std::string rows = accuracyOnMeshes({sharedMeshes()[1]});
+  const std::string row = rows.substr(rows.rfind("| ruin_wall"));
+  EXPECT_NE(tests::fileText(tests::sourceFolder() / "docs/accuracy.md").find(row), std::string::npos) << row;
+}
+
+}  // namespace
+}  // namespace espalier::scenes

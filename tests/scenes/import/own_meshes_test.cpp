@@ -1,0 +1,47 @@
+#include <cstdlib>
+
+#include "scenes/import/mesh_import.h"
+#include "tests/scenes/import/mesh_files.h"
+
+/// The meshes in scenes/meshes. After a change to one of the scripts there: python3
+/// scenes/meshes/make_<name>.py
+namespace espalier::scenes {
+namespace {
+
+using Names = std::vector<std::string>;
+namespace fs = std::filesystem;
+const fs::path kMeshes = fs::path(ESPALIER_SOURCE_DIR) / "scenes/meshes";
+
+class OwnMeshes : public testing::MeshFiles {};
+
+TEST_F(OwnMeshes, HaveTheRegionsThatScenesName) {
+  const auto courtyard = importMesh(kMeshes / "courtyard.obj", RegionsFrom::group);
+  EXPECT_EQ(courtyard.regions, (Names{"wall", "coping", "window", "paving", "bed", "kerb"}));
+  EXPECT_LT(courtyard.triangles.size(), 60000u);
+  EXPECT_EQ(courtyard.degenerate_dropped, 0u);
+  for (const auto& p : courtyard.vertices_m) {
+    ASSERT_TRUE(std::abs(p.x) <= 3.3001 && p.y >= -0.2001 && p.y < 3.7 && std::abs(p.z) <= 3.9001);
+  }
+  EXPECT_EQ(importMesh(kMeshes / "column.obj", RegionsFrom::group).regions, (Names{"plinth", "column"}));
+  EXPECT_EQ(importMesh(kMeshes / "maze_walls.obj", RegionsFrom::group).regions, (Names{"frame", "bars"}));
+  EXPECT_EQ(importMesh(kMeshes / "street.obj", RegionsFrom::group).regions,
+            (Names{"arcade", "facade_south", "facade_north", "facade_east", "facade_west", "roofs", "tower",
+                   "street", "square", "pavement"}));
+}
+
+TEST_F(OwnMeshes, AreWhatTheirScriptMakes) {
+  if (std::system("python3 --version >/dev/null 2>&1") != 0) GTEST_SKIP() << "python3 is not here";
+  for (const char* script : {"make_courtyard.py", "make_street.py"}) {  // the second uses the first
+    fs::copy_file(kMeshes / script, folder_ / script);
+    ASSERT_EQ(std::system(("python3 '" + (folder_ / script).string() + "' >/dev/null").c_str()), 0);
+  }
+  for (const char* name : {"courtyard", "column", "maze_walls", "street"}) {
+    for (const char* ending : {".obj", ".mtl"}) {
+      const auto made = folder_ / (std::string(name) + ending);
+      EXPECT_TRUE(testing::readAll(made) == testing::readAll(kMeshes / made.filename())) << made.filename();
+    }
+  }
+}
+
+}  // namespace
+}  // namespace espalier::scenes

@@ -1,0 +1,252 @@
+#include "scenes/read/read_rules.h"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include "rules/language/colour.h"
+#include "tests/support/scratch.h"
+
+namespace espalier::scenes {
+namespace {
+
+using rules::RuleSet;
+using rules::Value;
+using tests::Scratch;
+
+std::shared_ptr<const RuleSet> good(const std::filesystem::path& path) {
+  const auto result = readRules(path);
+  EXPECT_TRUE(result) << format(result.problems());
+  return result ? *result : std::make_shared<const RuleSet>();
+}
+
+std::shared_ptr<const RuleSet> goodText(const std::string& text) {
+  const Scratch scratch;
+  return good(scratch.write("r.yaml", "espalier: rules\n" + text));
+}
+
+TEST(ReadRules, ReadsFigure4) {
+  const auto vine = good(tests::sourceFolder() / "rules/library/courtyard_vine.yaml");
+  EXPECT_EQ(vine->name, "courtyard vine");
+  EXPECT_EQ(vine->random_tree.length, rules::Length{2.4});
+  EXPECT_EQ(vine->random_tree.branch_age_min, 1);
+  EXPECT_EQ(vine->random_tree.branch_age_max, 3);
+  EXPECT_EQ(vine->random_tree.branch_angle_deg, Value(60));
+  EXPECT_EQ(vine->random_tree.trials_min, 150);
+  EXPECT_EQ(vine->random_tree.trials_max, 300);
+  EXPECT_EQ(vine->bias.up, Value(0.08));
+  EXPECT_TRUE(vine->require.clear);
+  EXPECT_EQ(vine->require.proximity_max_vx, 3.0);
+  EXPECT_EQ(vine->require.exposure_min, 0.3);
+  EXPECT_EQ(vine->require.exposure_max, 1.0);
+  EXPECT_TRUE(vine->prefer.has_proximity);
+  EXPECT_EQ(vine->prefer.proximity_vx, 1.5);
+  EXPECT_EQ(vine->light.sun, 0.8);
+  EXPECT_EQ(vine->light.sky, 0.2);
+  EXPECT_EQ(vine->light.boost, 1.8);
+  EXPECT_EQ(rules::hexFromLinear(vine->stem_colour), "#5a4630");
+  ASSERT_EQ(vine->elements.size(), 1u);
+  const auto& leaf = vine->elements[0];
+  EXPECT_EQ(leaf.trials, 30);
+  EXPECT_EQ(leaf.per_segment, Value(1.5));
+  EXPECT_EQ(rules::hexFromLinear(leaf.colour), "#4f7a2c");
+  ASSERT_EQ(leaf.polygons.size(), 2u);
+  ASSERT_EQ(leaf.polygons[1].size(), 5u);
+  EXPECT_EQ(leaf.polygons[1][4], sim::Vec3(.25, .13, -.02));
+  EXPECT_EQ(vine->otherwise, nullptr);
+  EXPECT_TRUE(vine->regions.empty());
+}
+
+TEST(ReadRules, LeavesDefaultsWhereAFileIsSilent) {
+  const auto rules = goodText("");
+  const RuleSet plain;
+  EXPECT_EQ(rules->random_tree.length, plain.random_tree.length);
+  EXPECT_EQ(rules->require.proximity_max_vx, plain.require.proximity_max_vx);
+  EXPECT_FALSE(rules->prefer.has_proximity);
+}
+
+TEST(ReadRules, ReadsConstantsRangesAndCurves) {
+  const auto rules = goodText(
+      "bias:\n  up: [0.1, 0.3]\n  light: {over: exposure, points: [[0, 0.5], [1, 0]]}\n  gravity: {points: "
+      "[[-1, 0], [2, 1]], over: height}\n");
+  EXPECT_EQ(rules->bias.up.kind, Value::Kind::range);
+  EXPECT_EQ(rules->bias.up.low, 0.1);
+  EXPECT_EQ(rules->bias.up.high, 0.3);
+  EXPECT_EQ(rules->bias.light.kind, Value::Kind::curve);
+  EXPECT_EQ(rules->bias.light.over, rules::Over::exposure);
+  EXPECT_EQ(rules->bias.light.curve, (std::vector<Value::Point>{{0, 0.5}, {1, 0}}));
+  EXPECT_EQ(rules->bias.gravity.over, rules::Over::height);
+}
+
+TEST(ReadRules, KeepsLengthsInTheUnitInWhichTheyAreWritten) {
+  const auto length = [](const std::string& text) {
+    return goodText(fmt::format("random_tree: {{length: {}}}", text))->random_tree.length;
+  };
+  EXPECT_EQ(length("3"), rules::Length{3});
+  EXPECT_EQ(length("3 vx"), rules::Length{3});
+  EXPECT_EQ(length("12 cm"), (rules::Length{0.12, true}));
+  EXPECT_EQ(length("\"0.12 m\""), (rules::Length{0.12, true}));
+  EXPECT_EQ(length("120 mm"), (rules::Length{0.12, true}));
+  const auto range = length("[8 cm, 120 mm]");
+  EXPECT_TRUE(range.metres);
+  EXPECT_EQ(range.value.low, 0.08);
+  EXPECT_EQ(range.value.high, 0.12);
+  EXPECT_TRUE(length("{over: age, points: [[0, 8 cm], [10, 4 cm]]}").metres);
+}
+
+TEST(ReadRules, TakesANumberForATwistsAmount) {
+  EXPECT_EQ(goodText("bias: {twist: 0.3}")->bias.twist, Value(0.3));
+  EXPECT_EQ(goodText("bias: {twist: [0.1, 0.2]}")->bias.twist.kind, Value::Kind::range);
+  EXPECT_EQ(goodText("bias: {twist: {over: age, points: [[0, 0], [9, 1]]}}")->bias.twist.kind,
+            Value::Kind::curve);
+  const auto both = goodText("bias: {twist: {amount: 0.3, radius: 5}}");
+  EXPECT_EQ(both->bias.twist, Value(0.3));
+  EXPECT_EQ(both->bias.twist_radius_vx, 5.0);
+}
+
+TEST(ReadRules, TakesANumberForTheAmountOfTheBiasToLight) {
+  const auto plain = goodText("bias: {light: 0.3}")->bias;
+  EXPECT_EQ(plain.light, Value(0.3));
+  EXPECT_EQ(plain.brightest, rules::Brightest::moment);
+  const auto both = goodText("bias: {light: {amount: 0.2, brightest: table}}")->bias;
+  EXPECT_EQ(both.light, Value(0.2));
+  EXPECT_EQ(both.brightest, rules::Brightest::table);
+}
+
+TEST(ReadRules, TakesOneNumberForARangeOfAges) {
+  const auto rules = goodText("random_tree: {branch_age_range: 4}");
+  EXPECT_EQ(rules->random_tree.branch_age_min, 4);
+  EXPECT_EQ(rules->random_tree.branch_age_max, 4);
+}
+
+TEST(ReadRules, ReadsColoursAsSrgb) {
+  const auto grey = goodText("stem: {colour: [0.5, 0.5, 0.5]}")->stem_colour;
+  EXPECT_NEAR(grey.r, 0.21404f, 1e-4f);
+  EXPECT_EQ(rules::hexFromLinear(goodText("stem: {colour: '#A05F46'}")->stem_colour), "#a05f46");
+}
+
+TEST(ReadRules, BuildsOnABase) {
+  const Scratch scratch;
+  scratch.write(
+      "sub/far.yaml",
+      "espalier: rules\nbias: {up: 0.1, twist: {amount: 0.2, radius: 3}}\nrandom_tree: {length: 5}\n");
+  scratch.write("near.yaml",
+                "espalier: rules\nbase: sub/far.yaml\nbias: {up: 0.2}\nelements:\n  - {polygons: "
+                "[[[0,0,0],[1,0,0],[0,1,0]]]}\n");
+  const auto rules = good(scratch.write(
+      "r.yaml", "espalier: rules\nbase: near.yaml\nbias: {twist: 0.9}\nrequire: {clear: false}\n"));
+  EXPECT_EQ(rules->random_tree.length, rules::Length{5});
+  EXPECT_EQ(rules->bias.up, Value(0.2));
+  EXPECT_EQ(rules->bias.twist, Value(0.9));
+  EXPECT_EQ(rules->bias.twist_radius_vx, 3.0);
+  EXPECT_FALSE(rules->require.clear);
+  EXPECT_EQ(rules->elements.size(), 1u);
+  const auto fewer = good(scratch.write("fewer.yaml", "espalier: rules\nbase: near.yaml\nelements: []\n"));
+  EXPECT_TRUE(fewer->elements.empty());
+}
+
+TEST(ReadRules, ReadsRegionsInEveryForm) {
+  const Scratch scratch;
+  scratch.write("ivy.yaml", "espalier: rules\nname: ivy\n");
+  const auto rules = good(scratch.write(
+      "r.yaml",
+      "espalier: rules\nname: vine\nbias: {up: 0.4, light: 0.3}\nregions:\n  paving: forbid\n  wall: "
+      "ivy.yaml\n"
+      "  roof: {rules: ivy.yaml}\n  bed: {bias: {up: 0.1}}\n  door: {base: ivy.yaml, bias: {up: 0.2}}\n"));
+  ASSERT_EQ(rules->regions.size(), 5u);
+  EXPECT_TRUE(rules->regions.at("paving").forbidden);
+  EXPECT_EQ(rules->regions.at("wall").rules->name, "ivy");
+  EXPECT_EQ(rules->regions.at("roof").rules, rules->regions.at("wall").rules) << "one file, read once";
+  const auto& bed = *rules->regions.at("bed").rules;
+  EXPECT_EQ(bed.name, "vine");
+  EXPECT_EQ(bed.bias.up, Value(0.1));
+  EXPECT_EQ(bed.bias.light, Value(0.3));
+  EXPECT_EQ(rules->regions.at("door").rules->bias.up, Value(0.2));
+  EXPECT_EQ(rules->regions.at("door").rules->bias.light, Value(0.0));
+}
+
+TEST(ReadRules, BuildsTheRegionsOfABaseFromTheNewValues) {
+  const Scratch scratch;
+  scratch.write("base.yaml",
+                "espalier: rules\nbias: {light: 0.1}\nregions: {wall: {bias: {up: 0.5}}, paving: forbid}\n");
+  const auto rules = good(scratch.write(
+      "r.yaml",
+      "espalier: rules\nbase: base.yaml\nbias: {light: 0.7}\nregions: {paving: {bias: {up: 1}}}\n"));
+  EXPECT_EQ(rules->regions.at("wall").rules->bias.light, Value(0.7));
+  EXPECT_EQ(rules->regions.at("wall").rules->bias.up, Value(0.5));
+  EXPECT_FALSE(rules->regions.at("paving").forbidden);
+}
+
+TEST(ReadRules, ReadsWhatToTryOtherwise) {
+  const Scratch scratch;
+  scratch.write("second.yaml", "espalier: rules\nname: second\n");
+  EXPECT_EQ(good(scratch.write("file.yaml", "espalier: rules\notherwise: second.yaml\n"))->otherwise->name,
+            "second");
+  const auto chain = good(scratch.write(
+      "r.yaml",
+      "espalier: rules\nbias: {up: 0.4}\nrequire: {proximity: {max: 2}}\nregions: {wall: {bias: {up: 0.9}}}\n"
+      "otherwise:\n  require: {proximity: {max: 4}}\n  otherwise: {require: {clear: false}}\n"));
+  ASSERT_TRUE(chain->otherwise && chain->otherwise->otherwise);
+  EXPECT_EQ(chain->otherwise->bias.up, Value(0.4));
+  EXPECT_EQ(chain->otherwise->require.proximity_max_vx, 4.0);
+  EXPECT_TRUE(chain->otherwise->regions.empty());
+  EXPECT_EQ(chain->otherwise->otherwise->require.proximity_max_vx, 4.0);
+  EXPECT_FALSE(chain->otherwise->otherwise->require.clear);
+  EXPECT_EQ(chain->otherwise->otherwise->otherwise, nullptr);
+  EXPECT_EQ(chain->regions.at("wall").rules->otherwise->require.proximity_max_vx, 4.0)
+      << "a region falls back as the whole does";
+}
+
+TEST(ReadRules, NamesTheCircleOfFiles) {
+  const Scratch scratch;
+  scratch.write("a.yaml", "espalier: rules\nbase: b.yaml\n");
+  scratch.write("b.yaml", "espalier: rules\nname: b\notherwise: c.yaml\n");
+  scratch.write("c.yaml", "espalier: rules\nregions: {wall: {rules: a.yaml}}\n");
+  EXPECT_EQ(scratch.shown(readRules(scratch.path("a.yaml")).problems()),
+            "c.yaml:2:25: rule files that name each other in a circle: a.yaml -> b.yaml -> c.yaml -> a.yaml; "
+            "expected each to end somewhere");
+  scratch.write("self.yaml", "espalier: rules\nbase: ./self.yaml\n");
+  EXPECT_EQ(scratch.shown(readRules(scratch.path("self.yaml")).problems()),
+            "self.yaml:2:7: rule files that name each other in a circle: self.yaml -> self.yaml; expected "
+            "each to end somewhere");
+}
+
+TEST(ReadRules, ReportsTheProblemsOfEveryFileOnce) {
+  const Scratch scratch;
+  scratch.write("base.yaml", "espalier: rules\nbias: {up: 2}\n");
+  scratch.write("other.yaml", "espalier: rules\nbase: base.yaml\nbias: {down: 1}\n");
+  scratch.write("r.yaml",
+                "espalier: rules\nbase: base.yaml\nlight: {boost: x}\notherwise: other.yaml\nregions: {wall: "
+                "none.yaml}\n");
+  const auto shown = scratch.shown(readRules(scratch.path("r.yaml")).problems());
+  EXPECT_EQ(std::count(shown.begin(), shown.end(), '\n'), 3) << shown;
+  EXPECT_NE(
+      shown.find("base.yaml:2:12: bias.up is '2', which is out of range; expected a number from 0 to 1"),
+      shown.npos)
+      << shown;
+  EXPECT_NE(shown.find("other.yaml:3:8: unknown key 'down'"), shown.npos) << shown;
+  EXPECT_NE(shown.find("r.yaml:3:16: light.boost is 'x', which is no number"), shown.npos) << shown;
+  EXPECT_NE(shown.find("r.yaml:5:17: none.yaml: cannot be opened (No such file or directory)"), shown.npos)
+      << shown;
+}
+
+TEST(ReadRules, EndsAChainOfFilesThatIsTooLong) {
+  const Scratch scratch;
+  for (int i = 0; i < 300; ++i) {
+    scratch.write(fmt::format("{}.yaml", i), fmt::format("espalier: rules\notherwise: {}.yaml\n", i + 1));
+  }
+  EXPECT_NE(scratch.shown(readRules(scratch.path("0.yaml")).problems())
+                .find("too many rule sets; expected at most 256"),
+            std::string::npos);
+}
+
+TEST(ReadRules, StopsCountingProblemsAtAThousand) {
+  const Scratch scratch;
+  std::string text = "espalier: rules\n";
+  for (int i = 0; i < 60'000; ++i) text += fmt::format("k{}: 1\n", i);
+  const auto problems = readRules(scratch.write("r.yaml", text)).problems();
+  EXPECT_EQ(problems.size(), 1001u);
+  EXPECT_NE(problems.back().text.find("the rest is not shown"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace espalier::scenes

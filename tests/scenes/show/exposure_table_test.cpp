@@ -1,0 +1,176 @@
+#include "scenes/show/exposure_table.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <map>
+#include <nlohmann/json.hpp>
+
+#include "sim/tile/build_world.h"
+
+namespace espalier::scenes {
+namespace {
+
+using nlohmann::json;
+
+/// Rows of RFC 4180, or an empty list for a text that does not follow it.
+std::vector<std::vector<std::string>> readCsv(const std::string& text) {
+  std::vector<std::vector<std::string>> rows;
+  std::vector<std::string> row;
+  std::string field;
+  for (std::size_t i = 0; i < text.size();) {
+    field.clear();
+    if (text[i] == '"') {
+      for (++i;; ++i) {
+        if (i >= text.size()) return {};
+        if (text[i] != '"') {
+          field += text[i];
+        } else if (i + 1 < text.size() && text[i + 1] == '"') {
+          field += text[++i];
+        } else {
+          break;
+        }
+      }
+      ++i;
+    } else {
+      while (i < text.size() && text[i] != ',' && text[i] != '\r') field += text[i++];
+    }
+    row.push_back(field);
+    if (i < text.size() && text[i] == ',') {
+      ++i;
+    } else if (text.compare(i, 2, "\r\n") == 0) {
+      i += 2;
+      rows.push_back(std::move(row));
+      row.clear();
+    } else {
+      return {};
+    }
+  }
+  return rows;
+}
+
+/// A world of two parts whose values are made up, so that every number can be told.
+struct Made {
+  Job job{.scene = {},
+          .meshes = {},
+          .fills = {},
+          .world = sim::World({sim::Vec3(0.0), 0.5, {8, 4, 4}}),
+          .rules = {},
+          .plantings = {},
+          .sky = {},
+          .random_sky = {},
+          .sun = {}};
+  Lighting light;
+
+  Made() {
+    job.scene.name = "two \"walls\", a test";
+    const sim::PartId wall = job.world.addPart({"house, old", "wall", sim::PartKind::scene, -1});
+    const sim::PartId roof = job.world.addPart({"house, old", "roof", sim::PartKind::scene, -1});
+    job.world.addPart({"house, old", "hidden", sim::PartKind::scene, -1});  // has no surface
+    // Of the wall 0, 1, 2, 3, 4 tenths; the last one covers its voxel thrice as much as the others.
+    for (int i = 0; i < 5; ++i) add(wall, 0.1f * static_cast<float>(i), i == 4 ? 0.75f : 0.25f);
+    add(roof, 1.0f, 1.0f);
+    light.about.sky = "made up, as it is";
+    light.about.weighting = "uniform";
+    light.about.directions = 7;
+    light.about.sun = "a lamp";
+    light.about.sun_hours = 10.0;
+    light.about.voxel_m = 0.5;
+  }
+
+ private:
+  void add(sim::PartId part, float value, float coverage) {
+    const sim::Voxel v(static_cast<int>(light.surfaces.size()), 0, 0);
+    light.surfaces.push_back({v, {part, sim::Colour(0.5f), coverage, sim::Vec3f(0, 1, 0)}});
+    light.sky.values.push_back(value);
+    light.sun.values.push_back(1.0f - value);
+    light.sun_hours.values.push_back(10.0f * (1.0f - value));
+  }
+};
+
+TEST(ExposureTable, IsWeightedByArea) {
+  const Made made;
+  const ExposureTable table = exposureTable(made.job, made.light);
+  ASSERT_EQ(table.rows.size(), 3u);
+  const ExposureRow& wall = table.rows[0];
+  EXPECT_EQ(wall.region, "wall");
+  EXPECT_EQ(wall.voxels, 5u);
+  EXPECT_EQ(wall.area_m2, 1.75 * 0.25);
+  const Spread& sky = wall.spreads[0];
+  EXPECT_EQ(sky.mean, 0.2571);  // (0.25 (0 + .1 + .2 + .3) + 0.75 * 0.4) / 1.75
+  EXPECT_EQ(sky.deviation, 0.1498);
+  EXPECT_EQ(sky.least, 0.0);
+  EXPECT_EQ(sky.lower_quartile, 0.1);  // by area: 0.4375 of 1.75
+  EXPECT_EQ(sky.median, 0.3);
+  EXPECT_EQ(sky.upper_quartile, 0.4);
+  EXPECT_EQ(sky.greatest, 0.4);
+  EXPECT_EQ(sky.histogram[0], 0.1429);
+  EXPECT_EQ(sky.histogram[8], 0.4286);
+  EXPECT_EQ(table.rows[1].spreads[0].histogram[Spread::kBins - 1], 1.0);  // 1 belongs to the last bin
+  EXPECT_EQ(wall.spreads[2].histogram[12], 0.4286);                       // 6 of 10 hours
+  EXPECT_EQ(table.rows[2].object, "");
+  EXPECT_EQ(table.rows[2].voxels, 6u);
+  EXPECT_EQ(table.rows[2].area_m2, 2.75 * 0.25);
+}
+
+TEST(ExposureTable, CsvFollowsItsRfcAndSaysWhatJsonSays) {
+  const Made made;
+  const ExposureTable table = exposureTable(made.job, made.light);
+  const auto rows = readCsv(toCsv(table));
+  ASSERT_EQ(rows.size(), 1u + 3u * 3u);
+  const json all = json::parse(toJson(table));
+  EXPECT_EQ(all["light"]["weighting"], "uniform");
+  EXPECT_EQ(all["light"]["directions"], 7);
+  for (std::size_t r = 1; r < rows.size(); ++r) {
+    ASSERT_EQ(rows[r].size(), rows[0].size());
+    std::map<std::string, std::string> row;
+    for (std::size_t c = 0; c < rows[0].size(); ++c) row[rows[0][c]] = rows[r][c];
+    EXPECT_EQ(row["scene"], "two \"walls\", a test");
+    EXPECT_EQ(row["sky"], "made up, as it is");
+    EXPECT_EQ(row["weighting"], "uniform");
+    json region;
+    if (row["object"] == "total") {
+      region = all["total"];
+    } else {
+      EXPECT_EQ(row["object"], "house, old");
+      const auto& regions = all["regions"];
+      region = *std::find_if(regions.begin(), regions.end(),
+                             [&](const json& j) { return j["region"] == row["region"]; });
+    }
+    EXPECT_EQ(std::stod(row["area_m2"]), region["area_m2"]);
+    EXPECT_EQ(std::stoul(row["voxels"]), region["voxels"]);
+    const json& spread = region[row["quantity"]];
+    for (const char* name :
+         {"mean", "standard_deviation", "minimum", "lower_quartile", "median", "upper_quartile", "maximum"}) {
+      EXPECT_EQ(std::stod(row[name]), spread[name]) << name;
+    }
+    double shares = 0.0;
+    for (std::size_t bin = 0; bin < Spread::kBins; ++bin) {
+      const double share = std::stod(row["share_" + std::to_string(bin + 1)]);
+      EXPECT_EQ(share, spread["histogram"][bin]);
+      shares += share;
+    }
+    EXPECT_NEAR(shares, 1.0, 1e-3);
+    EXPECT_EQ(std::stod(row["histogram_to"]), all["quantities"][row["quantity"]]["histogram_to"]);
+    EXPECT_EQ(row["unit"], all["quantities"][row["quantity"]]["unit"]);
+  }
+}
+
+TEST(ExposureTable, WithoutASunHasNoColumnsOfOne) {
+  Made made;
+  made.light.about.sun.clear();
+  const ExposureTable table = exposureTable(made.job, made.light);
+  EXPECT_EQ(table.quantities.size(), 1u);
+  EXPECT_EQ(toCsv(table).find("sun"), std::string::npos);
+  EXPECT_EQ(readCsv(toCsv(table)).size(), 4u);
+}
+
+TEST(ExposureTable, TheTextNamesEveryRegionWithItsMean) {
+  const Made made;
+  const std::string text = toText(exposureTable(made.job, made.light));
+  for (const char* part : {"wall", "roof", "all surfaces", "0.26 (0.10 .. 0.40)", "area m2"})
+    EXPECT_NE(text.find(part), std::string::npos) << part << '\n' << text;
+}
+
+}  // namespace
+}  // namespace espalier::scenes

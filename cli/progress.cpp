@@ -44,14 +44,14 @@ void Progress::stage(const std::string& name) {
 void Progress::growth(const sim::GrowthProgress& growth) {
   if (quiet_) return;
   const auto now = Clock::now();
-  const bool last = growth.iteration == growth.iterations || growth.buds == 0;
+  const bool last = growth.iteration == growth.iterations || growth.sites == 0;
   if (!last &&
       now - last_line_ < (terminal_ ? Clock::duration(std::chrono::milliseconds(50)) : kBetweenLines))
     return;
   const double spent = std::chrono::duration<double>(now - stage_began_).count();
   const double left = spent / growth.iteration * (growth.iterations - growth.iteration);
   const std::string state = fmt::format("iteration {}/{}, {} segments, {} live buds", growth.iteration,
-                                        growth.iterations, growth.segments, growth.buds);
+                                        growth.iterations, growth.segments, growth.sites);
   if (!terminal_) return line("  " + state);
   const int filled = kBarWidth * growth.iteration / std::max(1, growth.iterations);
   line(fmt::format("growing [{:=<{}}{: <{}}] {}, {:.0f} s left", "", filled, "", kBarWidth - filled, state,

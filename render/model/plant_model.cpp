@@ -24,6 +24,16 @@ T at(const std::vector<T>& data, NodeId n) {
   return data[static_cast<std::size_t>(n)];
 }
 
+/// What a node sensed where it grew; full light for plants whose process does not say.
+class Exposure {
+ public:
+  explicit Exposure(const sim::Skeleton& skeleton) : values_(sim::find(skeleton, "exposure")) {}
+  float of(NodeId n) const { return values_ != nullptr ? at(*values_, n) : 1.0f; }
+
+ private:
+  const std::vector<float>* values_;
+};
+
 /// 0 for the first iteration .. 1 for the last in which anything of the plant was placed.
 class Youth {
  public:
@@ -54,11 +64,12 @@ int stationsIn(const Spline& curve, int segment) {
 std::vector<TubeStation> stationsOf(const StemCurve& stem, const sim::Plant& plant, const sim::Frame& frame,
                                     const std::vector<float>& radii, const Youth& youth) {
   const sim::Skeleton& skeleton = plant.skeleton;
+  const Exposure exposure(skeleton);
   std::vector<TubeStation> line;
-  const auto add = [&](Vec3 p_vx, double radius_vx, float exposure, float young) {
+  const auto add = [&](Vec3 p_vx, double radius_vx, float seen, float young) {
     const Vec3 centre_m = sim::worldFromVoxel(frame, p_vx);
     if (!line.empty() && glm::distance(centre_m, line.back().centre_m) < 1e-6 * frame.voxel_m) return;
-    line.push_back({centre_m, radius_vx * frame.voxel_m, exposure, young});
+    line.push_back({centre_m, radius_vx * frame.voxel_m, seen, young});
   };
   // At its fork a stem is as thick as its own first segment, not as its parent.
   const auto radiusAt = [&](std::size_t i) {
@@ -70,7 +81,7 @@ std::vector<TubeStation> stationsOf(const StemCurve& stem, const sim::Plant& pla
     const Vec3 start = stem.curve.derivative(0.0);
     if (glm::length(start) > 0.0) {
       add(stem.curve.position(0.0) - kRootDepth * glm::normalize(start), radiusAt(0),
-          at(skeleton.exposure, stem.nodes[0]), youth.of(at(skeleton.born, stem.nodes[0])));
+          exposure.of(stem.nodes[0]), youth.of(at(skeleton.born, stem.nodes[0])));
     }
   }
   for (std::size_t s = 0; s < segments; ++s) {
@@ -80,7 +91,7 @@ std::vector<TubeStation> stationsOf(const StemCurve& stem, const sim::Plant& pla
       const double u = static_cast<double>(k) / pieces;
       const auto w = static_cast<float>(u);
       add(stem.curve.position(static_cast<double>(s) + u), radiusAt(s) + u * (radiusAt(s + 1) - radiusAt(s)),
-          (1.0f - w) * at(skeleton.exposure, a) + w * at(skeleton.exposure, b),
+          (1.0f - w) * exposure.of(a) + w * exposure.of(b),
           (1.0f - w) * youth.of(at(skeleton.born, a)) + w * youth.of(at(skeleton.born, b)));
     }
   }

@@ -23,15 +23,23 @@ bool before(sim::Voxel a, sim::Voxel b) {
   return std::tie(a.y, a.z, a.x) < std::tie(b.y, b.z, b.x);
 }
 
+/// Where each of an element trial's random numbers stands (sim::Slots).
+enum ElementSlot : unsigned { kAlong, kSize, kFace, kChanceTurn, kChanceHeight, kOutTurn, kOutHeight };
+
+sim::Vec3 onSphere(sim::Slots& slots, ElementSlot turn, ElementSlot height) {
+  return sim::inCone(sim::Vec3(0, 1, 0), -1.0, slots.uniform(turn), slots.uniform(height));
+}
+
 /// A natural attitude: the face turns towards the open and the light, as a leaf's blade does, and the element
 /// points outwards and a little down, as its own weight and its stalk make it.
-void turn(sim::PlacedElement& element, const Senses& senses, sim::Vec3 stem, double face, sim::Draws& draws) {
+void turn(sim::PlacedElement& element, const Surroundings& around, const Senses& senses, sim::Vec3 stem,
+          double face, sim::Slots& slots) {
   const sim::Vec3 light = senses.light == sim::Vec3(0.0) ? sim::Vec3(0, 1, 0) : senses.light;
-  const sim::Vec3 open = glm::normalize(0.9 * senses.away + 0.8 * light + 1e-6 * sim::Vec3(0, 1, 0));
-  const sim::Vec3 chance = draws.onSphere();
-  const sim::Vec3 facing = glm::mix(chance, open, face);
+  const sim::Vec3 open = glm::normalize(0.9 * around.away + 0.8 * light + 1e-6 * sim::Vec3(0, 1, 0));
+  const sim::Vec3 facing = glm::mix(onSphere(slots, kChanceTurn, kChanceHeight), open, face);
   element.z = glm::length(facing) > 1e-6 ? glm::normalize(facing) : open;
-  const sim::Vec3 outward = draws.onSphere() + 0.6 * senses.away - 0.45 * sim::Vec3(0, 1, 0) + 0.15 * stem;
+  const sim::Vec3 outward =
+      onSphere(slots, kOutTurn, kOutHeight) + 0.6 * around.away - 0.45 * sim::Vec3(0, 1, 0) + 0.15 * stem;
   const sim::Vec3 in_blade = outward - glm::dot(outward, element.z) * element.z;
   element.y = glm::length(in_blade) > 1e-6 ? glm::normalize(in_blade) : sim::perpendicular(element.z);
   element.x = glm::cross(element.y, element.z);
@@ -46,9 +54,9 @@ std::vector<sim::ElementShape> shapesOf(const RuleSet& rules) {
   return shapes;
 }
 
-std::vector<sim::ProposedElement> proposeElements(const sim::GrowthView& view, const RuleSet& rules,
-                                                  const Senses& senses, sim::Vec3 to_vx,
-                                                  const std::vector<sim::Voxel>& segment,
+std::vector<sim::ProposedElement> proposeElements(const sim::SiteView& view, const RuleSet& rules,
+                                                  const Surroundings& around, const Senses& senses,
+                                                  sim::Vec3 to_vx, const std::vector<sim::Voxel>& segment,
                                                   std::int32_t first_shape, const sim::RandomKey& key) {
   std::vector<sim::ProposedElement> placed;
   std::vector<sim::Voxel> taken;  // by elements of this very proposal
@@ -57,25 +65,27 @@ std::vector<sim::ProposedElement> proposeElements(const sim::GrowthView& view, c
   const auto has = [](const std::vector<sim::Voxel>& voxels, sim::Voxel v) {
     return std::find(voxels.begin(), voxels.end(), v) != voxels.end();
   };
-  const sim::Vec3 stem = glm::normalize(to_vx - senses.at_vx);
+  const sim::Vec3 stem = glm::normalize(to_vx - around.at_vx);
   for (std::size_t shape = 0; shape < rules.elements.size(); ++shape) {
     const Element& rule = rules.elements[shape];
-    sim::Draws count_draws(key, sim::Purpose::element, static_cast<std::uint32_t>(shape << 10));
+    sim::Slots counting(key, sim::Purpose::element_count, static_cast<unsigned>(shape));
     const double expected =
-        evaluate(rule.per_segment, senses.circumstance, count_draws.uniform()) * senses.vigour;
-    const int count = static_cast<int>(std::floor(expected + count_draws.uniform()));
+        evaluate(rule.per_segment, senses.circumstance, counting.uniform(0)) * senses.vigour;
+    const auto count = static_cast<unsigned>(std::floor(expected + counting.uniform(1)));
     double area = 0.0;
     for (const auto& polygon : rule.polygons) area += areaOf(polygon);
-    for (int i = 0; i < count; ++i) {
-      sim::Draws draws(key, sim::Purpose::element,
-                       static_cast<std::uint32_t>((shape << 10) + 1) + static_cast<std::uint32_t>(i));
+    for (unsigned i = 0; i < count; ++i) {
       for (int trial = 0; trial < rule.trials; ++trial) {
+        // At most 64 shapes, and 1001 of each: 100 a segment, ten times as many in full light.
+        sim::Slots slots(key, sim::Purpose::element, static_cast<unsigned>(shape << 10) + i,
+                         static_cast<unsigned>(trial));
         sim::PlacedElement element;
         element.shape = first_shape + static_cast<std::int32_t>(shape);
-        element.position_vx = glm::mix(senses.at_vx, to_vx, draws.uniform(0.1, 1.0));
+        element.position_vx = glm::mix(around.at_vx, to_vx, 0.1 + 0.9 * slots.uniform(kAlong));
         element.exposure = static_cast<float>(senses.exposure);
-        element.scale = evaluate(rule.size, senses.circumstance, draws.uniform()) * senses.vigour;
-        turn(element, senses, stem, evaluate(rule.face, senses.circumstance, draws.uniform()), draws);
+        element.scale = evaluate(rule.size, senses.circumstance, slots.uniform(kSize)) * senses.vigour;
+        turn(element, around, senses, stem, evaluate(rule.face, senses.circumstance, slots.uniform(kFace)),
+             slots);
         tiled.clear();
         for (const auto& polygon : rule.polygons) {
           corners.clear();
@@ -88,12 +98,13 @@ std::vector<sim::ProposedElement> proposeElements(const sim::GrowthView& view, c
         std::erase_if(tiled, [&](sim::Voxel v) { return has(segment, v); });
         if (std::any_of(tiled.begin(), tiled.end(), [&](sim::Voxel v) { return has(taken, v); })) continue;
         std::vector<sim::Voxel> takes;
-        if (sim::fit(view.world, tiled, senses.attachment, sim::Passage::around, takes) != sim::Fit::clear)
+        if (sim::fit(view.world, tiled, around.attachment, sim::Passage::around, takes) != sim::Fit::clear)
           continue;
         taken.insert(taken.end(), takes.begin(), takes.end());
         const double share = area * element.scale * element.scale /
                              static_cast<double>(std::max<std::size_t>(1, takes.size()));
-        placed.push_back({element, std::move(takes), static_cast<float>(std::min(1.0, share))});
+        placed.push_back(
+            {element, std::move(takes), sim::Passage::around, static_cast<float>(std::min(1.0, share))});
         break;
       }
     }

@@ -1,9 +1,9 @@
 #pragma once
 #include <vector>
 
-#include "rules/growth/trial.h"
+#include "rules/growth/senses.h"
 #include "rules/language/rule_set.h"
-#include "sim/grow/rule.h"
+#include "sim/grow/process.h"
 
 namespace espalier::rules {
 
@@ -11,9 +11,9 @@ namespace espalier::rules {
 /// (Greene's boost), and each is tried up to Element::trials times in random places and attitudes until one
 /// intersects nothing but its own segment. `first_shape` is the plant's number of the rule set's first
 /// element.
-std::vector<sim::ProposedElement> proposeElements(const sim::GrowthView& view, const RuleSet& rules,
-                                                  const Senses& senses, sim::Vec3 to_vx,
-                                                  const std::vector<sim::Voxel>& segment,
+std::vector<sim::ProposedElement> proposeElements(const sim::SiteView& view, const RuleSet& rules,
+                                                  const Surroundings& around, const Senses& senses,
+                                                  sim::Vec3 to_vx, const std::vector<sim::Voxel>& segment,
                                                   std::int32_t first_shape, const sim::RandomKey& key);
 
 /// The shapes that a rule set's elements place, in their order.

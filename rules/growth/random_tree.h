@@ -1,26 +1,33 @@
 #pragma once
-#include <memory>
+#include <optional>
 
+#include "rules/growth/senses.h"
 #include "rules/language/rule_set.h"
-#include "sim/grow/rule.h"
+#include "sim/grow/process.h"
 
-namespace espalier::rules {
-
-/// Greene's tree-structured random walk (1989, sections 3 and 4) as a growth process: each due bud makes
-/// randomly perturbed trials of a segment, rejects those that do not meet `require`, and takes the one that
-/// `prefer` ranks first. A branch leaves a node at `branch_angle` once the node's branch age is reached.
+/// Greene's tree-structured random walk (1989, sections 3 and 4): a site makes randomly perturbed trials of a
+/// segment, rejects those that do not meet `require`, and takes the one that `prefer` ranks first.
 ///
 /// Where Greene's text leaves it open:
-/// - growth rate with light: a bud at exposure e grows in an iteration with probability vigour(e) / boost, so
-/// that
-///   fully exposed buds grow in every iteration and dim ones `boost` times more rarely; segments keep their
-///   length;
 /// - trials beyond trials.min, made where none was good yet, wander farther and farther, up to twice the
 /// angle;
-/// - a bud all of whose trials fail retires, as around it the world only gets fuller; a seed tries again.
-///
-/// `voxel_m` turns lengths given in metres into voxel widths. Throws sim::InputError for a rule set that
-/// cannot work (a segment longer than 60 voxel widths or shorter than 0.1).
-std::unique_ptr<sim::Rule> makeRandomTree(std::shared_ptr<const RuleSet> rules, double voxel_m);
+/// - a trial that would take no free voxel is blocked: it folds back into its own limb, and could for ever.
+namespace espalier::rules {
+
+/// A trial that met the rules.
+struct Candidate {
+  sim::Vec3 to_vx{0.0};
+  std::vector<sim::Voxel> passes;  ///< that the segment crosses
+  std::vector<sim::Voxel> takes;   ///< the free ones of them
+  double proximity_vx = 0.0;       ///< mean distance from the scene along it
+};
+
+/// The best of a site's trials under one rule set, if there is a good one; counts them all in `proposal`, and
+/// records them if the view says so. `set` numbers the rule sets that one site tries, from 0; `voxel_m` turns
+/// lengths in metres into voxel widths.
+std::optional<Candidate> bestTrial(const sim::SiteView& view, const sim::Site& site, const RuleSet& rules,
+                                   const Surroundings& around, const Senses& senses,
+                                   const sim::RandomKey& key, unsigned set, double voxel_m,
+                                   sim::Proposal& proposal);
 
 }  // namespace espalier::rules

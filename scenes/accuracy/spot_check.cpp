@@ -49,7 +49,7 @@ std::vector<Point> drawPoints(const Job& job) {
   std::vector<Point> points;
   if (!(area > 0.0)) return points;
   for (std::uint32_t i = 0; i < kPoints; ++i) {
-    sim::Draws draws({job.scene.seed, 0, i, 0}, sim::Purpose::spot);
+    sim::Draws draws({sim::streamOf(job.scene.seed), i}, sim::Purpose::spot);
     const auto found = std::upper_bound(ends.begin(), ends.end(), draws.uniform(0.0, area));
     const auto [m, t] = triangles[std::min(static_cast<std::size_t>(found - ends.begin()), ends.size() - 1)];
     const sim::Mesh& mesh = job.meshes[m].mesh;

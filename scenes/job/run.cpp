@@ -40,8 +40,8 @@ std::string glb(const Job& job, const std::vector<render::PlantModel>& models) {
 }
 
 Report::Growth countPlants(const sim::World& world, const sim::Growth& growth) {
-  Report::Growth counts{
-      growth.iterations, {}, growth.buds, growth.trials, sim::stateHash(world, growth.plants)};
+  const sim::Tally tally = sim::total(growth);
+  Report::Growth counts{growth.iterations, {}, tally.sites, tally.trials, sim::stateHash(world, growth)};
   for (const sim::Plant& plant : growth.plants) {
     counts.plants.push_back(
         {plant.name, {static_cast<std::size_t>(plant.skeleton.size() - 1), plant.elements.size()}});

@@ -7,7 +7,7 @@
 #include <filesystem>
 #include <map>
 
-#include "rules/growth/random_tree.h"
+#include "rules/growth/make_process.h"
 #include "scenes/import/mesh_import.h"
 #include "scenes/lights.h"
 #include "scenes/problem.h"
@@ -73,8 +73,7 @@ sim::Frame frameFor(const Scene& scene, const std::vector<sim::TiledMesh>& meshe
 }
 
 /// Seeds in the open voxels right above a region, drawn without putting two in one place.
-std::vector<sim::Vec3> scatter(const sim::World& world, const Scatter& spec, std::uint64_t seed,
-                               std::size_t plant) {
+std::vector<sim::Vec3> scatter(const sim::World& world, const Scatter& spec, std::uint64_t stream) {
   std::vector<sim::Voxel> open;
   for (const sim::TiledVoxel& tiled : world.surfaces()) {
     const sim::Voxel above = tiled.voxel + sim::Voxel(0, 1, 0);
@@ -87,9 +86,9 @@ std::vector<sim::Vec3> scatter(const sim::World& world, const Scatter& spec, std
     throw sim::InputError(fmt::format("scatter: region '{}' has {} places that look up; expected at least {}",
                                       spec.region, open.size(), spec.count));
   }
-  sim::Draws draws({seed, static_cast<std::uint32_t>(plant), 0, 0}, sim::Purpose::scatter);
   std::vector<sim::Vec3> seeds;
   for (int i = 0; i < spec.count; ++i) {  // Fisher and Yates, as far as needed
+    sim::Draws draws({stream, static_cast<std::uint32_t>(i)}, sim::Purpose::scatter);
     const int pick = draws.whole(i, static_cast<int>(open.size()) - 1);
     std::swap(open[static_cast<std::size_t>(i)], open[static_cast<std::size_t>(pick)]);
     seeds.emplace_back(open[static_cast<std::size_t>(i)]);
@@ -117,19 +116,19 @@ void requireCamerasInTheOpen(const Job& job) {
   }
 }
 
-sim::Planting plant(Job& job, const PlantSpec& spec, std::size_t number) {
-  job.rules.push_back(rules::makeRandomTree(spec.rules, job.world.frame().voxel_m));
-  sim::Planting planting{spec.name, job.rules.back().get(), {}};
+sim::Planting plant(const Job& job, const PlantSpec& spec) {
+  std::vector<sim::Vec3> places_vx;
   for (const sim::Vec3& seed_m : spec.seeds_m) {
-    planting.seeds_vx.push_back(sim::voxelFromWorld(job.world.frame(), seed_m));
+    places_vx.push_back(sim::voxelFromWorld(job.world.frame(), seed_m));
   }
   if (spec.scatter) {
     requireRegion(job.world, spec.scatter->region);
-    const auto seeds = scatter(job.world, *spec.scatter, job.scene.seed, number);
-    planting.seeds_vx.insert(planting.seeds_vx.end(), seeds.begin(), seeds.end());
+    const auto seeds = scatter(job.world, *spec.scatter, sim::streamOf(job.scene.seed, spec.name));
+    places_vx.insert(places_vx.end(), seeds.begin(), seeds.end());
   }
   for (const auto& [region, rule] : spec.rules->regions) requireRegion(job.world, region);
-  return planting;
+  return {spec.name, rules::makeProcess(spec.rules, job.world.frame().voxel_m),
+          sim::seedsAt(job.world.frame(), places_vx)};
 }
 
 }  // namespace
@@ -152,11 +151,9 @@ Job prepareJob(Scene scene) {
           sun = makeSun(scene.sun);
         });
     const auto random_sky = randomSky(scene.sky, scene.seed);
-    Job job{std::move(scene), std::move(meshes), std::move(fills), std::move(*world), {}, {},
+    Job job{std::move(scene), std::move(meshes), std::move(fills), std::move(*world), {},
             std::move(sky),   random_sky,        std::move(sun)};
-    for (std::size_t i = 0; i < job.scene.plants.size(); ++i) {
-      job.plantings.push_back(plant(job, job.scene.plants[i], i));
-    }
+    for (const PlantSpec& spec : job.scene.plants) job.plantings.push_back(plant(job, spec));
     requireCamerasInTheOpen(job);
     return job;
   } catch (const sim::InputError& error) {
@@ -169,11 +166,10 @@ sim::GrowthSettings growthSettings(const Job& job) {
   sim::GrowthSettings settings;
   settings.iterations = job.scene.iterations;
   settings.seed = job.scene.seed;
-  settings.sky = sim::receivedBy(job.sky);
-  settings.random_sky = job.random_sky;
-  settings.weighting = job.sky.weighting;
-  settings.sun = job.sun.directions;
-  settings.sky_table = sim::makeSkyTable(9, 36, sim::backgroundOf(job.sky.weighting));  // cells of 10 degrees
+  settings.light = {sim::receivedBy(job.sky), job.sun.directions, job.random_sky, job.sky.weighting};
+  settings.sky_table = [weighting = job.sky.weighting] {
+    return sim::makeSkyTable(9, 36, sim::backgroundOf(weighting));  // cells of 10 degrees
+  };
   for (const ImageSpec& image : job.scene.images) {
     settings.record_attempts = settings.record_attempts || image.kind == ImageKind::attempts;
   }

@@ -1,12 +1,10 @@
 #pragma once
-#include <memory>
 #include <optional>
 #include <stdexcept>
 #include <vector>
 
 #include "scenes/scene.h"
 #include "sim/grow/grow.h"
-#include "sim/grow/rule.h"
 #include "sim/light/random_sky.h"
 #include "sim/light/sky.h"
 #include "sim/light/sun.h"
@@ -27,7 +25,6 @@ struct Job {
   std::vector<sim::TiledMesh> meshes;
   std::vector<sim::FillReport> fills;
   sim::World world;
-  std::vector<std::unique_ptr<const sim::Rule>> rules;
   std::vector<sim::Planting> plantings;
   sim::Sky sky;
   std::optional<sim::RandomSky> random_sky;  ///< where the scene asks for it: instead of sky's directions

@@ -6,9 +6,13 @@
 #include <tbb/parallel_invoke.h>
 #include <tbb/task_arena.h>
 
+#include <atomic>
+#include <chrono>
 #include <exception>
 #include <limits>
 #include <mutex>
+#include <random>
+#include <thread>
 
 namespace espalier::sim {
 namespace {
@@ -40,6 +44,23 @@ class Failures {
   std::exception_ptr failure_;
 };
 
+std::atomic<int> shaken = 0;
+
+void giveWay() {
+  thread_local std::minstd_rand random{std::random_device{}()};
+  switch (random() % 8) {
+    case 0:
+      std::this_thread::sleep_for(std::chrono::microseconds(random() % 100));
+      break;
+    case 1:
+    case 2:
+      std::this_thread::yield();
+      break;
+    default:
+      break;
+  }
+}
+
 using Body = std::function<void(std::size_t, std::size_t)>;
 
 template <typename... Partitioner>
@@ -48,6 +69,7 @@ void loop(const tbb::blocked_range<std::size_t>& all, const Body& body, const Pa
   tbb::parallel_for(
       all,
       [&](const tbb::blocked_range<std::size_t>& range) {
+        if (shaken.load(std::memory_order_relaxed) > 0) giveWay();
         failures.guard(range.begin(), [&] { body(range.begin(), range.end()); });
       },
       partitioner...);
@@ -74,6 +96,13 @@ void parallelInvoke(const std::function<void()>& a, const std::function<void()>&
   Failures failures;
   tbb::parallel_invoke([&] { failures.guard(0, a); }, [&] { failures.guard(1, b); });
   failures.rethrow();
+}
+
+Shaken::Shaken() {
+  ++shaken;
+}
+Shaken::~Shaken() {
+  --shaken;
 }
 
 int threadCount() {

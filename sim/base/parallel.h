@@ -19,6 +19,16 @@ void parallelForEach(std::size_t count, const std::function<void(std::size_t i)>
 /// Runs both at the same time.
 void parallelInvoke(const std::function<void()>& a, const std::function<void()>& b);
 
+/// While one lives, every loop gives way at random before each of its ranges: tests meet orders of work that
+/// they would otherwise never see.
+class Shaken {
+ public:
+  Shaken();
+  ~Shaken();
+  Shaken(const Shaken&) = delete;
+  Shaken& operator=(const Shaken&) = delete;
+};
+
 /// How many threads a loop may use here.
 int threadCount();
 

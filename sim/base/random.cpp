@@ -1,25 +1,37 @@
 #include "sim/base/random.h"
 
 #include <Random123/philox.h>
+#include <fmt/format.h>
+#include <xxhash.h>
 
 #include <cmath>
+#include <numbers>
+
+#include "sim/base/error.h"
 
 namespace espalier::sim {
 
-// Bits 12 to 31 of the last counter word tell purpose and trial apart, the lower ones count blocks of four
-// numbers.
-Draws::Draws(const RandomKey& key, Purpose purpose, std::uint32_t trial)
-    : counter_{key.plant, key.agent, key.iteration,
-               (static_cast<std::uint32_t>(purpose) << 28) | ((trial & 0xffffu) << 12)},
-      key_{static_cast<std::uint32_t>(key.seed), static_cast<std::uint32_t>(key.seed >> 32)} {}
+// Counter words: node; iteration; the site's number (16 bits) and the item (16); the purpose (8), the trial
+// (16) and the block of four numbers (8). Every field has a place of its own, so no stream runs into another.
+Slots::Slots(const RandomKey& key, Purpose purpose, unsigned item, unsigned trial)
+    : counter_{key.node, key.iteration, (static_cast<std::uint32_t>(key.number) << 16) | item,
+               (static_cast<std::uint32_t>(purpose) << 24) | (trial << 8)},
+      key_{static_cast<std::uint32_t>(key.stream), static_cast<std::uint32_t>(key.stream >> 32)} {
+  if (item >= kItems || trial >= kTrials) {
+    throw BrokenContract(fmt::format("random numbers for item {} and trial {}; there are {} and {}", item,
+                                     trial, kItems, kTrials));
+  }
+}
 
-void Draws::refill() {
-  const r123::Philox4x32::ctr_type counter{{counter_[0], counter_[1], counter_[2], counter_[3]}};
+void Slots::fill(unsigned block) {
+  if (block >= kSlots / 4) {
+    throw BrokenContract(fmt::format("a trial's random number {}; there are {}", 4 * block, kSlots));
+  }
+  const r123::Philox4x32::ctr_type counter{{counter_[0], counter_[1], counter_[2], counter_[3] | block}};
   const r123::Philox4x32::key_type key{{key_[0], key_[1]}};
-  const auto block = r123::Philox4x32()(counter, key);
-  for (std::size_t i = 0; i < 4; ++i) buffer_[i] = block[i];
-  ++counter_[3];
-  used_ = 0;
+  const auto numbers = r123::Philox4x32()(counter, key);
+  for (std::size_t i = 0; i < 4; ++i) buffer_[i] = numbers[i];
+  block_ = block;
 }
 
 int Draws::whole(int low, int high) {
@@ -27,24 +39,61 @@ int Draws::whole(int low, int high) {
   return low + static_cast<int>((bits() * span) >> 32);
 }
 
-// By rejection from the disc, so that no trigonometry is needed whose last bit differs between processors.
 Vec3 Draws::onSphere() {
   return inCone(Vec3(0, 1, 0), -1.0);
 }
 
 Vec3 Draws::inCone(Vec3 axis, double cos_half_angle) {
-  double x = 0, y = 0, r2 = 0;
-  do {
-    x = uniform(-1.0, 1.0);
-    y = uniform(-1.0, 1.0);
-    r2 = x * x + y * y;
-  } while (r2 >= 1.0 || r2 == 0.0);
-  // r2 is even in [0, 1), and so is the height of an even point on the sphere (Archimedes).
-  const double along = 1.0 - r2 * (1.0 - cos_half_angle);
-  const double across = std::sqrt(std::max(0.0, 1.0 - along * along) / r2);
+  const double turn = uniform(), height = uniform();
+  return sim::inCone(axis, cos_half_angle, turn, height);
+}
+
+std::uint64_t streamOf(std::uint64_t seed, std::string_view planting, std::uint64_t plant) {
+  const std::uint64_t numbers[] = {seed, plant, XXH3_64bits(planting.data(), planting.size())};
+  return XXH3_64bits(numbers, sizeof numbers);
+}
+
+RandomKey keyAt(std::uint64_t stream, Voxel v) {
+  return {stream, static_cast<std::uint32_t>(v.x) | (static_cast<std::uint32_t>(v.y) << 16), 0,
+          static_cast<std::uint32_t>(v.z)};
+}
+
+glm::dvec2 unitCircle(double turns) {
+  // Taylor's series within an eighth of a turn about the nearest quarter: the first terms left out are below
+  // 1e-17 there.
+  constexpr double kSine[] = {-1.0 / 6,        1.0 / 120,        -1.0 / 5040,          1.0 / 362880,
+                              -1.0 / 39916800, 1.0 / 6227020800, -1.0 / 1307674368000, 1.0 / 355687428096000};
+  constexpr double kCosine[] = {-1.0 / 2,       1.0 / 24,        -1.0 / 720,         1.0 / 40320,
+                                -1.0 / 3628800, 1.0 / 479001600, -1.0 / 87178291200, 1.0 / 20922789888000};
+  const double quarters = std::floor(4.0 * turns + 0.5);
+  const double x = 2.0 * std::numbers::pi * (turns - 0.25 * quarters), x2 = x * x;
+  double sine = 0.0, cosine = 0.0;
+  for (int i = 7; i >= 0; --i) {
+    sine = (sine + kSine[i]) * x2;
+    cosine = (cosine + kCosine[i]) * x2;
+  }
+  sine = x + x * sine;
+  cosine = 1.0 + cosine;
+  switch (static_cast<long long>(quarters) & 3) {
+    case 1:
+      return {-sine, cosine};
+    case 2:
+      return {-cosine, -sine};
+    case 3:
+      return {sine, -cosine};
+    default:
+      return {cosine, sine};
+  }
+}
+
+Vec3 inCone(Vec3 axis, double cos_half_angle, double turn, double height) {
+  // Even in height is even on the sphere (Archimedes).
+  const double along = 1.0 - height * (1.0 - cos_half_angle);
+  const double across = std::sqrt(std::max(0.0, 1.0 - along * along));
   const Vec3 u = perpendicular(axis);
   const Vec3 v = glm::cross(axis, u);
-  return along * axis + across * (x * u + y * v);
+  const glm::dvec2 way = unitCircle(turn);
+  return along * axis + across * (way.x * u + way.y * v);
 }
 
 Vec3 perpendicular(Vec3 unit) {

@@ -3,61 +3,27 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
+#include <set>
 #include <tuple>
-#include <unordered_map>
 #include <utility>
 
 #include "sim/base/error.h"
 #include "sim/base/parallel.h"
-#include "sim/sense/intersection.h"
+#include "sim/grow/claims.h"
 
 namespace espalier::sim {
-namespace {
 
-/// Voxels that were taken earlier in the same iteration, and by the limb of which node.
-class Claims {
- public:
-  explicit Claims(Voxel size) : taken_(size) {}
-
-  /// A branch and its limb leave their node through the same voxels: beside it they do not hinder each other.
-  bool allow(std::span<const Voxel> voxels, const Bud& bud, Voxel start) const {
-    return std::none_of(voxels.begin(), voxels.end(), [&](Voxel v) {
-      return taken_.at(v) && !(besides(v, start) && owner_.at(key(v)) == nodeOf(bud));
-    });
-  }
-  void takeForLimb(std::span<const Voxel> voxels, const Bud& bud) { take(voxels, nodeOf(bud)); }
-  void takeForElement(std::span<const Voxel> voxels) { take(voxels, {-1, kNoNode}); }
-  void clear() {
-    for (const auto& [packed, owner] : owner_) taken_.clear(unpack(packed));
-    owner_.clear();
-  }
-
- private:
-  using Node = std::pair<std::int32_t, NodeId>;
-  static Node nodeOf(const Bud& bud) { return {bud.plant, bud.node}; }
-  void take(std::span<const Voxel> voxels, Node owner) {
-    for (const Voxel v : voxels) {
-      if (!contains(taken_.size(), v)) throw BrokenContract("a process proposed a voxel outside the world");
-      taken_.set(v);
-      owner_.emplace(key(v), owner);
-    }
-  }
-  static std::uint64_t key(Voxel v) {
-    return (static_cast<std::uint64_t>(v.y) << 42) | (static_cast<std::uint64_t>(v.z) << 21) |
-           static_cast<std::uint64_t>(v.x);
-  }
-  static Voxel unpack(std::uint64_t k) {
-    constexpr std::uint64_t kMask = (1u << 21) - 1;
-    return {static_cast<int>(k & kMask), static_cast<int>(k >> 42), static_cast<int>((k >> 21) & kMask)};
-  }
-
-  BitVolume taken_;
-  std::unordered_map<std::uint64_t, Node> owner_;
+/// A site that is due, on its way through one iteration.
+struct Growing::Asked {
+  std::size_t planting = 0;
+  std::size_t plant = 0;  // of all plants
+  Site site;
+  Proposal proposal = {};
+  NodeId node = kNoNode;  // that grew
 };
 
-std::uint32_t agentOf(const Bud& bud) {
-  return (static_cast<std::uint32_t>(bud.node) << 1) | (bud.side ? 1u : 0u);
-}
+namespace {
 
 void requireFree(const World& world, const Planting& planting, Vec3 seed_vx) {
   const Voxel v = voxelAt(seed_vx);
@@ -73,168 +39,294 @@ void requireFree(const World& world, const Planting& planting, Vec3 seed_vx) {
   }
 }
 
-/// A plant while it grows.
-struct Growing {
-  Plant plant;
-  const Rule* rule = nullptr;
-  std::vector<std::vector<NodeId>> children;  // of each node
-};
-
-void addNode(Growing& growing, NodeId parent, int iteration, const Proposal& p) {
-  Skeleton& s = growing.plant.skeleton;
-  if (parent != kNoNode) growing.children[static_cast<std::size_t>(parent)].push_back(s.size());
-  growing.children.emplace_back();
-  s.parent.push_back(parent);
-  s.position_vx.push_back(p.to_vx);
-  s.born.push_back(iteration);
-  s.exposure.push_back(p.exposure);
-  s.sky_exposure.push_back(p.sky_exposure);
-  s.sun_exposure.push_back(p.sun_exposure);
-  s.proximity_vx.push_back(p.proximity_vx);
-}
-
-/// Everything that changes from one iteration to the next.
-struct State {
-  std::vector<Growing> plants;
-  std::vector<Bud> buds;  // sorted by (plant, node, tip before side)
-};
-
-State plantSeeds(World& world, const std::vector<Planting>& plantings) {
-  State state;
-  for (const Planting& planting : plantings) {
-    for (std::size_t i = 0; i < planting.seeds_vx.size(); ++i) {
-      requireFree(world, planting, planting.seeds_vx[i]);
-      const auto number = static_cast<std::int32_t>(state.plants.size());
-      Growing growing{planting.rule->seedling(), planting.rule, {}};
-      Plant& plant = growing.plant;
-      plant.name = planting.seeds_vx.size() == 1 ? planting.name : fmt::format("{} {}", planting.name, i + 1);
-      plant.stem_part = world.addPart({plant.name, "stem", PartKind::stem, number});
-      for (const ElementShape& shape : plant.shapes) {
-        plant.element_parts.push_back(world.addPart({plant.name, shape.name, PartKind::element, number}));
-      }
-      Proposal seed;
-      seed.to_vx = planting.seeds_vx[i];
-      addNode(growing, kNoNode, 0, seed);
-      state.plants.push_back(std::move(growing));
-      state.buds.push_back({number, 0, false, 0});
-    }
+void requireSeeds(const World& world, const Planting& planting) {
+  std::set<std::uint64_t> keys;
+  for (const Seed& seed : planting.seeds) {
+    requireFree(world, planting, seed.at_vx);
+    if (!keys.insert(seed.key).second)
+      throw InputError(
+          fmt::format("two seeds of '{}' have the same key; expected keys that differ", planting.name));
   }
-  return state;
 }
 
-Voxel voxelOf(const Bud& bud, const State& state) {
-  const Skeleton& skeleton = state.plants[static_cast<std::size_t>(bud.plant)].plant.skeleton;
-  return voxelAt(skeleton.position_vx[static_cast<std::size_t>(bud.node)]);
+/// What the process of a planting did against its contract.
+[[noreturn]] void broken(const Planting& planting, const std::string& what) {
+  throw BrokenContract(fmt::format("the growth process of '{}' {}", planting.name, what));
 }
 
-std::vector<Voxel> voxelsOf(const std::vector<Bud>& buds, const State& state) {
-  std::vector<Voxel> voxels;
-  for (const Bud& bud : buds) voxels.push_back(voxelOf(bud, state));
-  return voxels;
+void requireSites(const World& world, const Planting& planting, std::span<const Plant> plants,
+                  const std::vector<Site>& sites) {
+  const auto place = [](const Site& site) { return std::tie(site.plant, site.node, site.number); };
+  for (std::size_t i = 0; i < sites.size(); ++i) {
+    const Site& site = sites[i];
+    if (i > 0 && !(place(sites[i - 1]) < place(site))) broken(planting, "named sites out of their order");
+    if (site.plant < 0 || static_cast<std::size_t>(site.plant) >= plants.size() || site.node < 0 ||
+        site.node >= plants[static_cast<std::size_t>(site.plant)].skeleton.size())
+      broken(planting, "named a site on a node that is not there");
+    if (!contains(world.frame().size, voxelAt(site.at_vx)))
+      broken(planting, "named a site outside the world");
+  }
 }
 
 void occupyWith(std::vector<TiledVoxel>& edit, std::span<const Voxel> voxels, const Surface& surface) {
   for (const Voxel v : voxels) edit.push_back({v, surface});
 }
 
-/// Grows a proposal's segment and those of its elements that nobody else's claim hinders.
-void accept(Growing& growing, const Bud& bud, Proposal& proposal, int iteration, Claims& claims,
-            std::vector<TiledVoxel>& edit) {
-  Plant& plant = growing.plant;
-  claims.takeForLimb(proposal.voxels, bud);
-  occupyWith(edit, proposal.voxels,
-             {plant.stem_part, plant.stem_colour,
-              static_cast<float>(std::min(1.0, 2.0 * plant.stem_radius_vx)), Vec3f(0.0f)});
-  const NodeId node = plant.skeleton.size();
-  addNode(growing, bud.node, iteration, proposal);
-  for (ProposedElement& leaf : proposal.elements) {
-    const Voxel start = voxelAt(leaf.element.position_vx);
-    if (!claims.allow(leaf.voxels, bud, start)) continue;
-    claims.takeForElement(leaf.voxels);
-    leaf.element.node = node;
-    leaf.element.born = iteration;
-    const auto shape = static_cast<std::size_t>(leaf.element.shape);
-    occupyWith(
-        edit, leaf.voxels,
-        {plant.element_parts[shape], plant.shapes[shape].colour, leaf.coverage, Vec3f(leaf.element.z)});
-    plant.elements.push_back(leaf.element);
+}  // namespace
+
+Growing::Growing(World& world, std::vector<Planting> plantings, GrowthSettings settings, Growth grown)
+    : world_(world),
+      plantings_(std::move(plantings)),
+      settings_(std::move(settings)),
+      growth_(std::move(grown)),
+      claims_(std::make_unique<Claims>(world.frame().size)) {
+  if (growth_.stands.size() != plantings_.size())
+    throw BrokenContract("what was grown before has other plantings than those that shall go on");
+  Wants wants;
+  for (const Planting& planting : plantings_) {
+    wants.light = wants.light || planting.process->wants().light;
+    wants.sky_table = wants.sky_table || planting.process->wants().sky_table;
   }
+  if (wants.light) sensor_.emplace(world.opaque(), settings_.light);
+  if (wants.sky_table) sky_table_ = settings_.sky_table();
+  for (std::size_t i = 0; i < plantings_.size(); ++i) {
+    for (std::size_t k = 0; k < growth_.stands[i].count; ++k) {
+      const Plant& plant = growth_.plants[growth_.stands[i].first + k];
+      streams_.push_back(streamOf(settings_.seed, plantings_[i].name, plant.key));
+      kin_.emplace_back(plant.skeleton);
+      segments_ += static_cast<std::size_t>(plant.skeleton.size()) - 1;
+      elements_ += plant.elements.size();
+    }
+  }
+}
+
+namespace {
+
+/// Plants as seeds: a node each, and parts in the world.
+Growth seeded(World& world, const std::vector<Planting>& plantings, bool record) {
+  for (const Planting& planting : plantings) requireSeeds(world, planting);
+  Growth growth;
+  growth.recorded = record;
+  for (const Planting& planting : plantings) {
+    growth.stands.push_back({growth.plants.size(), planting.seeds.size(), {}});
+    for (std::size_t i = 0; i < planting.seeds.size(); ++i) {
+      const int number = static_cast<int>(growth.plants.size());
+      Plant plant = planting.process->seedling();
+      plant.name = planting.seeds.size() == 1 ? planting.name : fmt::format("{} {}", planting.name, i + 1);
+      plant.key = planting.seeds[i].key;
+      plant.stem_part = world.addPart({plant.name, "stem", PartKind::stem, number});
+      for (const ElementShape& shape : plant.shapes) {
+        plant.element_parts.push_back(world.addPart({plant.name, shape.name, PartKind::element, number}));
+      }
+      plant.skeleton.parent.push_back(kNoNode);
+      plant.skeleton.position_vx.push_back(planting.seeds[i].at_vx);
+      plant.skeleton.born.push_back(0);
+      for (auto& [name, values] : plant.skeleton.columns) values.push_back(0.0f);
+      growth.plants.push_back(std::move(plant));
+    }
+  }
+  growth.tallies.resize(growth.plants.size());
+  return growth;
 }
 
 }  // namespace
 
-Growth grow(World& world, const std::vector<Planting>& plantings, const GrowthSettings& settings) {
-  Growth growth;
-  State state = plantSeeds(world, plantings);
-  Claims claims(world.frame().size);
-  const LightSensor sensor(world.opaque(), settings.random_sky ? DirectionSet{} : settings.sky, settings.sun);
-  std::size_t segments = 0;
+Growing::Growing(World& world, std::vector<Planting> plantings, GrowthSettings settings)
+    : Growing(world, plantings, settings, seeded(world, plantings, settings.record_attempts)) {
+  for (std::size_t i = 0; i < plantings_.size(); ++i)
+    plantings_[i].process->begin(view(i), growth_.stands[i].memory, growth_.commons);
+}
 
-  for (int iteration = 0; iteration < settings.iterations && !state.buds.empty(); ++iteration) {
-    std::vector<Bud> due, next;
-    for (const Bud& bud : state.buds) (bud.due <= iteration ? due : next).push_back(bud);
+Growing::~Growing() = default;
 
-    const std::vector<Voxel> places = voxelsOf(due, state);
-    std::vector<Light> lights = sensor.at(world.opaque(), places);
-    if (settings.random_sky) {
-      parallelFor(places.size(), 4, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t i = begin; i < end; ++i)
-          lights[i].sky = lookOut(world.opaque(), places[i], *settings.random_sky, settings.weighting);
-      });
-    }
-    std::vector<Proposal> proposals(due.size());
-    parallelFor(due.size(), 4, [&](std::size_t begin, std::size_t end) {
-      for (std::size_t i = begin; i < end && !settings.stop.stop_requested(); ++i) {
-        const Bud& bud = due[i];
-        const Growing& growing = state.plants[static_cast<std::size_t>(bud.plant)];
-        const GrowthView view{
-            world,     growing.plant,           growing.children, lights[i], settings.sky_table,
-            iteration, settings.record_attempts};
-        const RandomKey key{settings.seed, static_cast<std::uint32_t>(bud.plant), agentOf(bud),
-                            static_cast<std::uint32_t>(iteration)};
-        proposals[i] = growing.rule->propose(view, bud, key);
-      }
-    });
+StandView Growing::view(std::size_t planting) const {
+  const Stand& stand = growth_.stands[planting];
+  return {world_, std::span(growth_.plants).subspan(stand.first, stand.count),
+          std::span(kin_).subspan(stand.first, stand.count), growth_.iterations};
+}
 
-    if (settings.stop.stop_requested()) throw Stopped();
+std::vector<Site> Growing::dueOf(std::size_t planting, Columns& memory, Commons& commons) const {
+  const StandView stand = view(planting);
+  std::vector<Site> sites = plantings_[planting].process->due(stand, memory, commons);
+  requireSites(world_, plantings_[planting], stand.plants, sites);
+  return sites;
+}
 
-    std::vector<TiledVoxel> edit;
-    for (std::size_t i = 0; i < due.size(); ++i) {
-      const Bud& bud = due[i];
-      Proposal& proposal = proposals[i];
-      Growing& growing = state.plants[static_cast<std::size_t>(bud.plant)];
-      const Skeleton& skeleton = growing.plant.skeleton;
-      const Voxel start = voxelOf(bud, state);
-      if (proposal.outcome == Outcome::grown && !claims.allow(proposal.voxels, bud, start)) {
-        proposal.outcome = Outcome::claimed;
-        proposal.retire = false;
-        for (Attempt& attempt : proposal.attempts) attempt.taken = false;
-      }
-      if (proposal.outcome == Outcome::grown) {
-        accept(growing, bud, proposal, iteration, claims, edit);
-        ++segments;
-        for (const Sprout& sprout : proposal.sprouts) {
-          next.push_back({bud.plant, skeleton.size() - 1, sprout.side, iteration + sprout.wait});
-        }
-      } else if (!proposal.retire) {
-        next.push_back({bud.plant, bud.node, bud.side, iteration + 1});
-      }
-      ++growth.buds[static_cast<std::size_t>(proposal.outcome)];
-      for (std::size_t k = 0; k < kOutcomes; ++k) growth.trials[k] += proposal.trials[k];
-      growth.attempts.insert(growth.attempts.end(), proposal.attempts.begin(), proposal.attempts.end());
-    }
-    world.occupy(edit);
-    claims.clear();
-    std::sort(next.begin(), next.end(), [](const Bud& a, const Bud& b) {
-      return std::tie(a.plant, a.node, a.side) < std::tie(b.plant, b.node, b.side);
-    });
-    state.buds = std::move(next);
-    growth.iterations = iteration + 1;
-    if (settings.progress)
-      settings.progress({iteration + 1, settings.iterations, segments, state.buds.size()});
+std::vector<std::vector<Site>> Growing::due() const {
+  Commons commons = growth_.commons;
+  std::vector<std::vector<Site>> all;
+  for (std::size_t i = 0; i < plantings_.size(); ++i) {
+    Columns memory = growth_.stands[i].memory;
+    all.push_back(dueOf(i, memory, commons));
   }
-  for (Growing& growing : state.plants) growth.plants.push_back(std::move(growing.plant));
-  return growth;
+  return all;
+}
+
+Proposal Growing::proposeAt(std::size_t planting, const Site& site, const Light* light, bool record) const {
+  const std::size_t plant = growth_.stands[planting].first + static_cast<std::size_t>(site.plant);
+  const SiteView view{world_,
+                      growth_.plants[plant],
+                      kin_[plant],
+                      growth_.stands[planting].memory,
+                      growth_.commons,
+                      light,
+                      sky_table_ ? &*sky_table_ : nullptr,
+                      growth_.iterations,
+                      record};
+  const RandomKey key{streams_[plant], static_cast<std::uint32_t>(site.node), site.number,
+                      static_cast<std::uint32_t>(growth_.iterations)};
+  return plantings_[planting].process->propose(view, site, key);
+}
+
+Proposal Growing::propose(std::size_t planting, const Site& site) const {
+  if (planting >= plantings_.size()) throw InputError(fmt::format("there is no planting {}", planting));
+  requireSites(world_, plantings_[planting], view(planting).plants, {site});
+  std::optional<Light> light;
+  if (plantings_[planting].process->wants().light) {
+    const Voxel place = voxelAt(site.at_vx);
+    light = sensor_->at(world_.opaque(), {&place, 1}).front();
+  }
+  return proposeAt(planting, site, light ? &*light : nullptr, true);
+}
+
+void Growing::proposeAll(std::vector<Asked>& asked) const {
+  std::vector<Voxel> places;
+  std::vector<std::size_t> lit(asked.size(), 0);  // number of its place, from 1; 0: wants no light
+  for (std::size_t i = 0; i < asked.size(); ++i) {
+    if (!plantings_[asked[i].planting].process->wants().light) continue;
+    places.push_back(voxelAt(asked[i].site.at_vx));
+    lit[i] = places.size();
+  }
+  const std::vector<Light> lights = sensor_ ? sensor_->at(world_.opaque(), places) : std::vector<Light>();
+  parallelFor(asked.size(), 4, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end && !settings_.stop.stop_requested(); ++i) {
+      asked[i].proposal = proposeAt(asked[i].planting, asked[i].site,
+                                    lit[i] > 0 ? &lights[lit[i] - 1] : nullptr, growth_.recorded);
+    }
+  });
+}
+
+void Growing::addNode(std::size_t plant, NodeId parent, Vec3 at_vx, std::span<const float> quantities) {
+  Skeleton& skeleton = growth_.plants[plant].skeleton;
+  skeleton.parent.push_back(parent);
+  skeleton.position_vx.push_back(at_vx);
+  skeleton.born.push_back(growth_.iterations);
+  std::size_t i = 0;
+  for (auto& [name, values] : skeleton.columns) values.push_back(quantities[i++]);
+  kin_[plant].add(parent);
+}
+
+/// Places a proposal's segment and those of its elements that nobody else's claim hinders.
+void Growing::place(Asked& asked, std::vector<TiledVoxel>& edit) {
+  Plant& plant = growth_.plants[asked.plant];
+  const Planting& planting = plantings_[asked.planting];
+  const Claims::Node from{asked.plant, asked.site.node};
+  NodeId carrier = asked.site.node;
+  if (auto& segment = asked.proposal.segment) {
+    if (segment->quantities.size() != plant.skeleton.columns.size())
+      broken(planting, "gave a node other quantities than its plant has columns");
+    if (!contains(world_.frame().size, voxelAt(segment->to_vx)))
+      broken(planting, "put a node outside the world");
+    if (segment->passage == Passage::through) claims_->keepFree(segment->takes);
+    claims_->take(segment->takes, from);
+    occupyWith(edit, segment->takes,
+               {plant.stem_part, plant.stem_colour,
+                static_cast<float>(std::min(1.0, 2.0 * plant.stem_radius_vx)), Vec3f(0.0f)});
+    carrier = asked.node = plant.skeleton.size();
+    addNode(asked.plant, asked.site.node, segment->to_vx, segment->quantities);
+    ++segments_;
+  }
+  for (ProposedElement& proposed : asked.proposal.elements) {
+    if (proposed.element.shape < 0 || static_cast<std::size_t>(proposed.element.shape) >= plant.shapes.size())
+      broken(planting, "proposed an element of a shape that its plant has not");
+    if (proposed.passage == Passage::through) claims_->keepFree(proposed.takes);
+    if (!claims_->allow(proposed.takes, from, voxelAt(proposed.element.position_vx))) continue;
+    claims_->take(proposed.takes, Claims::kNobody);
+    proposed.element.node = carrier;
+    proposed.element.born = growth_.iterations;
+    const auto shape = static_cast<std::size_t>(proposed.element.shape);
+    occupyWith(edit, proposed.takes,
+               {plant.element_parts[shape], plant.shapes[shape].colour, proposed.coverage,
+                Vec3f(proposed.element.z)});
+    plant.elements.push_back(proposed.element);
+    ++elements_;
+  }
+}
+
+void Growing::acceptAll(std::vector<Asked>& asked) {
+  std::vector<TiledVoxel> edit;
+  std::vector<const Proposal*> accepted;  // of one planting
+  for (std::size_t i = 0; i < asked.size(); ++i) {
+    Asked& a = asked[i];
+    Proposal& proposal = a.proposal;
+    if (i > 0 && a.planting != asked[i - 1].planting) accepted.clear();
+    if (proposal.outcome == Outcome::grown) {
+      const auto& segment = proposal.segment;
+      const bool hindered = segment && segment->passage == Passage::around &&
+                            !claims_->allow(segment->takes, {a.plant, a.site.node}, voxelAt(a.site.at_vx));
+      const std::size_t before = elements_;
+      if (!hindered && plantings_[a.planting].process->agrees(proposal, accepted)) place(a, edit);
+      const bool placed = a.node != kNoNode || elements_ > before;
+      if (!placed && (segment || !proposal.elements.empty())) {
+        proposal.outcome = Outcome::claimed;
+        for (Attempt& attempt : proposal.attempts) attempt.taken = false;
+      } else {
+        accepted.push_back(&proposal);
+      }
+    }
+    Tally& tally = growth_.tallies[a.plant];
+    ++tally.sites[static_cast<std::size_t>(proposal.outcome)];
+    for (std::size_t k = 0; k < kOutcomes; ++k) tally.trials[k] += proposal.trials[k];
+    growth_.attempts.insert(growth_.attempts.end(), proposal.attempts.begin(), proposal.attempts.end());
+  }
+  world_.occupy(edit);
+  claims_->clear();
+}
+
+void Growing::settleAll(const std::vector<Asked>& asked) {
+  std::vector<Verdict> verdicts;
+  for (const Asked& a : asked) verdicts.push_back({a.site, &a.proposal, a.proposal.outcome, a.node});
+  std::size_t first = 0;
+  for (std::size_t i = 0; i < plantings_.size(); ++i) {
+    std::size_t last = first;
+    while (last < asked.size() && asked[last].planting == i) ++last;
+    plantings_[i].process->settle(view(i), std::span(verdicts).subspan(first, last - first),
+                                  growth_.stands[i].memory, growth_.commons);
+    first = last;
+  }
+}
+
+std::size_t Growing::alive() const {
+  std::size_t sum = 0;
+  for (std::size_t i = 0; i < plantings_.size(); ++i)
+    sum += plantings_[i].process->alive(growth_.stands[i].memory, growth_.commons);
+  return sum;
+}
+
+bool Growing::step() {
+  if (growth_.iterations >= settings_.iterations || alive() == 0) return false;
+  std::vector<Asked> asked;
+  for (std::size_t i = 0; i < plantings_.size(); ++i) {
+    for (const Site& site : dueOf(i, growth_.stands[i].memory, growth_.commons))
+      asked.push_back({i, growth_.stands[i].first + static_cast<std::size_t>(site.plant), site});
+  }
+  proposeAll(asked);
+  if (settings_.stop.stop_requested()) throw Stopped();
+  proposals_ += asked.size();
+  acceptAll(asked);
+  settleAll(asked);
+  ++growth_.iterations;
+  if (settings_.progress) {
+    settings_.progress({growth_.iterations, settings_.iterations, segments_, elements_, alive(), proposals_});
+  }
+  return true;
+}
+
+Growth grow(World& world, const std::vector<Planting>& plantings, const GrowthSettings& settings) {
+  Growing growing(world, plantings, settings);
+  while (growing.step()) {
+  }
+  return growing.take();
 }
 
 }  // namespace espalier::sim

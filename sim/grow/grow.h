@@ -3,63 +3,94 @@
 #include <functional>
 #include <optional>
 #include <stop_token>
-#include <string>
 #include <vector>
 
-#include "sim/grow/rule.h"
+#include "sim/grow/growth.h"
 #include "sim/light/brightest.h"
-#include "sim/light/random_sky.h"
-#include "sim/sweep/directions.h"
+#include "sim/light/light.h"
 
 namespace espalier::sim {
 
-/// Seeds of one kind: each grows into a plant of its own.
-struct Planting {
-  std::string name;
-  const Rule* rule = nullptr;
-  std::vector<Vec3> seeds_vx;  ///< inside the world, in free voxels
-};
+class Claims;
 
 struct GrowthProgress {
   int iteration = 0;  ///< that were done
   int iterations = 0;
-  std::size_t segments = 0;
-  std::size_t buds = 0;  ///< that may still grow
+  std::size_t segments = 0, elements = 0;
+  std::size_t sites = 0;      ///< that may still grow
+  std::size_t proposals = 0;  ///< made since this run began, or went on
 };
 
 struct GrowthSettings {
   int iterations = 50;
   std::uint64_t seed = 1;
-  DirectionSet sky, sun;
-  std::optional<RandomSky> random_sky;       ///< Greene's rays, instead of the sky's directions
-  Weighting weighting = Weighting::uniform;  ///< of the random rays
-  SkyTable sky_table;                        ///< may be empty where no rule looks for the brightest spot
+  LightSource light;
+  std::function<SkyTable()> sky_table;  ///< made once, if a process wants it
   bool record_attempts = false;
   std::stop_token stop;
   std::function<void(const GrowthProgress&)> progress;  ///< after each iteration
 };
 
-struct Growth {
-  std::vector<Plant> plants;
-  int iterations = 0;      ///< done before the last bud retired
-  OutcomeCounts buds{};    ///< by what became of them in an iteration
-  OutcomeCounts trials{};  ///< by what became of them
-  std::vector<Attempt> attempts;
+/// Growth, step by step.
+///
+/// In each iteration (Greene's term; the design's tick) the world and the plants are frozen; every site that
+/// is due proposes in parallel, with random numbers that depend on (seed, planting, plant, node, number,
+/// iteration) alone; then the proposals are accepted one by one in the order (planting, plant, node, number),
+/// each against the voxels that earlier ones claimed in the same iteration. So nothing depends on the number
+/// of threads.
+///
+/// A process that breaks its contract (a voxel outside the world, sites out of order) ends growth with
+/// BrokenContract, whatever the build.
+class Growing {
+ public:
+  /// Seeds the plantings. The world is borrowed: it grows with every step. Throws InputError, and leaves the
+  /// world as it was, if a seed lies outside the world or inside something, or two have the same key.
+  Growing(World& world, std::vector<Planting> plantings, GrowthSettings settings);
+  /// Goes on from what was grown before in this world, which holds all of it, by the same plantings.
+  Growing(World& world, std::vector<Planting> plantings, GrowthSettings settings, Growth grown);
+  ~Growing();
+  Growing(const Growing&) = delete;
+  Growing& operator=(const Growing&) = delete;
+
+  /// One iteration. False, and nothing happens, when all were done or nothing is left that may grow. Throws
+  /// Stopped when stop is requested; this must then not be gone on with.
+  bool step();
+  /// Sites that may still grow.
+  std::size_t alive() const;
+
+  const Growth& growth() const { return growth_; }
+  Growth take() { return std::move(growth_); }
+
+  /// The sites that the next step asks, by planting.
+  std::vector<std::vector<Site>> due() const;
+  /// What a site of due() will propose, with all its trials and why each was rejected. Changes nothing.
+  Proposal propose(std::size_t planting, const Site& site) const;
+
+ private:
+  struct Asked;
+
+  void addNode(std::size_t plant, NodeId parent, Vec3 at_vx, std::span<const float> quantities);
+  StandView view(std::size_t planting) const;
+  std::vector<Site> dueOf(std::size_t planting, Columns& memory, Commons& commons) const;
+  Proposal proposeAt(std::size_t planting, const Site& site, const Light* light, bool record) const;
+  void proposeAll(std::vector<Asked>& asked) const;
+  void acceptAll(std::vector<Asked>& asked);
+  void place(Asked& asked, std::vector<TiledVoxel>& edit);
+  void settleAll(const std::vector<Asked>& asked);
+
+  World& world_;
+  std::vector<Planting> plantings_;
+  GrowthSettings settings_;
+  Growth growth_;
+  std::vector<Kin> kin_;                // of each plant
+  std::vector<std::uint64_t> streams_;  // of each plant
+  std::optional<LightSensor> sensor_;   // if a process wants light
+  std::optional<SkyTable> sky_table_;   // if a process wants it
+  std::unique_ptr<Claims> claims_;
+  std::size_t segments_ = 0, elements_ = 0, proposals_ = 0;
 };
 
-/// Grows plants in a world, which they change: every segment and element that is placed occupies its voxels.
-///
-/// In each iteration (Greene's term; the design's tick) the world and the plants are frozen; every bud that
-/// is due proposes in parallel, with random numbers that depend on (seed, plant, bud, iteration, trial)
-/// alone; then the proposals are accepted one by one in the order (plant, node, tip before side), each
-/// against the voxels that earlier ones claimed in the same iteration. So nothing depends on the number of
-/// threads.
-///
-/// Throws Stopped when stop is requested; InputError if a seed lies outside the world
-/// or inside something.
+/// All the steps.
 Growth grow(World& world, const std::vector<Planting>& plantings, const GrowthSettings& settings);
-
-/// A hash (XXH3) of all that growth made: skeletons, elements, occupancy.
-std::uint64_t stateHash(const World& world, const std::vector<Plant>& plants);
 
 }  // namespace espalier::sim

@@ -1,7 +1,9 @@
 #pragma once
 #include <cstdint>
-#include <limits>
+#include <functional>
+#include <map>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "sim/base/vec.h"
@@ -17,15 +19,19 @@ inline constexpr NodeId kNoNode = -1;
 struct Skeleton {
   std::vector<NodeId> parent;  ///< kNoNode for a seed
   std::vector<Vec3> position_vx;
-  std::vector<std::int32_t> born;   ///< iteration in which the node was placed
-  std::vector<float> exposure;      ///< blended exposure when placed, 0..1
-  std::vector<float> sky_exposure;  ///< 0..1
-  std::vector<float> sun_exposure;  ///< 0..1
-  std::vector<float>
-      proximity_vx;  ///< mean distance to the scene along the segment; infinity beyond the layers
+  std::vector<std::int32_t> born;  ///< iteration in which the node was placed
+  /// What else the plant's process says of each node, by name: "exposure", "proximity_vx". Which there are is
+  /// the process's business; everybody else takes them as they come, in the order of their names.
+  std::map<std::string, std::vector<float>, std::less<>> columns;
 
   NodeId size() const { return static_cast<NodeId>(parent.size()); }
 };
+
+/// The column of that name; null where the plant's process keeps none.
+inline const std::vector<float>* find(const Skeleton& skeleton, std::string_view name) {
+  const auto at = skeleton.columns.find(name);
+  return at == skeleton.columns.end() ? nullptr : &at->second;
+}
 
 /// A shape that is placed on a plant: a leaf, a flower. Local frame: the element is attached at the origin,
 /// grows along +y, and shows its face to +z.
@@ -58,6 +64,7 @@ struct Plant {
   double stem_radius_vx = 0.08;  ///< of a twig that does not fork
   PartId stem_part = kFree;
   std::vector<PartId> element_parts;  ///< a part for each shape
+  std::uint64_t key = 0;              ///< its seed's: what its random numbers follow from
 };
 
 }  // namespace espalier::sim

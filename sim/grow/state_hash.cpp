@@ -1,6 +1,6 @@
 #include <xxhash.h>
 
-#include "sim/grow/grow.h"
+#include "sim/grow/growth.h"
 
 namespace espalier::sim {
 namespace {
@@ -18,6 +18,18 @@ class Hasher {
     add(values.size());
     XXH3_64bits_update(state_, values.data(), values.size() * sizeof(T));
   }
+  void add(std::string_view text) {
+    add(text.size());
+    XXH3_64bits_update(state_, text.data(), text.size());
+  }
+  void add(const Columns& columns) {
+    add(columns.size());
+    for (const auto& [name, column] : columns) {
+      add(std::string_view(name));
+      add(column.index());
+      std::visit([&](const auto& values) { add(values); }, column);
+    }
+  }
   template <typename T>
   requires std::is_arithmetic_v<T> || std::is_same_v<T, Vec3>
   void add(const T& value) { XXH3_64bits_update(state_, &value, sizeof value); }
@@ -29,26 +41,34 @@ class Hasher {
 
 }  // namespace
 
-std::uint64_t stateHash(const World& world, const std::vector<Plant>& plants) {
+std::uint64_t stateHash(const World& world, const Growth& growth) {
   Hasher hash;
   hash.add(world.occupied().words());
-  hash.add(plants.size());
-  for (const Plant& plant : plants) {
+  hash.add(world.opaque().words());
+  hash.add(growth.plants.size());
+  for (const Plant& plant : growth.plants) {
     const Skeleton& s = plant.skeleton;
     hash.add(s.parent);
     hash.add(s.position_vx);
     hash.add(s.born);
-    hash.add(s.exposure);
-    hash.add(s.sky_exposure);
-    hash.add(s.sun_exposure);
-    hash.add(s.proximity_vx);
+    for (const auto& [name, values] : s.columns) {
+      hash.add(std::string_view(name));
+      hash.add(values);
+    }
     hash.add(plant.elements.size());
     for (const PlacedElement& e : plant.elements) {
       hash.add(e.node);
       hash.add(e.shape);
       for (const Vec3& v : {e.position_vx, e.x, e.y, e.z}) hash.add(v);
       hash.add(e.scale);
+      hash.add(e.exposure);
+      hash.add(e.born);
     }
+  }
+  for (const Stand& stand : growth.stands) hash.add(stand.memory);
+  for (const auto& [name, columns] : growth.commons) {
+    hash.add(std::string_view(name));
+    hash.add(columns);
   }
   return hash.digest();
 }

@@ -12,16 +12,28 @@ constexpr std::size_t kVoxelsToAPlace = 2000;
 
 }  // namespace
 
-LightSensor::LightSensor(const BitVolume& shape, const DirectionSet& sky, const DirectionSet& sun)
-    : directions_(sky), sky_count_(sky.size()), sky_(shape, sky), sun_(shape, sun) {
-  directions_.insert(directions_.end(), sun.begin(), sun.end());
+LightSensor::LightSensor(const BitVolume& shape, const LightSource& source)
+    : directions_(source.random_sky ? DirectionSet{} : source.sky),
+      sky_count_(directions_.size()),
+      sky_(shape, directions_),
+      sun_(shape, source.sun),
+      random_sky_(source.random_sky),
+      weighting_(source.weighting) {
+  directions_.insert(directions_.end(), source.sun.begin(), source.sun.end());
 }
 
 std::vector<Light> LightSensor::at(const BitVolume& opaque, std::span<const Voxel> places) const {
   const Voxel size = opaque.size();
   const std::size_t voxels =
       static_cast<std::size_t>(size.x) * static_cast<std::size_t>(size.y) * static_cast<std::size_t>(size.z);
-  return places.size() < voxels / kVoxelsToAPlace ? byRays(opaque, places) : bySweep(opaque, places);
+  std::vector<Light> lights =
+      places.size() < voxels / kVoxelsToAPlace ? byRays(opaque, places) : bySweep(opaque, places);
+  if (!random_sky_) return lights;
+  parallelFor(places.size(), 4, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i)
+      lights[i].sky = lookOut(opaque, places[i], *random_sky_, weighting_);
+  });
+  return lights;
 }
 
 std::vector<Light> LightSensor::byRays(const BitVolume& opaque, std::span<const Voxel> places) const {

@@ -62,11 +62,10 @@ double randomSkySpacing(int rays) {
 std::vector<Vec3> randomDirections(const RandomSky& sky, Voxel p) {
   constexpr int kTries = 100;
   const double spacing = randomSkySpacing(sky.rays);
-  const RandomKey key{sky.seed, static_cast<std::uint32_t>(p.x), static_cast<std::uint32_t>(p.y),
-                      static_cast<std::uint32_t>(p.z)};
+  const RandomKey key = keyAt(streamOf(sky.seed), p);
   std::vector<Vec3> directions;
   for (int i = 0; i < sky.rays; ++i) {
-    Draws draws(key, Purpose::sky, static_cast<std::uint32_t>(i));
+    Draws draws(key, Purpose::sky, 0, static_cast<unsigned>(i));
     Vec3 unit(0.0);
     for (int t = 0; t < kTries; ++t) {
       unit = draws.inCone(Vec3(0, 1, 0), 0.0);

@@ -61,9 +61,8 @@ float opacity(const Surface& surface, PartKind kind) {
 }
 
 bool stopsLight(Voxel v, float share) {
-  const RandomKey key{0, static_cast<std::uint32_t>(v.x), static_cast<std::uint32_t>(v.y),
-                      static_cast<std::uint32_t>(v.z)};
-  return Draws(key, Purpose::opacity).uniform() < static_cast<double>(share);
+  static const std::uint64_t stream = streamOf(0);
+  return Slots(keyAt(stream, v), Purpose::opacity).uniform(0) < static_cast<double>(share);
 }
 
 openvdb::Vec3f toVdb(glm::vec3 v) {
@@ -77,6 +76,30 @@ glm::vec3 fromVdb(const openvdb::Vec3f& v) {
 
 World::World(const Frame& frame)
     : frame_(frame), occupied_(frame.size), opaque_(frame.size), grids_(makeGrids(frame)) {}
+World::World(const World& other)
+    : frame_(other.frame_),
+      occupied_(other.occupied_),
+      opaque_(other.opaque_),
+      parts_(other.parts_),
+      layers_(other.layers_),
+      version_(other.version_),
+      grids_(std::make_unique<Grids>(Grids{
+          .part = other.grids_->part->deepCopy(),
+          .colour = other.grids_->colour->deepCopy(),
+          .coverage = other.grids_->coverage->deepCopy(),
+          .normal = other.grids_->normal->deepCopy(),
+          .offset_vx = other.grids_->offset_vx->deepCopy(),
+          .layer = other.grids_->layer->deepCopy(),
+          .nearest = other.grids_->nearest->deepCopy(),
+          .distance_vx = other.grids_->distance_vx->deepCopy(),
+          .surface = BlockMap<Grids::SurfaceLeaves>(frame_.size),
+          .near = BlockMap<Grids::NearLeaves>(frame_.size),
+      })) {
+  findBlocks();
+}
+World& World::operator=(const World& other) {
+  return *this = World(other);
+}
 World::World(World&&) noexcept = default;
 World& World::operator=(World&&) noexcept = default;
 World::~World() = default;
@@ -108,6 +131,22 @@ void World::keep(const TiledVoxel& tiled) {
   leaves.coverage->setValueOn(n, surface.coverage);
   leaves.normal->setValueOn(n, toVdb(surface.normal));
   leaves.offset_vx->setValueOn(n, surface.offset_vx);
+}
+
+/// The grids' leaves by block, where the grids were not made leaf by leaf here.
+void World::findBlocks() {
+  for (auto leaf = grids_->part->tree().beginLeaf(); leaf; ++leaf) {
+    const openvdb::Coord at = leaf->origin();
+    grids_->surface.make({at.x(), at.y(), at.z()}) = {
+        leaf.getLeaf(), grids_->colour->tree().probeLeaf(at), grids_->coverage->tree().probeLeaf(at),
+        grids_->normal->tree().probeLeaf(at), grids_->offset_vx->tree().probeLeaf(at)};
+  }
+  for (auto leaf = grids_->layer->tree().cbeginLeaf(); leaf; ++leaf) {
+    const openvdb::Coord at = leaf->origin();
+    grids_->near.make({at.x(), at.y(), at.z()}) = {
+        leaf->buffer().data(), grids_->nearest->tree().probeConstLeaf(at)->buffer().data(),
+        grids_->distance_vx->tree().probeConstLeaf(at)->buffer().data()};
+  }
 }
 
 void World::occupy(std::span<const TiledVoxel> voxels) {

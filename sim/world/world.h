@@ -55,7 +55,9 @@ struct TiledVoxel {
 class World {
  public:
   explicit World(const Frame& frame);
+  World(const World&);
   World(World&&) noexcept;
+  World& operator=(const World&);
   World& operator=(World&&) noexcept;
   ~World();
 
@@ -98,6 +100,7 @@ class World {
 
  private:
   void keep(const TiledVoxel& tiled);
+  void findBlocks();
   void clearLayers();
 
   Frame frame_;

@@ -1,7 +1,6 @@
 #include <fmt/format.h>
 
 #include <chrono>
-#include <mutex>
 #include <utility>
 
 #include "sim/grow/grow.h"
@@ -17,28 +16,38 @@ double secondsSince(Clock::time_point began) {
   return std::chrono::duration<double>(Clock::now() - began).count();
 }
 
-/// Passes on to a rule, and remembers where it was asked.
-class Listening : public sim::Rule {
+/// Passes on to a process, and remembers where it was asked.
+class Listening : public sim::Process {
  public:
-  explicit Listening(const sim::Rule& rule) : rule_(rule) {}
-  sim::Plant seedling() const override { return rule_.seedling(); }
-  sim::Proposal propose(const sim::GrowthView& view, const sim::Bud& bud,
+  explicit Listening(std::shared_ptr<const sim::Process> process) : process_(std::move(process)) {}
+  sim::Wants wants() const override { return process_->wants(); }
+  sim::Plant seedling() const override { return process_->seedling(); }
+  void begin(const sim::StandView& stand, sim::Columns& memory, sim::Commons& commons) const override {
+    process_->begin(stand, memory, commons);
+  }
+  std::vector<sim::Site> due(const sim::StandView& stand, sim::Columns& memory,
+                             sim::Commons& commons) const override {
+    const auto sites = process_->due(stand, memory, commons);
+    for (const sim::Site& site : sites) places_.push_back(sim::voxelAt(site.at_vx));
+    return sites;
+  }
+  sim::Proposal propose(const sim::SiteView& view, const sim::Site& site,
                         const sim::RandomKey& key) const override {
-    const sim::Voxel voxel =
-        sim::voxelAt(view.plant.skeleton.position_vx[static_cast<std::size_t>(bud.node)]);
-    {
-      const std::lock_guard lock(mutex_);
-      places_.push_back(voxel);
-    }
-    return rule_.propose(view, bud, key);
+    return process_->propose(view, site, key);
+  }
+  void settle(const sim::StandView& stand, std::span<const sim::Verdict> verdicts, sim::Columns& memory,
+              sim::Commons& commons) const override {
+    process_->settle(stand, verdicts, memory, commons);
+  }
+  std::size_t alive(const sim::Columns& memory, const sim::Commons& commons) const override {
+    return process_->alive(memory, commons);
   }
   /// Since the last call.
-  std::vector<sim::Voxel> takePlaces() { return std::exchange(places_, {}); }
+  std::vector<sim::Voxel> takePlaces() const { return std::exchange(places_, {}); }
 
  private:
-  const sim::Rule& rule_;
-  mutable std::mutex mutex_;
-  mutable std::vector<sim::Voxel> places_;
+  std::shared_ptr<const sim::Process> process_;
+  mutable std::vector<sim::Voxel> places_;  // due() is called serially
 };
 
 }  // namespace
@@ -47,20 +56,20 @@ void benchGrowth(scenes::Job& job, Report& report) {
   constexpr const char* kRow = "4 growth";
   constexpr int kEvery = 5;  // iterations; the sweeps would take longer than all else
   sim::GrowthSettings settings = scenes::growthSettings(job);
-  std::vector<std::unique_ptr<Listening>> listeners;
+  std::vector<std::shared_ptr<const Listening>> listeners;
   auto plantings = job.plantings;
   for (auto& planting : plantings) {
-    listeners.push_back(std::make_unique<Listening>(*planting.rule));
-    planting.rule = listeners.back().get();
+    listeners.push_back(std::make_shared<Listening>(planting.process));
+    planting.process = listeners.back();
   }
-  const sim::LightSensor sensor(job.world.opaque(), settings.sky, settings.sun);
+  const sim::LightSensor sensor(job.world.opaque(), settings.light);
   double growing = 0.0, asking = 0.0, casting = 0.0, sweeping = 0.0, everywhere = 0.0;
   std::size_t iterations = 0, buds = 0;
   auto began = Clock::now();
   settings.progress = [&](const sim::GrowthProgress& progress) {
     const double seconds = secondsSince(began);
     std::vector<sim::Voxel> places;
-    for (auto& listener : listeners) {
+    for (const auto& listener : listeners) {
       const auto more = listener->takePlaces();
       places.insert(places.end(), more.begin(), more.end());
     }
@@ -71,8 +80,8 @@ void benchGrowth(scenes::Job& job, Report& report) {
           medianSeconds({[&] { sensor.at(opaque, places); }, [&] { sensor.byRays(opaque, places); },
                          [&] { sensor.bySweep(opaque, places); },
                          [&] {
-                           sim::sweepExposure(opaque, settings.sky);
-                           sim::sweepExposure(opaque, settings.sun);
+                           sim::sweepExposure(opaque, settings.light.sky);
+                           sim::sweepExposure(opaque, settings.light.sun);
                          }});
       asking += medians[0];
       casting += medians[1];
@@ -84,11 +93,11 @@ void benchGrowth(scenes::Job& job, Report& report) {
     began = Clock::now();
   };
   const sim::Growth growth = sim::grow(job.world, plantings, settings);
-  const std::uint64_t state = sim::stateHash(job.world, growth.plants);
+  const std::uint64_t state = sim::stateHash(job.world, growth);
   const auto mean = [&](double sum) { return sum / static_cast<double>(iterations); };
   report.title(fmt::format(
       "4. Light while {} grows: sky of {} and sun of {} directions; means over every {}th of {} iterations",
-      job.scene.name, settings.sky.size(), settings.sun.size(), kEvery, growth.iterations));
+      job.scene.name, settings.light.sky.size(), settings.light.sun.size(), kEvery, growth.iterations));
   report.add({kRow, "buds that ask", mean(static_cast<double>(buds)), "", state});
   report.add({kRow, "an iteration, with the light that its buds ask for", mean(growing) * 1e3, "ms", state});
   report.add({kRow, "their light, as growth asks for it", mean(asking) * 1e3, "ms", state});

@@ -16,10 +16,7 @@ inline sim::NodeId addNode(sim::Skeleton& skeleton, sim::NodeId parent, sim::Vec
   skeleton.parent.push_back(parent);
   skeleton.position_vx.push_back(position_vx);
   skeleton.born.push_back(born);
-  skeleton.exposure.push_back(exposure);
-  skeleton.sky_exposure.push_back(exposure);
-  skeleton.sun_exposure.push_back(exposure);
-  skeleton.proximity_vx.push_back(1.0f);
+  skeleton.columns["exposure"].push_back(exposure);
   return skeleton.size() - 1;
 }
 

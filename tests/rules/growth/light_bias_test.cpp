@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include "rules/growth/random_tree.h"
+#include "rules/growth/make_process.h"
 #include "sim/grow/grow.h"
 #include "sim/light/sky.h"
 #include "tests/support/plots.h"
@@ -21,12 +21,13 @@ Vec3 wayInTunnel(rules::Brightest brightest) {
   rules::RuleSet rules;
   rules.bias.light = 1.0;
   rules.bias.brightest = brightest;
-  const auto rule = rules::makeRandomTree(std::make_shared<rules::RuleSet>(rules), 0.04);
+  const auto rule = rules::makeProcess(std::make_shared<rules::RuleSet>(rules), 0.04);
   sim::GrowthSettings settings;
   settings.iterations = 1;
-  settings.sky = sim::makeSky({.directions = 1000}).directions;
-  settings.sky_table = sim::makeSkyTable(18, 72, sim::backgroundOf(sim::Weighting::uniform));
-  const auto growth = sim::grow(world, {{"vine", rule.get(), {{31, 5, 10}}}}, settings);
+  settings.light.sky = sim::makeSky({.directions = 1000}).directions;
+  settings.sky_table = [] { return sim::makeSkyTable(18, 72, sim::backgroundOf(sim::Weighting::uniform)); };
+  const auto growth =
+      sim::grow(world, {{"vine", rule, sim::seedsAt(world.frame(), {sim::Vec3(31, 5, 10)})}}, settings);
   const auto& nodes = growth.plants[0].skeleton.position_vx;
   return nodes.size() < 2 ? Vec3(0.0) : glm::normalize(nodes[1] - nodes[0]);
 }

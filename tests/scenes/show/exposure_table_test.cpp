@@ -55,7 +55,6 @@ struct Made {
           .meshes = {},
           .fills = {},
           .world = sim::World({sim::Vec3(0.0), 0.5, {8, 4, 4}}),
-          .rules = {},
           .plantings = {},
           .sky = {},
           .random_sky = {},

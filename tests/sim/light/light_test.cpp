@@ -14,8 +14,8 @@ using sim::Voxel;
 
 TEST(Light, IsTheSameByRaysAndBySweep) {
   const auto bits = tests::randomBits({61, 40, 53}, 0.01, 11);
-  const sim::LightSensor sensor(bits, sim::makeSky({.directions = 90}).directions,
-                                sim::makeSun(sim::SunArc{}).directions);
+  const sim::LightSensor sensor(
+      bits, {sim::makeSky({.directions = 90}).directions, sim::makeSun(sim::SunArc{}).directions});
   std::mt19937 random(3);
   std::vector<Voxel> places{{0, 0, 0}, {60, 39, 52}, {0, 0, 0}};
   for (int i = 0; i < 500; ++i)
@@ -33,7 +33,7 @@ TEST(Light, IsTheSameByRaysAndBySweep) {
 TEST(Light, IsWhateverTheMapSays) {
   const auto bits = tests::randomBits({33, 21, 18}, 0.02, 12);
   const auto sky = sim::makeSky({.directions = 64}).directions;
-  const sim::LightSensor sensor(bits, sky, {});
+  const sim::LightSensor sensor(bits, {sky, {}});
   const Voxel few[] = {{4, 5, 6}};
   const auto map = sim::sweepExposure(bits, sky);
   EXPECT_EQ(sensor.at(bits, few)[0].sky.sum, map.sums[map.index(few[0])]);

@@ -2,34 +2,37 @@
 #include <vector>
 
 #include "rules/language/rule_set.h"
-#include "sim/grow/rule.h"
-#include "sim/light/exposure.h"
-#include "sim/sense/intersection.h"
+#include "sim/grow/process.h"
 
 namespace espalier::rules {
 
-/// What a bud senses before it makes trials: the same for all of them.
-struct Senses {
+/// What there is around a site: the same for every rule set.
+struct Surroundings {
   sim::Vec3 at_vx{0.0};
   sim::Voxel voxel{0};
   sim::Vec3 heading{0.0};  ///< unit direction of the limb that ends here; zero at a seed
   sim::Vec3 away{0.0};     ///< unit, from the nearest scene object; zero where none is near
-  sim::Vec3 light{0.0};    ///< unit, towards the brightest part of the sky; zero where none is seen
-  sim::Vec3 twist{
-      0.0};  ///< unit normal of the plane through the heading and the local centre of mass, or zero
   double sky_exposure = 0.0;
   double sun_exposure = 0.0;
-  double exposure = 0.0;  ///< blended
-  double vigour = 1.0;    ///< growth rate over that at the least exposure: 1 .. boost
   std::vector<sim::Voxel>
       attachment;  ///< voxels of the limb that ends here, and the first ones of those that leave
+};
+
+/// How one rule set takes it.
+struct Senses {
+  sim::Vec3 light{0.0};  ///< unit, towards the brightest part of the sky; zero where none is seen
+  sim::Vec3 twist{
+      0.0};  ///< unit normal of the plane through the heading and the local centre of mass, or zero
+  double exposure = 0.0;  ///< blended
+  double vigour = 1.0;    ///< growth rate over that at the least exposure: 1 .. boost
   Circumstance circumstance;
 };
 
 /// Exposure, blended as a rule set asks: the sun's and the sky's weights made to sum to 1.
 double blended(const Light& light, double sun_exposure, double sky_exposure);
 
-Senses sense(const sim::GrowthView& view, const sim::Bud& bud, const RuleSet& rules);
+Surroundings lookAround(const sim::SiteView& view, const sim::Site& site);
+Senses sense(const sim::SiteView& view, const Surroundings& around, const RuleSet& rules);
 
 /// The world's axes with a single voxel are flat: a direction loses its component along them.
 sim::Vec3 flattened(sim::Vec3 direction, sim::Voxel world_size);

@@ -1,4 +1,4 @@
-#include "rules/growth/trial.h"
+#include "rules/growth/senses.h"
 
 #include <algorithm>
 #include <iterator>
@@ -16,14 +16,14 @@ sim::Vec3 unitOrZero(sim::Vec3 v) {
 }
 
 /// Limbs leave one node through the same voxels: those of a sibling right beside the node are no obstacle.
-void addSiblings(const sim::GrowthView& view, sim::NodeId node, Senses& senses) {
+void addSiblings(const sim::SiteView& view, sim::NodeId node, Surroundings& around) {
   std::vector<sim::Voxel> limb;
-  for (const sim::NodeId child : view.children[static_cast<std::size_t>(node)]) {
+  view.kin.forEachChild(node, [&](sim::NodeId child) {
     limb.clear();
-    sim::tileSegment(senses.at_vx, view.plant.skeleton.position_vx[static_cast<std::size_t>(child)], limb);
-    std::copy_if(limb.begin(), limb.end(), std::back_inserter(senses.attachment),
-                 [&](sim::Voxel v) { return sim::besides(v, senses.voxel); });
-  }
+    sim::tileSegment(around.at_vx, view.plant.skeleton.position_vx[static_cast<std::size_t>(child)], limb);
+    std::copy_if(limb.begin(), limb.end(), std::back_inserter(around.attachment),
+                 [&](sim::Voxel v) { return sim::besides(v, around.voxel); });
+  });
 }
 
 /// Growth rate over that at the least exposure: linear from 1 at the minimum to boost at the maximum.
@@ -40,32 +40,37 @@ double blended(const Light& light, double sun_exposure, double sky_exposure) {
   return (light.sun * sun_exposure + light.sky * sky_exposure) / sum;
 }
 
-Senses sense(const sim::GrowthView& view, const sim::Bud& bud, const RuleSet& rules) {
+Surroundings lookAround(const sim::SiteView& view, const sim::Site& site) {
   const sim::Skeleton& skeleton = view.plant.skeleton;
-  const auto node = static_cast<std::size_t>(bud.node);
-  Senses senses;
-  senses.at_vx = skeleton.position_vx[node];
-  senses.voxel = sim::voxelAt(senses.at_vx);
-  if (const sim::NodeId parent = skeleton.parent[node]; parent != sim::kNoNode) {
+  Surroundings around;
+  around.at_vx = site.at_vx;
+  around.voxel = sim::voxelAt(site.at_vx);
+  if (const sim::NodeId parent = skeleton.parent[static_cast<std::size_t>(site.node)];
+      parent != sim::kNoNode) {
     const sim::Vec3 from = skeleton.position_vx[static_cast<std::size_t>(parent)];
-    senses.heading = unitOrZero(senses.at_vx - from);
-    sim::tileSegment(from, senses.at_vx, senses.attachment);
+    around.heading = unitOrZero(around.at_vx - from);
+    sim::tileSegment(from, around.at_vx, around.attachment);
   }
-  addSiblings(view, bud.node, senses);
+  addSiblings(view, site.node, around);
+  around.away = sim::awayFromScene(view.world, around.voxel);
+  around.sky_exposure = view.light->sky.fraction();
+  around.sun_exposure = view.light->sun.fraction();
+  return around;
+}
+
+Senses sense(const sim::SiteView& view, const Surroundings& around, const RuleSet& rules) {
+  Senses senses;
   senses.light = rules.bias.brightest == Brightest::table
-                     ? sim::brightest(view.sky_table, view.world.opaque(), senses.voxel)
-                     : unitOrZero(view.light.sky.toward);
-  senses.sky_exposure = view.light.sky.fraction();
-  senses.sun_exposure = view.light.sun.fraction();
-  senses.exposure = blended(rules.light, senses.sun_exposure, senses.sky_exposure);
+                     ? sim::brightest(*view.sky_table, view.world.opaque(), around.voxel)
+                     : unitOrZero(view.light->sky.toward);
+  senses.exposure = blended(rules.light, around.sun_exposure, around.sky_exposure);
   senses.vigour = vigourAt(rules, senses.exposure);
-  senses.away = sim::awayFromScene(view.world, senses.voxel);
   if (highest(rules.bias.twist) != 0.0 || lowest(rules.bias.twist) != 0.0) {
-    const auto mass = sim::centreOfMass(view.world.occupied(), senses.voxel, rules.bias.twist_radius_vx);
-    if (mass) senses.twist = unitOrZero(glm::cross(senses.heading, *mass - senses.at_vx));
+    const auto mass = sim::centreOfMass(view.world.occupied(), around.voxel, rules.bias.twist_radius_vx);
+    if (mass) senses.twist = unitOrZero(glm::cross(around.heading, *mass - around.at_vx));
   }
   senses.circumstance = {senses.exposure, static_cast<double>(view.iteration),
-                         senses.at_vx.y * view.world.frame().voxel_m};
+                         around.at_vx.y * view.world.frame().voxel_m};
   return senses;
 }
 

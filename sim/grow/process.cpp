@@ -1,4 +1,4 @@
-#include "sim/grow/rule.h"
+#include "sim/grow/process.h"
 
 namespace espalier::sim {
 

@@ -1,0 +1,138 @@
+#include "rules/growth/make_process.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <optional>
+
+#include "rules/growth/buds.h"
+#include "rules/growth/elements.h"
+#include "rules/growth/random_tree.h"
+#include "rules/growth/rule_book.h"
+#include "sim/base/error.h"
+
+namespace espalier::rules {
+namespace {
+
+using sim::Outcome;
+
+class BookProcess final : public sim::Process {
+ public:
+  BookProcess(RuleBook book, double voxel_m) : book_(std::move(book)), voxel_m_(voxel_m) {
+    forEachSet(book_.top(), [&](const RuleSet& set, const std::string&) {
+      sky_table_ = sky_table_ || set.bias.brightest == Brightest::table;
+    });
+  }
+
+  sim::Wants wants() const override { return {.light = true, .sky_table = sky_table_}; }
+
+  sim::Plant seedling() const override {
+    sim::Plant plant;
+    plant.shapes = book_.shapes();
+    plant.stem_colour = book_.top().stem_colour;
+    plant.stem_radius_vx = book_.top().stem_radius_vx;
+    for (const char* name : {"exposure", "proximity_vx", "sky_exposure", "sun_exposure"})
+      plant.skeleton.columns[name];
+    return plant;
+  }
+
+  void begin(const sim::StandView& stand, sim::Columns& memory, sim::Commons&) const override {
+    beginBuds(stand, memory);
+  }
+  std::vector<sim::Site> due(const sim::StandView& stand, sim::Columns& memory,
+                             sim::Commons&) const override {
+    return dueBuds(stand, memory);
+  }
+  void settle(const sim::StandView& stand, std::span<const sim::Verdict> verdicts, sim::Columns& memory,
+              sim::Commons&) const override {
+    settleBuds(stand, verdicts, memory);
+  }
+  std::size_t alive(const sim::Columns& memory, const sim::Commons&) const override {
+    return countBuds(memory);
+  }
+
+  sim::Proposal propose(const sim::SiteView& view, const sim::Site& site,
+                        const sim::RandomKey& key) const override;
+
+ private:
+  /// Why a set does not grow here; grown if it does.
+  Outcome tryToGrow(const sim::SiteView& view, const sim::Site& site, const RuleSet& rules,
+                    const Surroundings& around, const sim::RandomKey& key, unsigned set,
+                    sim::Proposal& proposal) const;
+
+  RuleBook book_;
+  double voxel_m_;
+  bool sky_table_ = false;
+};
+
+Outcome BookProcess::tryToGrow(const sim::SiteView& view, const sim::Site& site, const RuleSet& rules,
+                               const Surroundings& around, const sim::RandomKey& key, unsigned set,
+                               sim::Proposal& proposal) const {
+  const Senses senses = sense(view, around, rules);
+  if (senses.exposure < rules.require.exposure_min) return Outcome::too_dark;
+  if (senses.exposure > rules.require.exposure_max) return Outcome::too_bright;
+  const double chance = sim::Slots(key, sim::Purpose::rate, set).uniform(0);
+  if (chance * std::max(1.0, rules.light.boost) >= senses.vigour) return Outcome::resting;
+
+  std::optional<Candidate> best;
+  switch (rules.propagate) {
+    case Propagate::random_tree:
+      best = bestTrial(view, site, rules, around, senses, key, set, voxel_m_, proposal);
+      break;
+  }
+  if (!best) return Outcome::no_trial;
+  proposal.elements =
+      proposeElements(view, rules, around, senses, best->to_vx, best->passes, book_.firstShape(rules), key);
+  if (view.record_attempts) proposal.attempts.push_back({around.at_vx, best->to_vx, Outcome::grown, true});
+  proposal.segment = {best->to_vx,
+                      std::move(best->takes),
+                      rules.require.clear ? sim::Passage::around : sim::Passage::through,
+                      // exposure, proximity_vx, sky_exposure, sun_exposure: in the order of their names
+                      {static_cast<float>(senses.exposure), static_cast<float>(best->proximity_vx),
+                       static_cast<float>(around.sky_exposure), static_cast<float>(around.sun_exposure)}};
+  sim::Draws age(key, sim::Purpose::branch_age);
+  proposal.sprouts = {{0, 1},
+                      {1, age.whole(rules.random_tree.branch_age_min, rules.random_tree.branch_age_max)}};
+  return Outcome::grown;
+}
+
+sim::Proposal BookProcess::propose(const sim::SiteView& view, const sim::Site& site,
+                                   const sim::RandomKey& key) const {
+  sim::Proposal proposal;
+  const sim::Voxel at = sim::voxelAt(site.at_vx);
+  const RuleSet* rules = book_.first(view.world, at);
+  proposal.outcome = Outcome::forbidden;
+  if (rules == nullptr) return proposal;
+
+  const Surroundings around = lookAround(view, site);
+  for (unsigned set = 0; rules != nullptr; ++set, rules = book_.next(*rules, view.world, at)) {
+    const Outcome outcome = tryToGrow(view, site, *rules, around, key, set, proposal);
+    // What is told of a site that did not grow is why its first set failed, unless a later one got farther.
+    if (set == 0 || outcome == Outcome::no_trial || outcome == Outcome::grown || outcome == Outcome::resting)
+      proposal.outcome = outcome;
+    if (outcome == Outcome::grown || outcome == Outcome::resting) break;
+  }
+  const bool seed = around.heading == sim::Vec3(0.0);
+  proposal.retire = proposal.outcome != Outcome::resting && !(proposal.outcome == Outcome::no_trial && seed);
+  return proposal;
+}
+
+}  // namespace
+
+std::shared_ptr<const sim::Process> makeProcess(std::shared_ptr<const RuleSet> rules, double voxel_m) {
+  forEachSet(*rules, [&](const RuleSet& set, const std::string& path) {
+    const double unit = set.random_tree.length.metres ? voxel_m : 1.0;
+    const double shortest = lowest(set.random_tree.length.value) / unit;
+    const double longest = highest(set.random_tree.length.value) / unit;
+    if (shortest < 0.1 || longest > 60.0) {
+      throw sim::InputError(
+          fmt::format("rule set '{}'{}: random_tree.length is {:.3g} to {:.3g} voxel widths at a voxel of "
+                      "{:.4g} m; expected "
+                      "0.1 to 60",
+                      set.name, path.empty() ? "" : ", " + path, shortest, longest, voxel_m));
+    }
+  });
+  return std::make_shared<BookProcess>(RuleBook(std::move(rules)), voxel_m);
+}
+
+}  // namespace espalier::rules

@@ -1,0 +1,64 @@
+#include "rules/growth/rule_book.h"
+
+#include <set>
+
+#include "rules/growth/elements.h"
+
+namespace espalier::rules {
+namespace {
+
+using Visit = std::function<void(const RuleSet&, const std::string&)>;
+
+void visitFrom(const RuleSet& rules, const std::string& path, std::set<const RuleSet*>& met,
+               const Visit& visit) {
+  if (!met.insert(&rules).second) return;
+  visit(rules, path);
+  const std::string prefix = path.empty() ? "" : path + ".";
+  for (const auto& [region, rule] : rules.regions) {
+    if (rule.rules) visitFrom(*rule.rules, prefix + "regions." + region, met, visit);
+  }
+  if (rules.otherwise) visitFrom(*rules.otherwise, prefix + "otherwise", met, visit);
+}
+
+const RegionRule* ruleFor(const RuleSet& rules, const std::string& region) {
+  const auto found = rules.regions.find(region);
+  return found == rules.regions.end() ? nullptr : &found->second;
+}
+
+/// A region's rule set may have something to say of regions itself.
+const RuleSet* holding(const RuleSet& rules, const sim::World& world, sim::Voxel v) {
+  const auto nearness = world.nearnessAt(v);
+  if (!nearness) return &rules;
+  const std::string& region = world.part(nearness->part).region;
+  const RuleSet* set = &rules;
+  while (const RegionRule* rule = ruleFor(*set, region)) {
+    if (rule->forbidden) return nullptr;
+    if (!rule->rules) break;
+    set = rule->rules.get();
+  }
+  return set;
+}
+
+}  // namespace
+
+void forEachSet(const RuleSet& rules, const Visit& visit) {
+  std::set<const RuleSet*> met;
+  visitFrom(rules, "", met, visit);
+}
+
+RuleBook::RuleBook(std::shared_ptr<const RuleSet> rules) : rules_(std::move(rules)) {
+  forEachSet(*rules_, [&](const RuleSet& set, const std::string&) {
+    first_shape_[&set] = static_cast<std::int32_t>(shapes_.size());
+    for (auto& shape : shapesOf(set)) shapes_.push_back(std::move(shape));
+  });
+}
+
+const RuleSet* RuleBook::first(const sim::World& world, sim::Voxel v) const {
+  return holding(*rules_, world, v);
+}
+
+const RuleSet* RuleBook::next(const RuleSet& failed, const sim::World& world, sim::Voxel v) const {
+  return failed.otherwise ? holding(*failed.otherwise, world, v) : nullptr;
+}
+
+}  // namespace espalier::rules

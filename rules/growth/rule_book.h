@@ -1,0 +1,43 @@
+#pragma once
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "rules/language/rule_set.h"
+#include "sim/grow/plant.h"
+#include "sim/world/world.h"
+
+namespace espalier::rules {
+
+/// Calls visit(set, path) for a rule set and every one that it may lead to, each once; `path` is empty, or
+/// such as "otherwise.regions.brick".
+void forEachSet(const RuleSet& rules,
+                const std::function<void(const RuleSet& set, const std::string& path)>& visit);
+
+/// A rule set with all that it may lead to: the sets of regions, and those that are tried where one fails. A
+/// process asks it which set holds where, and knows nothing of how sets refer to each other.
+class RuleBook {
+ public:
+  explicit RuleBook(std::shared_ptr<const RuleSet> rules);
+
+  /// The set that holds first in a voxel: the one of the region that is nearest; null where nothing may grow.
+  const RuleSet* first(const sim::World& world, sim::Voxel v) const;
+  /// The set to try where this one has failed; null where there is none, or nothing may grow.
+  const RuleSet* next(const RuleSet& failed, const sim::World& world, sim::Voxel v) const;
+
+  const RuleSet& top() const { return *rules_; }
+  /// The shapes of every set: what a plant may carry.
+  const std::vector<sim::ElementShape>& shapes() const { return shapes_; }
+  /// The number of a set's first shape.
+  std::int32_t firstShape(const RuleSet& set) const { return first_shape_.at(&set); }
+
+ private:
+  std::shared_ptr<const RuleSet> rules_;
+  std::vector<sim::ElementShape> shapes_;
+  std::map<const RuleSet*, std::int32_t> first_shape_;
+};
+
+}  // namespace espalier::rules

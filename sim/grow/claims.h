@@ -1,0 +1,36 @@
+#pragma once
+#include <cstdint>
+#include <span>
+#include <unordered_map>
+#include <utility>
+#include <vector>
+
+#include "sim/base/bits.h"
+#include "sim/grow/plant.h"
+
+namespace espalier::sim {
+
+/// Voxels that were taken earlier in the same iteration, and from which node.
+class Claims {
+ public:
+  /// A node of any plant.
+  using Node = std::pair<std::size_t, NodeId>;
+  static constexpr Node kNobody{0, kNoNode};
+
+  explicit Claims(Voxel size) : taken_(size) {}
+
+  /// Whether a piece that leaves `node` at `start` may have these voxels. A branch and its limb leave their
+  /// node through the same voxels: beside it they do not hinder each other.
+  bool allow(std::span<const Voxel> voxels, Node node, Voxel start) const;
+  /// Throws BrokenContract for a voxel outside the world.
+  void take(std::span<const Voxel> voxels, Node node);
+  /// Leaves the voxels that nobody has claimed.
+  void keepFree(std::vector<Voxel>& voxels) const;
+  void clear();
+
+ private:
+  BitVolume taken_;
+  std::unordered_map<std::uint64_t, Node> owner_;  // by packed voxel
+};
+
+}  // namespace espalier::sim

@@ -1,0 +1,127 @@
+#include "sim/grow/state.h"
+
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "sim/base/error.h"
+#include "sim/grow/grow.h"
+#include "tests/support/plots.h"
+#include "tests/support/processes.h"
+
+namespace espalier {
+namespace {
+
+using sim::Vec3;
+
+const sim::Inputs kInputs = {{"seed", "1"}, {"world.voxel", "4 cm"}};
+
+std::vector<sim::Planting> plantings(const sim::Frame& frame) {
+  return {{"tiles", std::make_shared<tests::Tiler>(), sim::seedsAt(frame, {{10, 3, 10}, {30, 3, 10}})},
+          {"creeper", std::make_shared<tests::Creeper>(), sim::seedsAt(frame, {{12, 3, 11}})}};
+}
+
+sim::GrowthSettings settings(int iterations, bool record = false) {
+  sim::GrowthSettings s;
+  s.iterations = iterations;
+  s.record_attempts = record;
+  return s;
+}
+
+struct Saved {
+  std::string bytes;
+  std::uint64_t hash = 0;
+};
+
+Saved savedAfter(int iterations, bool record = false) {
+  sim::World world = tests::wallPlot();
+  const sim::BitVolume site = world.occupied();
+  const auto growth = sim::grow(world, plantings(world.frame()), settings(iterations, record));
+  return {sim::stateBytes(kInputs, world, site, growth), sim::stateHash(world, growth)};
+}
+
+std::string messageOf(const std::string& bytes) {
+  try {
+    sim::World world = tests::wallPlot();
+    sim::restore(sim::readState(bytes, "growth.state"), world, plantings(world.frame()), "growth.state");
+  } catch (const sim::InputError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(State, GoesOnAsIfNothingHadHappened) {
+  const Saved whole = savedAfter(14);
+  for (const int before : {0, 1, 5, 13, 14}) {
+    const Saved part = savedAfter(before);
+    sim::World world = tests::wallPlot();
+    const sim::BitVolume site = world.occupied();
+    auto restored = sim::restore(sim::readState(part.bytes, "f"), world, plantings(world.frame()), "f");
+    EXPECT_EQ(sim::stateHash(world, restored), part.hash);
+    std::size_t proposals = 0;
+    auto going_on = settings(14);
+    going_on.progress = [&](const sim::GrowthProgress& p) {
+      proposals = p.proposals;
+      EXPECT_GT(p.iteration, before);
+    };
+    sim::Growing growing(world, plantings(world.frame()), going_on, std::move(restored));
+    while (growing.step()) {
+    }
+    EXPECT_EQ(growing.growth().iterations, 14);
+    EXPECT_EQ(sim::stateHash(world, growing.growth()), whole.hash) << before;
+    EXPECT_EQ(sim::stateBytes(kInputs, world, site, growing.growth()), whole.bytes) << before;
+    EXPECT_EQ(proposals > 0, before < 14);
+  }
+}
+
+TEST(State, KeepsTheTrialsThatWereRecorded) {
+  const Saved saved = savedAfter(4, true);
+  const auto state = sim::readState(saved.bytes, "f");
+  EXPECT_TRUE(state.growth.recorded);
+  EXPECT_GT(state.growth.attempts.size(), 3u);
+  EXPECT_EQ(state.inputs, kInputs);
+  EXPECT_FALSE(sim::readState(savedAfter(4).bytes, "f").growth.recorded);
+}
+
+TEST(State, DamageIsAnErrorThatNamesTheFile) {
+  const std::string good = savedAfter(6).bytes;
+  ASSERT_EQ(messageOf(good), "");
+  std::mt19937 random(1);
+  for (int i = 0; i < 200; ++i) {
+    std::string bad = good;
+    if (i % 2 == 0) {
+      bad.resize(random() % good.size());
+    } else {
+      bad[random() % good.size()] ^= static_cast<char>(1 + random() % 255);
+    }
+    EXPECT_TRUE(messageOf(bad).starts_with("growth.state: ")) << messageOf(bad);
+  }
+  EXPECT_NE(messageOf("").find("no saved state"), std::string::npos);
+  EXPECT_NE(messageOf("espalier state 2\n" + good.substr(17)).find("version 2"), std::string::npos);
+}
+
+TEST(State, BelongsToItsSiteAndItsPlantings) {
+  const std::string bytes = savedAfter(6).bytes;
+  const auto refused = [&](sim::World world, std::vector<sim::Planting> planted) {
+    const auto words = world.occupied().words();
+    EXPECT_THROW(sim::restore(sim::readState(bytes, "f"), world, planted, "f"), sim::InputError);
+    EXPECT_EQ(world.occupied().words(), words);
+  };
+  const sim::Frame frame = tests::wallPlot().frame();
+  refused(tests::wallPlot({48, 48, 41}), plantings(frame));
+  auto fewer = plantings(frame);
+  fewer.pop_back();
+  refused(tests::wallPlot(), fewer);
+  auto moved = plantings(frame);
+  moved[0].seeds[1].key ^= 1;
+  refused(tests::wallPlot(), moved);
+  auto others = plantings(frame);
+  others[1].process = std::make_shared<tests::Tiler>();
+  refused(tests::wallPlot(), others);
+  sim::World fuller = tests::wallPlot();
+  tests::addBox(fuller, "shed", {8, 1, 8}, {14, 6, 14});
+  refused(std::move(fuller), plantings(frame));
+}
+
+}  // namespace
+}  // namespace espalier

@@ -7,7 +7,6 @@
 #include "render/files/vdb.h"
 #include "scenes/accuracy/certificate.h"
 #include "scenes/job/stages.h"
-#include "scenes/lighting.h"
 #include "scenes/prepare/job.h"
 #include "scenes/show/expose_pictures.h"
 #include "scenes/show/exposure_table.h"
@@ -15,6 +14,7 @@
 #include "scenes/show/pictures.h"
 #include "scenes/write/output_files.h"
 #include "sim/base/error.h"
+#include "sim/light/lighting.h"
 #include "sim/world/band.h"
 
 namespace espalier::scenes {
@@ -56,15 +56,15 @@ ExposeResult exposeScene(Scene scene, const RunOptions& options) {
   describeWorld(report, job);
 
   std::shared_ptr<const sim::VoxelSet> space;
-  const Lighting light = stages.run("lighting", [&] {
+  const sim::Lighting light = stages.run("lighting", [&] {
     space = spaceWanted(job.world, job.scene.exposure);
     if (space) requireSpaceFits(job.scene, job.world.frame(), *space);
-    LightWanted wanted;
+    sim::LightWanted wanted;
     wanted.brightest = true;
     wanted.space = space;
     wanted.space_hours = true;
     wanted.random_sky = job.random_sky;
-    return lightOf(job.world, job.sky, job.sun, wanted);
+    return sim::lightOf(job.world, job.sky, job.sun, wanted);
   });
   if (light.surfaces.empty() && !space) {
     throw sim::InputError(fmt::format(

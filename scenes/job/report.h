@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "scenes/accuracy/certificate.h"
-#include "scenes/lighting.h"
+#include "sim/light/lighting.h"
 #include "scenes/prepare/job.h"
 #include "sim/grow/grow.h"
 
@@ -21,7 +21,7 @@ struct Report {
   std::size_t scene_voxels = 0;     ///< before they grew
   std::size_t degenerate_triangles = 0;
   std::vector<sim::FillReport> fills;
-  LightAbout light;
+  sim::LightAbout light;
 
   struct Growth {
     int iterations = 0;

@@ -8,13 +8,13 @@
 #include "render/files/vdb.h"
 #include "render/model/plant_model.h"
 #include "scenes/job/stages.h"
-#include "scenes/lighting.h"
 #include "scenes/prepare/job.h"
 #include "scenes/show/light_fields.h"
 #include "scenes/show/pictures.h"
 #include "scenes/write/output_files.h"
 #include "sim/base/error.h"
 #include "sim/base/parallel.h"
+#include "sim/light/lighting.h"
 #include "sim/world/band.h"
 
 namespace espalier::scenes {
@@ -82,14 +82,14 @@ Report runScene(Scene scene, const RunOptions& options) {
   report.occupied_voxels = job.world.occupied().count();
 
   std::shared_ptr<const sim::VoxelSet> layers;
-  const Lighting light = stages.run("lighting", [&] {
+  const sim::Lighting light = stages.run("lighting", [&] {
     layers = std::make_shared<const sim::VoxelSet>(openLayers(before, job.world));
-    LightWanted wanted;
+    sim::LightWanted wanted;
     wanted.space = layers;
     wanted.dense = options.pictures && drawsVines(job.scene);  // leaves are lit by what is around them
     if (wanted.dense) sim::requireFits(job.world.frame(), {job.world.layers(), 2 * 2.0});
     wanted.random_sky = job.random_sky;
-    return lightOf(job.world, job.sky, job.sun, wanted);
+    return sim::lightOf(job.world, job.sky, job.sun, wanted);
   });
   report.light = light.about;
   const auto models = stages.run("modelling", [&] { return modelPlants(job, growth.plants); });

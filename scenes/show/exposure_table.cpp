@@ -7,6 +7,7 @@
 #include <numeric>
 
 #include "scenes/show/light_json.h"
+#include "scenes/show/light_texts.h"
 #include "sim/base/parallel.h"
 
 namespace espalier::scenes {
@@ -98,9 +99,9 @@ Json rowJson(const ExposureTable& table, const ExposureRow& row) {
 
 }  // namespace
 
-ExposureTable exposureTable(const Job& job, const Lighting& light) {
+ExposureTable exposureTable(const Job& job, const sim::Lighting& light) {
   ExposureTable table{job.scene.name, light.about, {}, {}};
-  std::vector<const Received*> received = {&light.sky};
+  std::vector<const sim::Received*> received = {&light.sky};
   table.quantities.push_back(
       {"sky_exposure", "1", "what a surface receives of the sky by its own normal; open ground: 1", 1.0});
   if (!light.about.sun.empty()) {

@@ -15,6 +15,7 @@
 #include "render/voxels/visibility.h"
 #include "scenes/lights.h"
 #include "scenes/show/flat_pictures.h"
+#include "scenes/show/light_texts.h"
 #include "sim/base/error.h"
 #include "sim/base/parallel.h"
 #include "sim/world/ray.h"
@@ -97,7 +98,7 @@ class Studio {
     render::PanelPainter painter;
   };
 
-  render::FaceValue faces(const Received& received) const {
+  render::FaceValue faces(const sim::Received& received) const {
     return [&light = finished_.light, &received](sim::Voxel v, std::uint8_t face) {
       return light.atFace(received, v, face);
     };
@@ -205,7 +206,7 @@ OutputFile png(const std::string& name, std::shared_ptr<const Image> picture, re
   return {name + ".png", [picture, metadata] { return render::encodePng(*picture, metadata); }};
 }
 
-Image contactSheet(const Scene& scene, const LightAbout& about, const ImageSpec& sheet,
+Image contactSheet(const Scene& scene, const sim::LightAbout& about, const ImageSpec& sheet,
                    const std::map<std::string, std::shared_ptr<const Image>>& pictures) {
   std::vector<render::Captioned> captioned;
   bool light = false;

@@ -3,10 +3,10 @@
 #include <vector>
 
 #include "render/model/plant_model.h"
-#include "scenes/lighting.h"
 #include "scenes/prepare/job.h"
 #include "scenes/write/output_files.h"
 #include "sim/grow/grow.h"
+#include "sim/light/lighting.h"
 
 namespace espalier::scenes {
 
@@ -14,7 +14,7 @@ namespace espalier::scenes {
 struct Finished {
   const Job& job;
   const sim::Growth& growth;
-  const Lighting& light;                          ///< in all of space too, where there is an image of vines
+  const sim::Lighting& light;                     ///< in all of space too, where there is an image of vines
   const std::vector<render::PlantModel>& models;  ///< one a plant
 };
 

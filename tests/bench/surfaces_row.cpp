@@ -119,7 +119,7 @@ void benchSurfaces(const scenes::Job& job, Report& report) {
 
   const Question sample = sampleOf(question);
   const auto sampled = std::make_shared<const sim::VoxelSet>(bitsOf(sample, size));
-  const Sums expected = sim::sweepExposure(occupied, sky.directions, sampled).sums;
+  const Sums expected = sim::sweepExposure(occupied, sky.directions, sampled).values;
   const Peers embree = embreePeers(occupied, meshesInVoxels(job)), nanovdb = nanovdbPeers(occupied);
   const Fastest of_embree = fastestOf(embree, sample, expected, report);
   const Fastest of_nanovdb = fastestOf(nanovdb, sample, expected, report);
@@ -127,7 +127,7 @@ void benchSurfaces(const scenes::Job& job, Report& report) {
   Sums ours;
   std::array<Sums, 3> theirs;
   const std::vector<double> seconds = medianSeconds(
-      {[&] { ours = sim::sweepExposure(occupied, sky.directions, sensors.places).sums; },
+      {[&] { ours = sim::sweepExposure(occupied, sky.directions, sensors.places).values; },
        [&] { sim::surfaceSky(sensors, sim::sweepOpen(occupied, sky.directions, sensors.places), sky); },
        [&] { theirs[0] = rivals[0]->answer(question); }, [&] { theirs[1] = rivals[1]->answer(question); },
        [&] { theirs[2] = rivals[2]->answer(question); }});

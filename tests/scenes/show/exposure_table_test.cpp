@@ -60,7 +60,7 @@ struct Made {
           .sky = {},
           .random_sky = {},
           .sun = {}};
-  Lighting light;
+  sim::Lighting light;
 
   Made() {
     job.scene.name = "two \"walls\", a test";

@@ -1,15 +1,17 @@
 #pragma once
 #include <array>
 #include <cstdint>
+#include <filesystem>
 #include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "scenes/accuracy/certificate.h"
-#include "sim/light/lighting.h"
 #include "scenes/prepare/job.h"
+#include "scenes/write/output_files.h"
 #include "sim/grow/grow.h"
+#include "sim/light/lighting.h"
 
 namespace espalier::scenes {
 
@@ -55,7 +57,11 @@ std::string toJson(const Report& report);
 /// Fills in what there is to say of a world before anything grows in it.
 void describeWorld(Report& report, const Job& job);
 
-/// The most memory that this process has held so far.
-std::uint64_t peakMemoryBytes();
+/// Completes the report of a run that wrote these files, and writes it as report.json, the last of them.
+/// Throws sim::InputError.
+void writeReport(const std::filesystem::path& folder, const std::vector<OutputFile>& files, Report& report);
+
+/// The end of a summary: how long the run took, and where its files lie.
+std::string endOfSummary(const Report& report, const std::filesystem::path& folder);
 
 }  // namespace espalier::scenes

@@ -41,13 +41,13 @@ std::uint64_t peakMemoryBytes() {
 
 }  // namespace
 
-void describeWorld(Report& report, const Job& job) {
-  report.scene = job.scene.name;
-  report.frame = job.world.frame();
-  report.fills = job.fills;
-  report.scene_voxels = job.world.occupied().count();
+void describeWorld(Report& report, const Scene& scene, const Site& site) {
+  report.scene = scene.name;
+  report.frame = site.world.frame();
+  report.fills = site.fills;
+  report.scene_voxels = site.world.occupied().count();
   report.occupied_voxels = report.scene_voxels;
-  for (const auto& tiled : job.meshes) report.degenerate_triangles += tiled.mesh.degenerate_dropped;
+  for (const auto& tiled : site.meshes) report.degenerate_triangles += tiled.mesh.degenerate_dropped;
 }
 
 std::string toJson(const Report& report) {

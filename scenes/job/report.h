@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "scenes/accuracy/certificate.h"
-#include "scenes/prepare/job.h"
+#include "scenes/prepare/site.h"
 #include "scenes/write/output_files.h"
 #include "sim/grow/grow.h"
 #include "sim/light/lighting.h"
@@ -55,7 +55,7 @@ struct Report {
 std::string toJson(const Report& report);
 
 /// Fills in what there is to say of a world before anything grows in it.
-void describeWorld(Report& report, const Job& job);
+void describeWorld(Report& report, const Scene& scene, const Site& site);
 
 /// Completes the report of a run that wrote these files, and writes it as report.json, the last of them.
 /// Throws sim::InputError.

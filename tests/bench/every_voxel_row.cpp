@@ -38,13 +38,13 @@ void benchLevels(const sim::BitVolume& occupied, const sim::DirectionSet& sky, d
 
 }  // namespace
 
-void benchEveryVoxel(const scenes::Job& job, Report& report) {
-  const sim::BitVolume& occupied = job.world.opaque();
+void benchEveryVoxel(const scenes::Scene& scene, const scenes::Site& site, Report& report) {
+  const sim::BitVolume& occupied = site.world.opaque();
   const sim::Voxel size = occupied.size();
   const auto sky = skyOf(128);
   const double rays = static_cast<double>(size.x) * size.y * size.z * static_cast<double>(sky.size());
   report.title(fmt::format("2. Sky exposure of every voxel: {}, {} x {} x {} voxels, {} directions",
-                           job.scene.name, size.x, size.y, size.z, sky.size()));
+                           scene.name, size.x, size.y, size.z, sky.size()));
 
   const auto places = scattered(size);
   const double sample_rays = static_cast<double>(places.size()) * static_cast<double>(sky.size());

@@ -43,17 +43,18 @@ class Listening : public sim::Rule {
 
 }  // namespace
 
-void benchGrowth(scenes::Job& job, Report& report) {
+void benchGrowth(const scenes::Scene& scene, scenes::Site& site, Report& report) {
   constexpr const char* kRow = "4 growth";
   constexpr int kEvery = 5;  // iterations; the sweeps would take longer than all else
-  sim::GrowthSettings settings = scenes::growthSettings(job);
+  sim::GrowthSettings settings = scenes::growthSettings(scene, site);
   std::vector<std::unique_ptr<Listening>> listeners;
-  auto plantings = job.plantings;
+  const scenes::Plantings prepared = scenes::makePlantings(scene, site);
+  auto plantings = prepared.seeds;
   for (auto& planting : plantings) {
     listeners.push_back(std::make_unique<Listening>(*planting.rule));
     planting.rule = listeners.back().get();
   }
-  const sim::LightSensor sensor(job.world.opaque(), settings.sky, settings.sun);
+  const sim::LightSensor sensor(site.world.opaque(), settings.sky, settings.sun);
   double growing = 0.0, asking = 0.0, casting = 0.0, sweeping = 0.0, everywhere = 0.0;
   std::size_t iterations = 0, buds = 0;
   auto began = Clock::now();
@@ -66,7 +67,7 @@ void benchGrowth(scenes::Job& job, Report& report) {
     }
     if (progress.iteration % kEvery == 0) {
       growing += seconds;
-      const sim::BitVolume& opaque = job.world.opaque();
+      const sim::BitVolume& opaque = site.world.opaque();
       const auto medians =
           medianSeconds({[&] { sensor.at(opaque, places); }, [&] { sensor.byRays(opaque, places); },
                          [&] { sensor.bySweep(opaque, places); },
@@ -83,12 +84,12 @@ void benchGrowth(scenes::Job& job, Report& report) {
     }
     began = Clock::now();
   };
-  const sim::Growth growth = sim::grow(job.world, plantings, settings);
-  const std::uint64_t state = sim::stateHash(job.world, growth.plants);
+  const sim::Growth growth = sim::grow(site.world, plantings, settings);
+  const std::uint64_t state = sim::stateHash(site.world, growth.plants);
   const auto mean = [&](double sum) { return sum / static_cast<double>(iterations); };
   report.title(fmt::format(
       "4. Light while {} grows: sky of {} and sun of {} directions; means over every {}th of {} iterations",
-      job.scene.name, settings.sky.size(), settings.sun.size(), kEvery, growth.iterations));
+      scene.name, settings.sky.size(), settings.sun.size(), kEvery, growth.iterations));
   report.add({kRow, "buds that ask", mean(static_cast<double>(buds)), "", state});
   report.add({kRow, "an iteration, with the light that its buds ask for", mean(growing) * 1e3, "ms", state});
   report.add({kRow, "their light, as growth asks for it", mean(asking) * 1e3, "ms", state});

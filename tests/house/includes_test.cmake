@@ -37,7 +37,7 @@ set(scenes_import "")
 set(scenes_prepare import)
 set(scenes_accuracy prepare)
 set(scenes_write "")
-set(scenes_show prepare write)
+set(scenes_show write)
 set(scenes_job show write accuracy prepare)
 
 # Files without a wing: all wings of their room see them, and they see no wing.

@@ -19,7 +19,8 @@ class MeshMissing : public std::runtime_error {
 };
 
 /// Where plants will stand and light falls: what a scene says of the world, made once and kept. It knows
-/// nothing of the scene's plants, and can be made whether or not they can grow there.
+/// nothing of the scene's plants, and can be made whether or not they can grow there. Nothing changes it but
+/// growth, where a run lets its plants grow in the site's own world.
 struct Site {
   std::vector<sim::TiledMesh> meshes;  ///< as placed, world metres
   std::vector<sim::FillReport> fills;  ///< of the solid ones

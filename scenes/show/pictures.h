@@ -27,8 +27,8 @@ struct PicturesWanted {
   std::vector<NamedCamera> cameras;
   std::vector<ImageSpec> images;
   sim::Vec3 to_sun{0.0, 1.0, 0.0};  ///< unit: of the shadow matte, the first pass and the vines
-  std::optional<PlantLight>
-      plant_light;  ///< whose threshold the panels show; none: that of render::PanelLook
+  /// Of the plant whose threshold the panels show; none: render::PanelLook's own.
+  std::optional<PlantLight> plant_light;
 };
 
 /// All that the scene itself asks for. Threshold panels speak of its first plant.

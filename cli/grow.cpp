@@ -20,7 +20,7 @@ void addGrow(CLI::App& app, int& exit_status) {
   command->callback([options, seed, &exit_status] {
     exit_status = runJob(*options, [&](scenes::Scene scene, const scenes::RunOptions& run) {
       if (*seed) scene.seed = **seed;
-      const scenes::Report report = scenes::runScene(std::move(scene), run);
+      const scenes::Report report = scenes::runScene(scene, run);
       return JobOutcome{scenes::toJson(report), scenes::summary(report, run.folder)};
     });
   });

@@ -9,7 +9,7 @@
 #include "cli/commands.h"
 #include "cli/interrupt.h"
 #include "cli/progress.h"
-#include "scenes/prepare/job.h"
+#include "scenes/prepare/site.h"
 #include "scenes/read/read_scene.h"
 #include "sim/base/parallel.h"
 

@@ -11,6 +11,8 @@ namespace espalier::render {
 namespace {
 
 using sim::Colour;
+using sim::faceAxis;
+using sim::kFaceNormals;
 using sim::Voxel;
 
 /// How bright faces of the six directions are drawn, so that a cube reads as a cube under any data.

@@ -7,6 +7,9 @@
 namespace espalier::render {
 namespace {
 
+using sim::faceAxis;
+using sim::kFaceNormals;
+
 /// Rays start this far in front of the face, voxel widths: clear of rounding, too near to skip anything.
 constexpr double kLift = 1e-4;
 /// A pixel at a shadow's edge is judged at these places of it, in pixels, along each side.

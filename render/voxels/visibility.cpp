@@ -4,12 +4,16 @@
 #include "sim/base/parallel.h"
 
 #include <algorithm>
+#include <array>
 
 #include "sim/base/error.h"
 
 // Every pixel is found by itself and rows are joined in order, so the answer does not depend on the threads.
 namespace espalier::render {
 namespace {
+
+using sim::faceAxis;
+using sim::kFaceNormals;
 
 /// Eight rooks: no two samples share a row or a column of the pixel, so near-vertical and near-horizontal
 /// edges come out in nine shades.

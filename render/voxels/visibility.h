@@ -1,5 +1,4 @@
 #pragma once
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -9,19 +8,15 @@
 
 #include "render/image/camera.h"
 #include "sim/base/bits.h"
+#include "sim/base/faces.h"
 #include "sim/base/frame.h"
 #include "sim/base/vec.h"
 #include "sim/world/ray.h"
 
 namespace espalier::render {
 
-/// A cube's faces by their outward normals: -x, +x, -y, +y, -z, +z; then what is no face.
-inline constexpr std::uint8_t kSky = 6;
-inline constexpr std::array<sim::Voxel, 7> kFaceNormals = {
-    {{-1, 0, 0}, {1, 0, 0}, {0, -1, 0}, {0, 1, 0}, {0, 0, -1}, {0, 0, 1}, {0, 0, 0}}};
-inline int faceAxis(std::uint8_t face) {
-  return face / 2;
-}
+/// In place of a face: where nothing is hit.
+inline constexpr std::uint8_t kSky = sim::kFaces;
 
 /// What one or more samples of a pixel see alike: a face of an occupied voxel, or the sky.
 struct Fragment {

@@ -260,11 +260,11 @@ std::string accuracyOnMeshes(const std::vector<std::filesystem::path>& meshes) {
       scene.world.resolution = resolution;
       scene.world.layers = 0;
       scene.sky.directions = 512;
-      const Job job = prepareJob(scene);
-      const auto check = spotCheck(job);
+      const Site site = makeSite(scene);
+      const auto check = spotCheck(site, scene.seed);
       if (!check) continue;
       text += fmt::format("| {} | {:.3g} m | {} | {} | {:+.4f} | {:.4f} | {:.4f} | {:.4f} |\n",
-                          file.filename().string(), job.world.frame().voxel_m, resolution, check->points,
+                          file.filename().string(), site.world.frame().voxel_m, resolution, check->points,
                           check->bias, check->rms, check->median, check->percentile_95);
     }
   }

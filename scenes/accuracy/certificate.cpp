@@ -41,13 +41,13 @@ Certificate certifyShapes(const sim::Sky& sky, double voxel_m, const std::vector
   return certificate;
 }
 
-Certificate certify(const Job& job) {
-  const sim::Frame& frame = job.world.frame();
+Certificate certify(const Site& site, std::uint64_t seed) {
+  const sim::Frame& frame = site.world.frame();
   const int longest = std::max({frame.size.x, frame.size.y, frame.size.z});
   std::vector<int> widths{8};
   while (2 * widths.back() <= std::min(longest, 64)) widths.push_back(2 * widths.back());
-  Certificate certificate = certifyShapes(job.sky, frame.voxel_m, widths);
-  certificate.spots = spotCheck(job);
+  Certificate certificate = certifyShapes(site.sky, frame.voxel_m, widths);
+  certificate.spots = spotCheck(site, seed);
   return certificate;
 }
 

@@ -1,10 +1,11 @@
 #pragma once
 #include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
 
-#include "scenes/prepare/job.h"
+#include "scenes/prepare/site.h"
 #include "sim/base/vec.h"
 #include "sim/light/sky.h"
 
@@ -47,9 +48,9 @@ struct Certificate {
 };
 
 /// Of a scene: shapes whose width is 8, 16, 32 and 64 voxels of the scene, as far as they are no wider than
-/// the scene's longest side, and as high (the pit: as deep as its radius); and the spot check. The street,
-/// which must be very long, goes to 32.
-Certificate certify(const Job& job);
+/// the scene's longest side, and as high (the pit: as deep as its radius); and the spot check, drawn by the
+/// scene's seed. The street, which must be very long, goes to 32.
+Certificate certify(const Site& site, std::uint64_t seed);
 
 /// Of a voxel size and a sky: the shapes alone.
 Certificate certifyShapes(const sim::Sky& sky, double voxel_m, const std::vector<int>& widths);

@@ -32,12 +32,12 @@ struct Point {
 };
 
 /// Points of the triangles that lie within the world, and not inside of it: stones reach into walls.
-std::vector<Point> drawPoints(const Job& job) {
+std::vector<Point> drawPoints(const Site& site, std::uint64_t seed) {
   std::vector<double> ends;  // of each triangle's share of the area
   std::vector<std::pair<std::size_t, std::size_t>> triangles;
   double area = 0.0;
-  for (std::size_t m = 0; m < job.meshes.size(); ++m) {
-    const sim::Mesh& mesh = job.meshes[m].mesh;
+  for (std::size_t m = 0; m < site.meshes.size(); ++m) {
+    const sim::Mesh& mesh = site.meshes[m].mesh;
     for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
       const auto& [a, b, c] = mesh.triangles[t];
       const Vec3 u = mesh.vertices_m[b] - mesh.vertices_m[a], v = mesh.vertices_m[c] - mesh.vertices_m[a];
@@ -49,10 +49,10 @@ std::vector<Point> drawPoints(const Job& job) {
   std::vector<Point> points;
   if (!(area > 0.0)) return points;
   for (std::uint32_t i = 0; i < kPoints; ++i) {
-    sim::Draws draws({sim::streamOf(job.scene.seed), i}, sim::Purpose::spot);
+    sim::Draws draws({sim::streamOf(seed), i}, sim::Purpose::spot);
     const auto found = std::upper_bound(ends.begin(), ends.end(), draws.uniform(0.0, area));
     const auto [m, t] = triangles[std::min(static_cast<std::size_t>(found - ends.begin()), ends.size() - 1)];
-    const sim::Mesh& mesh = job.meshes[m].mesh;
+    const sim::Mesh& mesh = site.meshes[m].mesh;
     const auto& [a, b, c] = mesh.triangles[t];
     const Vec3 u = mesh.vertices_m[b] - mesh.vertices_m[a], v = mesh.vertices_m[c] - mesh.vertices_m[a];
     double s = draws.uniform(), r = draws.uniform();
@@ -61,12 +61,12 @@ std::vector<Point> drawPoints(const Job& job) {
       r = 1.0 - r;
     }
     const Vec3 p = mesh.vertices_m[a] + s * u + r * v;
-    const Vec3 q = sim::voxelFromWorld(job.world.frame(), p);
+    const Vec3 q = sim::voxelFromWorld(site.world.frame(), p);
     const Voxel nearest = sim::voxelAt(q);
-    if (!sim::contains(job.world.frame().size, nearest) || !(glm::length(glm::cross(u, v)) > 0.0)) continue;
+    if (!sim::contains(site.world.frame().size, nearest) || !(glm::length(glm::cross(u, v)) > 0.0)) continue;
     Vec3 normal = glm::normalize(glm::cross(u, v));
-    const auto solid = [&](const Vec3& way) { return job.world.opaque().at(sim::voxelAt(q + way)); };
-    if (job.meshes[m].solid && solid(normal) && !solid(-normal)) normal = -normal;
+    const auto solid = [&](const Vec3& way) { return site.world.opaque().at(sim::voxelAt(q + way)); };
+    if (site.meshes[m].solid && solid(normal) && !solid(-normal)) normal = -normal;
     if (!solid(normal)) points.push_back({p, normal, m, t, sim::tilePoint(q)});
   }
   return points;
@@ -94,23 +94,23 @@ float reach(const sim::Frame& frame, Vec3 p_m, Vec3 direction) {
   return static_cast<float>(std::max(0.0, nearest) * frame.voxel_m);
 }
 
-Vec3f start(const Job& job, const Point& point) {
-  return Vec3f(point.p_m + 1e-3 * job.world.frame().voxel_m * point.normal);
+Vec3f start(const Site& site, const Point& point) {
+  return Vec3f(point.p_m + 1e-3 * site.world.frame().voxel_m * point.normal);
 }
 
 /// Whether something stands before the point, nearer than a voxel: a joint between things, which no map
 /// shows.
-bool inJoint(const Job& job, const render::RayScene& scene, const Point& point) {
+bool inJoint(const Site& site, const render::RayScene& scene, const Point& point) {
   render::RayScene::ShadowRays rays;
-  rays.origins_m[0] = start(job, point);
+  rays.origins_m[0] = start(site, point);
   rays.directions[0] = Vec3f(point.normal);
-  rays.reach_m[0] = static_cast<float>(job.world.frame().voxel_m);
+  rays.reach_m[0] = static_cast<float>(site.world.frame().voxel_m);
   rays.wanted[0] = true;
   return !scene.clear(rays)[0];
 }
 
 /// What the point receives by the rays, as sim::surfaceSky has it.
-double traced(const Job& job, const render::RayScene& scene, const std::vector<Vec3>& directions,
+double traced(const Site& site, const render::RayScene& scene, const std::vector<Vec3>& directions,
               const Point& point) {
   double received = 0.0, most = 0.0;
   for (std::size_t first = 0; first < directions.size(); first += render::kRays) {
@@ -119,17 +119,17 @@ double traced(const Job& job, const render::RayScene& scene, const std::vector<V
     for (std::size_t k = 0; k < render::kRays; ++k) {
       const Vec3& d = directions[first + k];
       if (!(glm::dot(d, point.normal) > 0.0)) continue;
-      amount[k] = sim::received(job.sky.weighting, d, point.normal);
+      amount[k] = sim::received(site.sky.weighting, d, point.normal);
       most += amount[k];
-      rays.origins_m[k] = start(job, point);
+      rays.origins_m[k] = start(site, point);
       rays.directions[k] = Vec3f(d);
-      rays.reach_m[k] = reach(job.world.frame(), point.p_m, d);
+      rays.reach_m[k] = reach(site.world.frame(), point.p_m, d);
       rays.wanted[k] = true;
     }
     const auto clear = scene.clear(rays);
     for (std::size_t k = 0; k < render::kRays; ++k) received += clear[k] ? amount[k] : 0.0;
   }
-  return most > 0.0 ? received / most * sim::openSky(job.sky.weighting, point.normal) : 0.0;
+  return most > 0.0 ? received / most * sim::openSky(site.sky.weighting, point.normal) : 0.0;
 }
 
 struct RowOrder {
@@ -142,16 +142,16 @@ struct Mapped {
 };
 
 /// The map's values at the points' voxels.
-std::map<Voxel, Mapped, RowOrder> mapAt(const Job& job, const std::vector<Point>& points) {
+std::map<Voxel, Mapped, RowOrder> mapAt(const Site& site, const std::vector<Point>& points) {
   std::map<Voxel, Mapped, RowOrder> values;
   for (const Point& point : points) values[point.voxel] = {};
   std::vector<sim::TiledVoxel> tiled;
   for (const auto& [voxel, value] : values) {
-    if (const auto surface = job.world.surfaceAt(voxel)) tiled.push_back({voxel, *surface});
+    if (const auto surface = site.world.surfaceAt(voxel)) tiled.push_back({voxel, *surface});
   }
-  const auto sensors = sim::surfaceSensors(job.world, std::move(tiled));
-  const auto open = sim::sweepOpen(job.world.opaque(), job.sky.directions, sensors.places);
-  const auto sky = sim::surfaceSky(sensors, open, job.sky);
+  const auto sensors = sim::surfaceSensors(site.world, std::move(tiled));
+  const auto open = sim::sweepOpen(site.world.opaque(), site.sky.directions, sensors.places);
+  const auto sky = sim::surfaceSky(sensors, open, site.sky);
   values.clear();
   for (std::size_t i = 0; i < sky.size(); ++i)
     values[sensors.surfaces[i].voxel] = {static_cast<double>(sky[i]), sensors.surfaces[i].surface.normal};
@@ -160,13 +160,13 @@ std::map<Voxel, Mapped, RowOrder> mapAt(const Job& job, const std::vector<Point>
 
 }  // namespace
 
-std::optional<Certificate::SpotCheck> spotCheck(const Job& job) {
+std::optional<Certificate::SpotCheck> spotCheck(const Site& site, std::uint64_t seed) {
   render::ModelScene model;
-  for (const sim::TiledMesh& tiled : job.meshes) model.meshes.push_back(&tiled.mesh);
+  for (const sim::TiledMesh& tiled : site.meshes) model.meshes.push_back(&tiled.mesh);
   const render::RayScene scene(model);
-  std::vector<Point> points = drawPoints(job);
-  std::erase_if(points, [&](const Point& p) { return inJoint(job, scene, p); });
-  const auto map = mapAt(job, points);
+  std::vector<Point> points = drawPoints(site, seed);
+  std::erase_if(points, [&](const Point& p) { return inJoint(site, scene, p); });
+  const auto map = mapAt(site, points);
   Certificate::SpotCheck check;
   check.rays = kRays;
   // A voxel has one value and one normal: where faces meet in it, the point's may be another.
@@ -182,7 +182,7 @@ std::optional<Certificate::SpotCheck> spotCheck(const Job& job) {
   const auto directions = hemisphere();
   std::vector<double> truths(points.size());
   sim::parallelForEach(points.size(),
-                       [&](std::size_t i) { truths[i] = traced(job, scene, directions, points[i]); });
+                       [&](std::size_t i) { truths[i] = traced(site, scene, directions, points[i]); });
 
   std::vector<double> sizes;
   double squares = 0.0;
@@ -191,7 +191,7 @@ std::optional<Certificate::SpotCheck> spotCheck(const Job& job) {
     check.bias += error;
     squares += error * error;
     if (sizes.empty() || std::abs(error) > *std::max_element(sizes.begin(), sizes.end())) {
-      const sim::Mesh& mesh = job.meshes[points[i].mesh].mesh;
+      const sim::Mesh& mesh = site.meshes[points[i].mesh].mesh;
       check.worst = {points[i].p_m, mesh.name, mesh.regions[mesh.region[points[i].triangle]], truths[i],
                      value};
     }

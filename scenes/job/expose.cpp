@@ -7,14 +7,15 @@
 #include "render/files/vdb.h"
 #include "scenes/accuracy/certificate.h"
 #include "scenes/job/stages.h"
-#include "scenes/lighting.h"
-#include "scenes/prepare/job.h"
+#include "scenes/prepare/in_scene.h"
+#include "scenes/prepare/site.h"
 #include "scenes/show/expose_pictures.h"
 #include "scenes/show/exposure_table.h"
 #include "scenes/show/light_fields.h"
 #include "scenes/show/pictures.h"
 #include "scenes/write/output_files.h"
 #include "sim/base/error.h"
+#include "sim/light/lighting.h"
 #include "sim/world/band.h"
 
 namespace espalier::scenes {
@@ -52,47 +53,55 @@ ExposeResult exposeScene(Scene scene, const RunOptions& options) {
   Report& report = result.report;
   Stages stages(options, report);
   scene.world.layers = 0;  // nothing grows, so nothing needs to feel its way
-  Job job = stages.run("tiling", [&] { return prepareJob(std::move(scene)); });
-  describeWorld(report, job);
+  const Site site = stages.run("tiling", [&] {
+    Site made = makeSite(scene);
+    requireCamerasInTheOpen(scene, made.world);
+    return made;
+  });
+  describeWorld(report, scene, site);
 
   std::shared_ptr<const sim::VoxelSet> space;
-  const Lighting light = stages.run("lighting", [&] {
-    space = spaceWanted(job.world, job.scene.exposure);
-    if (space) requireSpaceFits(job.scene, job.world.frame(), *space);
-    LightWanted wanted;
+  const sim::Lighting light = stages.run("lighting", [&] {
+    space = spaceWanted(site.world, scene.exposure);
+    if (space) requireSpaceFits(scene, site.world.frame(), *space);
+    sim::LightWanted wanted;
     wanted.brightest = true;
     wanted.space = space;
     wanted.space_hours = true;
-    wanted.random_sky = job.random_sky;
-    return lightOf(job.world, job.sky, job.sun, wanted);
+    wanted.random_sky = site.random_sky;
+    return sim::lightOf(site.world, site.sky, site.sun, wanted);
   });
   if (light.surfaces.empty() && !space) {
     throw sim::InputError(fmt::format(
         "{}: the world has no surface that can be lit; expected a mesh, or exposure: {{where: everything}}",
-        job.scene.file.string()));
+        scene.file.string()));
   }
   report.light = light.about;
   report.exposure = {light.surfaces.size(), light.gaps->count(), space ? space->count() : 0};
 
-  if (!job.random_sky && !light.surfaces.empty())
-    report.certificate = stages.run("certifying", [&] { return certify(job); });
-  const ExposureTable table = stages.run("counting", [&] { return exposureTable(job, light); });
+  if (!site.random_sky && !light.surfaces.empty())
+    report.certificate = stages.run("certifying", [&] { return certify(site, scene.seed); });
+  const ExposureTable table =
+      stages.run("counting", [&] { return exposureTable(scene.name, site.world, light); });
   result.table = toText(table);
   std::vector<OutputFile> files = {
       {"exposure.csv", [&] { return toCsv(table); }},
       {"exposure.json", [&] { return toJson(table); }},
-      {"exposure.vdb", [&] { return render::fieldVdbBytes(job.world, exposureFields(light, space.get())); }}};
-  const sim::Growth nothing;
+      {"exposure.vdb",
+       [&] { return render::fieldVdbBytes(site.world, exposureFields(light, space.get())); }}};
+  const std::vector<sim::Attempt> no_attempts;
   const std::vector<render::PlantModel> no_models;
   if (options.pictures) {
     stages.run("drawing", [&] {
-      if (job.scene.cameras.empty()) {
-        const double aspect = static_cast<double>(job.scene.image_width) / job.scene.image_height;
-        job.scene.cameras.push_back(overview(job.world.frame(), light.surfaces, job.sun, aspect));
+      PicturesWanted wanted = picturesOf(scene);
+      if (wanted.cameras.empty()) {
+        const double aspect = static_cast<double>(wanted.width_px) / wanted.height_px;
+        wanted.cameras.push_back(overview(site.world.frame(), light.surfaces, site.sun, aspect));
       }
-      job.scene.images = exposureImages(job.scene, job.sun);
-      for (OutputFile& file : drawPictures({job, nothing, light, no_models}, options.stop))
-        files.push_back(std::move(file));
+      wanted.images = exposureImages(scene, wanted.cameras, site.sun);
+      const Finished finished{site.meshes, site.world, no_attempts, light, no_models};
+      auto pictures = inScene(scene, [&] { return drawPictures(wanted, finished, options.stop); });
+      for (OutputFile& file : pictures) files.push_back(std::move(file));
     });
   }
   stages.run("writing", [&] { writeAll(options.folder, files); });

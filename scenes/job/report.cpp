@@ -4,6 +4,8 @@
 #include <sys/resource.h>
 
 #include "scenes/show/light_json.h"
+#include "sim/base/parallel.h"
+#include "sim/base/whole_file.h"
 
 namespace espalier::scenes {
 namespace {
@@ -30,21 +32,22 @@ Json growth(const Report::Growth& growth) {
           {"plants", plants}};
 }
 
-}  // namespace
-
-void describeWorld(Report& report, const Job& job) {
-  report.scene = job.scene.name;
-  report.frame = job.world.frame();
-  report.fills = job.fills;
-  report.scene_voxels = job.world.occupied().count();
-  report.occupied_voxels = report.scene_voxels;
-  for (const auto& tiled : job.meshes) report.degenerate_triangles += tiled.mesh.degenerate_dropped;
-}
-
+/// The most memory that this process has held so far.
 std::uint64_t peakMemoryBytes() {
   rusage usage{};
   getrusage(RUSAGE_SELF, &usage);
   return static_cast<std::uint64_t>(usage.ru_maxrss) * 1024u;
+}
+
+}  // namespace
+
+void describeWorld(Report& report, const Scene& scene, const Site& site) {
+  report.scene = scene.name;
+  report.frame = site.world.frame();
+  report.fills = site.fills;
+  report.scene_voxels = site.world.occupied().count();
+  report.occupied_voxels = report.scene_voxels;
+  for (const auto& tiled : site.meshes) report.degenerate_triangles += tiled.mesh.degenerate_dropped;
 }
 
 std::string toJson(const Report& report) {
@@ -79,6 +82,32 @@ std::string toJson(const Report& report) {
                  {"peak_memory_bytes", report.run.peak_memory_bytes},
                  {"threads", report.run.threads}};
   return json.dump(2) + "\n";
+}
+
+void writeReport(const std::filesystem::path& folder, const std::vector<OutputFile>& files, Report& report) {
+  for (const OutputFile& file : files) report.files.push_back(file.name);
+  report.files.emplace_back("report.json");
+  report.run.peak_memory_bytes = peakMemoryBytes();
+  report.run.threads = sim::threadCount();
+  sim::writeWhole(folder / "report.json", toJson(report));
+}
+
+std::string endOfSummary(const Report& report, const std::filesystem::path& folder) {
+  std::string text;
+  for (const auto& fill : report.fills) {
+    if (fill.doubtful > 0) {
+      text += fmt::format("note: '{}' leaks; {} of {} voxels inside are doubtful\n", fill.object,
+                          fill.doubtful, fill.filled);
+    }
+  }
+  std::string stages;
+  for (const auto& [name, seconds] : report.run.stages_s) stages += fmt::format(", {} {:.2f}", name, seconds);
+  text += fmt::format("{:.2f} s ({}), {:.0f} MB", report.run.total_s, stages.substr(2),
+                      static_cast<double>(report.run.peak_memory_bytes) / 1e6);
+  if (report.growth) text += fmt::format(", state {:016x}", report.growth->state_hash);
+  text += "\nwrote\n";
+  for (const std::string& file : report.files) text += "  " + (folder / file).string() + "\n";
+  return text;
 }
 
 }  // namespace espalier::scenes

@@ -1,15 +1,17 @@
 #pragma once
 #include <array>
 #include <cstdint>
+#include <filesystem>
 #include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "scenes/accuracy/certificate.h"
-#include "scenes/lighting.h"
-#include "scenes/prepare/job.h"
+#include "scenes/prepare/site.h"
+#include "scenes/write/output_files.h"
 #include "sim/grow/grow.h"
+#include "sim/light/lighting.h"
 
 namespace espalier::scenes {
 
@@ -21,7 +23,7 @@ struct Report {
   std::size_t scene_voxels = 0;     ///< before they grew
   std::size_t degenerate_triangles = 0;
   std::vector<sim::FillReport> fills;
-  LightAbout light;
+  sim::LightAbout light;
 
   struct Growth {
     int iterations = 0;
@@ -53,9 +55,13 @@ struct Report {
 std::string toJson(const Report& report);
 
 /// Fills in what there is to say of a world before anything grows in it.
-void describeWorld(Report& report, const Job& job);
+void describeWorld(Report& report, const Scene& scene, const Site& site);
 
-/// The most memory that this process has held so far.
-std::uint64_t peakMemoryBytes();
+/// Completes the report of a run that wrote these files, and writes it as report.json, the last of them.
+/// Throws sim::InputError.
+void writeReport(const std::filesystem::path& folder, const std::vector<OutputFile>& files, Report& report);
+
+/// The end of a summary: how long the run took, and where its files lie.
+std::string endOfSummary(const Report& report, const std::filesystem::path& folder);
 
 }  // namespace espalier::scenes

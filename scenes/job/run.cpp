@@ -8,33 +8,34 @@
 #include "render/files/vdb.h"
 #include "render/model/plant_model.h"
 #include "scenes/job/stages.h"
-#include "scenes/lighting.h"
-#include "scenes/prepare/job.h"
+#include "scenes/prepare/in_scene.h"
+#include "scenes/prepare/plantings.h"
+#include "scenes/prepare/site.h"
 #include "scenes/show/light_fields.h"
 #include "scenes/show/pictures.h"
 #include "scenes/write/output_files.h"
-#include "sim/base/error.h"
 #include "sim/base/parallel.h"
+#include "sim/light/lighting.h"
 #include "sim/world/band.h"
 
 namespace espalier::scenes {
 namespace {
 
-std::vector<render::PlantModel> modelPlants(const Job& job, const std::vector<sim::Plant>& plants) {
+std::vector<render::PlantModel> modelPlants(const sim::Frame& frame, const std::vector<sim::Plant>& plants) {
   std::vector<render::PlantModel> models(plants.size());
   sim::parallelFor(plants.size(), 1, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       render::ModelOptions options;
       options.pipe.tip_radius_vx = static_cast<float>(plants[i].stem_radius_vx);
-      models[i] = render::modelPlant(plants[i], job.world.frame(), options);
+      models[i] = render::modelPlant(plants[i], frame, options);
     }
   });
   return models;
 }
 
-std::string glb(const Job& job, const std::vector<render::PlantModel>& models) {
+std::string glb(const Site& site, const std::vector<render::PlantModel>& models) {
   render::ModelScene scene;
-  for (const auto& tiled : job.meshes) scene.meshes.push_back(&tiled.mesh);
+  for (const auto& tiled : site.meshes) scene.meshes.push_back(&tiled.mesh);
   for (const auto& model : models) scene.plants.push_back(&model);
   return render::glbBytes(scene);
 }
@@ -61,46 +62,49 @@ bool drawsVines(const Scene& scene) {
 
 }  // namespace
 
-Report runScene(Scene scene, const RunOptions& options) {
+Report runScene(const Scene& scene, const RunOptions& options) {
   Report report;
   Stages stages(options, report);
-  Job job = stages.run("tiling", [&] { return prepareJob(std::move(scene)); });
-  describeWorld(report, job);
-  const sim::BitVolume before = job.world.occupied();
+  std::vector<sim::Planting> plantings;
+  Site site = stages.run("tiling", [&] {
+    Site made = makeSite(scene);
+    plantings = makePlantings(scene, made);
+    requireCamerasInTheOpen(scene, made.world);
+    return made;
+  });
+  describeWorld(report, scene, site);
+  const sim::BitVolume before = site.world.occupied();
+  // Plants grow in the site's own world: a run grows once, and a second world would take as much memory.
+  sim::World& world = site.world;
 
-  sim::GrowthSettings settings = growthSettings(job);
+  sim::GrowthSettings settings = growthSettings(scene, site);
   settings.stop = options.stop;
   settings.progress = options.on_growth;
-  const sim::Growth growth = stages.run("growing", [&] {
-    try {
-      return sim::grow(job.world, job.plantings, settings);
-    } catch (const sim::InputError& error) {
-      throw sim::InputError(fmt::format("{}: {}", job.scene.file.string(), error.what()));
-    }
-  });
-  report.growth = countPlants(job.world, growth);
-  report.occupied_voxels = job.world.occupied().count();
+  const sim::Growth growth = stages.run(
+      "growing", [&] { return inScene(scene, [&] { return sim::grow(world, plantings, settings); }); });
+  report.growth = countPlants(world, growth);
+  report.occupied_voxels = world.occupied().count();
 
   std::shared_ptr<const sim::VoxelSet> layers;
-  const Lighting light = stages.run("lighting", [&] {
-    layers = std::make_shared<const sim::VoxelSet>(openLayers(before, job.world));
-    LightWanted wanted;
+  const sim::Lighting light = stages.run("lighting", [&] {
+    layers = std::make_shared<const sim::VoxelSet>(openLayers(before, world));
+    sim::LightWanted wanted;
     wanted.space = layers;
-    wanted.dense = options.pictures && drawsVines(job.scene);  // leaves are lit by what is around them
-    if (wanted.dense) sim::requireFits(job.world.frame(), {job.world.layers(), 2 * 2.0});
-    wanted.random_sky = job.random_sky;
-    return lightOf(job.world, job.sky, job.sun, wanted);
+    wanted.dense = options.pictures && drawsVines(scene);  // leaves are lit by what is around them
+    if (wanted.dense) sim::requireFits(world.frame(), {world.layers(), 2 * 2.0});
+    wanted.random_sky = site.random_sky;
+    return sim::lightOf(world, site.sky, site.sun, wanted);
   });
   report.light = light.about;
-  const auto models = stages.run("modelling", [&] { return modelPlants(job, growth.plants); });
+  const auto models = stages.run("modelling", [&] { return modelPlants(world.frame(), growth.plants); });
   std::vector<OutputFile> files;
-  files.push_back({"plant.glb", [&] { return glb(job, models); }});
-  files.push_back({"world.vdb", [&] { return render::vdbBytes(job.world, worldFields(light, *layers)); }});
+  files.push_back({"plant.glb", [&] { return glb(site, models); }});
+  files.push_back({"world.vdb", [&] { return render::vdbBytes(world, worldFields(light, *layers)); }});
   if (options.pictures) {
     stages.run("drawing", [&] {
-      for (OutputFile& file : drawPictures({job, growth, light, models}, options.stop)) {
-        files.push_back(std::move(file));
-      }
+      const Finished finished{site.meshes, world, growth.attempts, light, models};
+      auto pictures = inScene(scene, [&] { return drawPictures(picturesOf(scene), finished, options.stop); });
+      for (OutputFile& file : pictures) files.push_back(std::move(file));
     });
   }
   stages.run("writing", [&] { writeAll(options.folder, files); });

@@ -21,7 +21,7 @@ struct RunOptions {
 /// world (world.vdb), the pictures that the scene asks for and report.json into the folder, every file whole
 /// or not at all, the report last. Nothing is written before the growth is done. Throws sim::InputError;
 /// MeshMissing; sim::Stopped when stopped, and then nothing more is written.
-Report runScene(Scene scene, const RunOptions& options);
+Report runScene(const Scene& scene, const RunOptions& options);
 
 /// What a person wants to know of a run: a few lines that end with the files.
 std::string summary(const Report& report, const std::filesystem::path& folder);

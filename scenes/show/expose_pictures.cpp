@@ -51,7 +51,8 @@ NamedCamera overview(const sim::Frame& frame, const std::vector<sim::TiledVoxel>
   return {"overview", {eye, eye - glm::length(sim::Vec3(frame.size)) * frame.voxel_m * back, kFov}};
 }
 
-std::vector<ImageSpec> exposureImages(const Scene& scene, const sim::Sun& sun) {
+std::vector<ImageSpec> exposureImages(const Scene& scene, const std::vector<NamedCamera>& cameras,
+                                      const sim::Sun& sun) {
   std::vector<std::pair<ImageKind, const char*>> kinds = {{ImageKind::sky_exposure, "Sky exposure"}};
   if (!sun.directions.empty()) {
     kinds.insert(kinds.begin(), {ImageKind::sun_exposure, "Sun exposure"});
@@ -63,8 +64,8 @@ std::vector<ImageSpec> exposureImages(const Scene& scene, const sim::Sun& sun) {
   kinds.emplace_back(ImageKind::surface_colour, "Surface colour");
   if (!sun.directions.empty()) kinds.emplace_back(ImageKind::first_pass, "Lit by sun and sky");
   std::vector<ImageSpec> images;
-  for (const NamedCamera& camera : scene.cameras) {
-    const std::string end = scene.cameras.size() > 1 ? "_" + camera.name : "";
+  for (const NamedCamera& camera : cameras) {
+    const std::string end = cameras.size() > 1 ? "_" + camera.name : "";
     ImageSpec sheet;
     sheet.name = "contact_sheet" + end;
     sheet.kind = ImageKind::contact_sheet;

@@ -1,7 +1,10 @@
 #pragma once
 #include <vector>
 
-#include "scenes/prepare/job.h"
+#include "scenes/scene.h"
+#include "sim/base/frame.h"
+#include "sim/light/sun.h"
+#include "sim/world/world.h"
 
 namespace espalier::scenes {
 
@@ -10,7 +13,8 @@ namespace espalier::scenes {
 NamedCamera overview(const sim::Frame& frame, const std::vector<sim::TiledVoxel>& surfaces,
                      const sim::Sun& sun, double aspect);
 
-/// The panels that make sense for a scene's light, for each of its cameras, with a contact sheet for each.
-std::vector<ImageSpec> exposureImages(const Scene& scene, const sim::Sun& sun);
+/// The panels that make sense for a scene's light, for each camera, with a contact sheet for each.
+std::vector<ImageSpec> exposureImages(const Scene& scene, const std::vector<NamedCamera>& cameras,
+                                      const sim::Sun& sun);
 
 }  // namespace espalier::scenes

@@ -7,6 +7,7 @@
 #include <numeric>
 
 #include "scenes/show/light_json.h"
+#include "scenes/show/light_texts.h"
 #include "sim/base/parallel.h"
 
 namespace espalier::scenes {
@@ -98,9 +99,9 @@ Json rowJson(const ExposureTable& table, const ExposureRow& row) {
 
 }  // namespace
 
-ExposureTable exposureTable(const Job& job, const Lighting& light) {
-  ExposureTable table{job.scene.name, light.about, {}, {}};
-  std::vector<const Received*> received = {&light.sky};
+ExposureTable exposureTable(const std::string& scene, const sim::World& world, const sim::Lighting& light) {
+  ExposureTable table{scene, light.about, {}, {}};
+  std::vector<const sim::Received*> received = {&light.sky};
   table.quantities.push_back(
       {"sky_exposure", "1", "what a surface receives of the sky by its own normal; open ground: 1", 1.0});
   if (!light.about.sun.empty()) {
@@ -108,7 +109,6 @@ ExposureTable exposureTable(const Job& job, const Lighting& light) {
     table.quantities.push_back({"sun_hours", "hours a day", "direct sun", light.about.sun_hours});
     received.insert(received.end(), {&light.sun, &light.sun_hours});
   }
-  const sim::World& world = job.world;
   const std::size_t parts = world.parts().size();
   std::vector<std::vector<std::size_t>> of(parts + 1);  // surfaces by part; the last holds all
   for (std::size_t i = 0; i < light.surfaces.size(); ++i)

@@ -3,8 +3,8 @@
 #include <string>
 #include <vector>
 
-#include "scenes/lighting.h"
-#include "scenes/prepare/job.h"
+#include "sim/light/lighting.h"
+#include "sim/world/world.h"
 
 namespace espalier::scenes {
 
@@ -33,12 +33,13 @@ struct ExposureTable {
     double range = 1.0;  ///< from 0 to this
   };
   std::string scene;
-  LightAbout about;
+  sim::LightAbout about;
   std::vector<Quantity> quantities;  ///< those of a sun only where there is one
   std::vector<ExposureRow> rows;     ///< regions that have surfaces, then the total
 };
 
-ExposureTable exposureTable(const Job& job, const Lighting& light);
+/// `scene` is its name.
+ExposureTable exposureTable(const std::string& scene, const sim::World& world, const sim::Lighting& light);
 
 /// A row for each region and quantity, RFC 4180, with a header that names units; exposures to 4 decimals.
 std::string toCsv(const ExposureTable& table);

@@ -59,12 +59,12 @@ render::Image drawSection(const sim::World& world, const ImageSpec& image) {
       look);
 }
 
-render::Image drawAttempts(const sim::World& world, const sim::Growth& growth) {
+render::Image drawAttempts(const sim::World& world, const std::vector<sim::Attempt>& attempts) {
   const sim::Voxel size = world.frame().size;
   const int axis = size.x == 1 ? 0 : size.y == 1 ? 1 : 2;
   const auto [across, up] = picturePlane(axis);
   std::vector<render::Attempt> drawn;
-  for (const sim::Attempt& a : growth.attempts) {
+  for (const sim::Attempt& a : attempts) {
     drawn.push_back({{a.from_vx[across], a.from_vx[up]}, {a.to_vx[across], a.to_vx[up]}, a.taken});
   }
   std::vector<glm::ivec2> occupied;

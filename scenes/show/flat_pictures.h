@@ -1,4 +1,6 @@
 #pragma once
+#include <vector>
+
 #include "render/image/image.h"
 #include "scenes/scene.h"
 #include "sim/grow/grow.h"
@@ -12,6 +14,6 @@ render::Image drawSection(const sim::World& world, const ImageSpec& image);
 
 /// Greene's figure 2: looks along the axis on which the world is flat; a world that is not flat is seen along
 /// z.
-render::Image drawAttempts(const sim::World& world, const sim::Growth& growth);
+render::Image drawAttempts(const sim::World& world, const std::vector<sim::Attempt>& attempts);
 
 }  // namespace espalier::scenes

@@ -2,6 +2,8 @@
 
 #include <memory>
 
+#include "scenes/show/light_texts.h"
+
 namespace espalier::scenes {
 namespace {
 
@@ -12,7 +14,7 @@ using Numbers = std::vector<VdbPart<float>>;
 constexpr const char* kSkyMeaning = "what a surface receives of the sky by its own normal; open ground: 1";
 constexpr const char* kSunMeaning = "weighted share of the sun's way that a surface sees";
 
-VdbPart<float> onSurfaces(const Lighting& light, const Received& received) {
+VdbPart<float> onSurfaces(const sim::Lighting& light, const sim::Received& received) {
   return {light.where.get(), [&received](sim::Voxel, std::size_t n) { return received.values[n]; }};
 }
 
@@ -24,8 +26,8 @@ VdbPart<float> inSpace(const sim::VoxelSet& where, const sim::ExposureField& fie
 
 }  // namespace
 
-std::vector<VdbField> worldFields(const Lighting& light, const sim::VoxelSet& around) {
-  const auto field = [&](const char* name, const char* description, const Received& received,
+std::vector<VdbField> worldFields(const sim::Lighting& light, const sim::VoxelSet& around) {
+  const auto field = [&](const char* name, const char* description, const sim::Received& received,
                          const sim::ExposureField& space) {
     const auto gaps = std::make_shared<const std::vector<float>>(light.ofGaps(received));
     return VdbField{name, description, "1",
@@ -40,7 +42,7 @@ std::vector<VdbField> worldFields(const Lighting& light, const sim::VoxelSet& ar
                 light.sky, *light.space_sky)};
 }
 
-std::vector<VdbField> exposureFields(const Lighting& light, const sim::VoxelSet* space) {
+std::vector<VdbField> exposureFields(const sim::Lighting& light, const sim::VoxelSet* space) {
   const bool sun = !light.about.sun.empty();
   const auto surfaces = [&](auto value) {
     return std::vector{VdbPart<decltype(value(std::size_t{}))>{

@@ -2,12 +2,12 @@
 // Heavy: nlohmann/json. Include from .cpp files alone.
 #include <nlohmann/json.hpp>
 
-#include "scenes/lighting.h"
+#include "sim/light/lighting.h"
 
 namespace espalier::scenes {
 
 /// What the numbers of a light are, for reports and tables.
-inline nlohmann::ordered_json lightJson(const LightAbout& about) {
+inline nlohmann::ordered_json lightJson(const sim::LightAbout& about) {
   nlohmann::ordered_json json = {
       {"sky", about.sky}, {"weighting", about.weighting}, {"directions", about.directions}};
   if (about.standard_error > 0.0) json["standard_error"] = about.standard_error;

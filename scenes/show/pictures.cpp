@@ -15,6 +15,7 @@
 #include "render/voxels/visibility.h"
 #include "scenes/lights.h"
 #include "scenes/show/flat_pictures.h"
+#include "scenes/show/light_texts.h"
 #include "sim/base/error.h"
 #include "sim/base/parallel.h"
 #include "sim/world/ray.h"
@@ -47,11 +48,10 @@ std::optional<Panel> panelOf(ImageKind kind) {
 }
 
 /// What an image's numbers are, for its header.
-render::Metadata metadataOf(const Finished& finished, const ImageSpec& image) {
-  render::Metadata metadata = {{"Title", finished.job.scene.name + ": " + image.name}};
-  metadata.emplace_back("espalier:voxel_m", fmt::format("{:.6g}", finished.light.about.voxel_m));
-  for (const auto& [name, text] : texts(finished.light.about))
-    metadata.emplace_back("espalier:" + name, text);
+render::Metadata metadataOf(const std::string& title, const sim::LightAbout& about, const ImageSpec& image) {
+  render::Metadata metadata = {{"Title", title + ": " + image.name}};
+  metadata.emplace_back("espalier:voxel_m", fmt::format("{:.6g}", about.voxel_m));
+  for (const auto& [name, text] : texts(about)) metadata.emplace_back("espalier:" + name, text);
   return metadata;
 }
 
@@ -72,17 +72,17 @@ std::string wrapped(const std::string& text) {
   return out + line;
 }
 
-const render::Camera& cameraOf(const Scene& scene, const ImageSpec& image) {
-  for (const NamedCamera& camera : scene.cameras) {
+const render::Camera& cameraOf(const PicturesWanted& wanted, const ImageSpec& image) {
+  for (const NamedCamera& camera : wanted.cameras) {
     if (image.camera.empty() || camera.name == image.camera) return camera.camera;
   }
-  throw sim::InputError(fmt::format("{}: image '{}' needs a camera", scene.file.string(), image.name));
+  throw sim::InputError(fmt::format("image '{}' needs a camera", image.name));
 }
 
 /// The cameras' views and the painters of their panels, each made once.
 class Studio {
  public:
-  explicit Studio(const Finished& finished);
+  Studio(const PicturesWanted& wanted, const Finished& finished);
   render::PanelPicture paint(const ImageSpec& image, Panel panel);
   /// Draws a panel's legend onto its picture.
   std::function<void(Image&)> legend(Panel panel) const;
@@ -97,56 +97,53 @@ class Studio {
     render::PanelPainter painter;
   };
 
-  render::FaceValue faces(const Received& received) const {
+  render::FaceValue faces(const sim::Received& received) const {
     return [&light = finished_.light, &received](sim::Voxel v, std::uint8_t face) {
       return light.atFace(received, v, face);
     };
   }
 
+  const PicturesWanted& wanted_;
   const Finished& finished_;
-  const Scene& scene_;
   sim::Bricks bricks_;
   render::PanelWorld world_;
   render::PanelLook look_;
   std::map<std::string, std::unique_ptr<View>> views_;  // by camera
 };
 
-Studio::Studio(const Finished& finished)
-    : finished_(finished),
-      scene_(finished.job.scene),
-      bricks_(finished.job.world.occupied()),
-      world_{finished.job.world.occupied(),
+Studio::Studio(const PicturesWanted& wanted, const Finished& finished)
+    : wanted_(wanted),
+      finished_(finished),
+      bricks_(finished.world.occupied()),
+      world_{finished.world.occupied(),
              bricks_,
              faces(finished.light.sun),
              faces(finished.light.sky),
-             [&world = finished.job.world](sim::Voxel v) {
+             [&world = finished.world](sim::Voxel v) {
                const auto surface = world.surfaceAt(v);
                return surface ? surface->colour : sim::Colour(0.0f);
              },
              faces(finished.light.sun_hours)} {
   look_.most_hours = std::max(0.01f, static_cast<float>(finished.light.about.sun_hours));
-  if (!scene_.plants.empty()) {
-    const rules::RuleSet& rules = *scene_.plants.front().rules;
-    const double sum = rules.light.sun + rules.light.sky;
-    look_.blend_sun = static_cast<float>(rules.light.sun / sum);
-    look_.blend_sky = static_cast<float>(rules.light.sky / sum);
-    look_.threshold = static_cast<float>(rules.require.exposure_min);
+  if (wanted.plant_light) {
+    look_.blend_sun = wanted.plant_light->sun;
+    look_.blend_sky = wanted.plant_light->sky;
+    look_.threshold = wanted.plant_light->least;
   }
-  look_.to_sun = shadowDirection(scene_.sun);
+  look_.to_sun = wanted.to_sun;
 }
 
 render::PanelPicture Studio::paint(const ImageSpec& image, Panel panel) {
   auto& view = views_[image.camera];
   if (!view) {
     std::vector<Panel> panels;
-    for (const ImageSpec& other : scene_.images) {
-      const auto wanted = panelOf(other.kind);
-      if (wanted && other.camera == image.camera) panels.push_back(*wanted);
+    for (const ImageSpec& other : wanted_.images) {
+      const auto kind = panelOf(other.kind);
+      if (kind && other.camera == image.camera) panels.push_back(*kind);
     }
-    view = std::make_unique<View>(
-        render::see(finished_.job.world.frame(), finished_.job.world.occupied(), bricks_,
-                    cameraOf(scene_, image), scene_.image_width, scene_.image_height),
-        world_, look_, panels);
+    view = std::make_unique<View>(render::see(finished_.world.frame(), finished_.world.occupied(), bricks_,
+                                              cameraOf(wanted_, image), wanted_.width_px, wanted_.height_px),
+                                  world_, look_, panels);
   }
   return view->painter.paint(panel);
 }
@@ -185,14 +182,14 @@ std::function<void(Image&)> Studio::legend(Panel panel) const {
 
 Image Studio::vines(const ImageSpec& image) const {
   render::FinishedScene scene;
-  for (const auto& tiled : finished_.job.meshes) scene.model.meshes.push_back(&tiled.mesh);
+  for (const auto& tiled : finished_.meshes) scene.model.meshes.push_back(&tiled.mesh);
   for (const auto& model : finished_.models) scene.model.plants.push_back(&model);
-  scene.frame = finished_.job.world.frame();
-  scene.occupied = &finished_.job.world.occupied();
+  scene.frame = finished_.world.frame();
+  scene.occupied = &finished_.world.occupied();
   scene.sky = finished_.light.space_sky.get();
   scene.to_sun = look_.to_sun;
   Image picture =
-      render::finishedPicture(scene, cameraOf(scene_, image), scene_.image_width, scene_.image_height);
+      render::finishedPicture(scene, cameraOf(wanted_, image), wanted_.width_px, wanted_.height_px);
   for (std::size_t i = 0; i + 2 < picture.pixels.size(); i += 3) {
     const sim::Colour display =
         look_.tone(sim::Colour(picture.pixels[i], picture.pixels[i + 1], picture.pixels[i + 2]));
@@ -205,12 +202,12 @@ OutputFile png(const std::string& name, std::shared_ptr<const Image> picture, re
   return {name + ".png", [picture, metadata] { return render::encodePng(*picture, metadata); }};
 }
 
-Image contactSheet(const Scene& scene, const LightAbout& about, const ImageSpec& sheet,
+Image contactSheet(const PicturesWanted& wanted, const sim::LightAbout& about, const ImageSpec& sheet,
                    const std::map<std::string, std::shared_ptr<const Image>>& pictures) {
   std::vector<render::Captioned> captioned;
   bool light = false;
   for (const std::string& name : sheet.of) {
-    const auto spec = std::find_if(scene.images.begin(), scene.images.end(),
+    const auto spec = std::find_if(wanted.images.begin(), wanted.images.end(),
                                    [&](const ImageSpec& image) { return image.name == name; });
     light = light || panelOf(spec->kind).has_value();
     const std::string letter(1, static_cast<char>('A' + captioned.size()));
@@ -219,16 +216,29 @@ Image contactSheet(const Scene& scene, const LightAbout& about, const ImageSpec&
   }
   render::SheetLook look;
   look.columns = captioned.size() <= 4 ? static_cast<int>(captioned.size()) : captioned.size() <= 6 ? 3 : 4;
-  look.title = sheet.caption.empty() ? scene.name : sheet.caption;
+  look.title = sheet.caption.empty() ? wanted.title : sheet.caption;
   if (light) look.note = "sky: " + about.sky + (about.sun.empty() ? "" : "\n" + about.sun);
   return render::contactSheet(captioned, look);
 }
 
 }  // namespace
 
-std::vector<OutputFile> drawPictures(const Finished& finished, const std::stop_token& stop) {
-  const Scene& scene = finished.job.scene;
-  Studio studio(finished);
+PicturesWanted picturesOf(const Scene& scene) {
+  PicturesWanted wanted{scene.name,   scene.image_width,          scene.image_height, scene.cameras,
+                        scene.images, shadowDirection(scene.sun), std::nullopt};
+  if (!scene.plants.empty()) {
+    const rules::RuleSet& rules = *scene.plants.front().rules;
+    const double sum = rules.light.sun + rules.light.sky;
+    wanted.plant_light = {static_cast<float>(rules.light.sun / sum),
+                          static_cast<float>(rules.light.sky / sum),
+                          static_cast<float>(rules.require.exposure_min)};
+  }
+  return wanted;
+}
+
+std::vector<OutputFile> drawPictures(const PicturesWanted& wanted, const Finished& finished,
+                                     const std::stop_token& stop) {
+  Studio studio(wanted, finished);
   std::vector<OutputFile> files;
   std::map<std::string, std::shared_ptr<const Image>> pictures;  // without legends, for the contact sheets
   const auto keep = [&](const ImageSpec& image, Image picture) {
@@ -236,14 +246,16 @@ std::vector<OutputFile> drawPictures(const Finished& finished, const std::stop_t
     pictures[image.name] = kept;
     return kept;
   };
-  const auto metadata = [&](const ImageSpec& image) { return metadataOf(finished, image); };
+  const auto metadata = [&](const ImageSpec& image) {
+    return metadataOf(wanted.title, finished.light.about, image);
+  };
   // The two that take time, side by side: each has stretches that keep one core alone busy.
   std::map<std::string, render::PanelPicture> panels;
   std::map<std::string, Image> vines;
-  const auto forEach = [&](const auto& wanted, const auto& draw) {
-    for (const ImageSpec& image : scene.images) {
+  const auto forEach = [&](const auto& of, const auto& draw) {
+    for (const ImageSpec& image : wanted.images) {
       if (stop.stop_requested()) throw sim::Stopped();
-      if (wanted(image)) draw(image);
+      if (of(image)) draw(image);
     }
   };
   sim::parallelInvoke(
@@ -256,7 +268,7 @@ std::vector<OutputFile> drawPictures(const Finished& finished, const std::stop_t
         forEach([](const ImageSpec& image) { return image.kind == ImageKind::vines; },
                 [&](const ImageSpec& image) { vines[image.name] = studio.vines(image); });
       });
-  for (const ImageSpec& image : scene.images) {
+  for (const ImageSpec& image : wanted.images) {
     if (const auto panel = panelOf(image.kind)) {
       render::PanelPicture& painted = panels.at(image.name);
       const auto display = keep(image, std::move(painted.display));
@@ -274,17 +286,17 @@ std::vector<OutputFile> drawPictures(const Finished& finished, const std::stop_t
     } else if (image.kind == ImageKind::vines) {
       files.push_back(png(image.name, keep(image, std::move(vines.at(image.name))), metadata(image)));
     } else if (image.kind == ImageKind::section) {
-      files.push_back(png(image.name, keep(image, drawSection(finished.job.world, image)), metadata(image)));
+      files.push_back(png(image.name, keep(image, drawSection(finished.world, image)), metadata(image)));
     } else if (image.kind == ImageKind::attempts) {
       files.push_back(
-          png(image.name, keep(image, drawAttempts(finished.job.world, finished.growth)), metadata(image)));
+          png(image.name, keep(image, drawAttempts(finished.world, finished.attempts)), metadata(image)));
     }
   }
-  for (const ImageSpec& image : scene.images) {
+  for (const ImageSpec& image : wanted.images) {
     if (image.kind != ImageKind::contact_sheet) continue;
     files.push_back({image.name + ".png",
-                     [&scene, &light = finished.light.about, image, pictures, about = metadata(image)] {
-                       return render::encodePng(contactSheet(scene, light, image, pictures), about);
+                     [wanted, &light = finished.light.about, image, pictures, about = metadata(image)] {
+                       return render::encodePng(contactSheet(wanted, light, image, pictures), about);
                      }});
   }
   return files;

@@ -1,26 +1,51 @@
 #pragma once
+#include <optional>
 #include <stop_token>
+#include <string>
 #include <vector>
 
 #include "render/model/plant_model.h"
-#include "scenes/lighting.h"
-#include "scenes/prepare/job.h"
+#include "scenes/scene.h"
 #include "scenes/write/output_files.h"
 #include "sim/grow/grow.h"
+#include "sim/light/lighting.h"
+#include "sim/tile/build_world.h"
+#include "sim/world/world.h"
 
 namespace espalier::scenes {
 
+/// The light that a plant's rules ask for.
+struct PlantLight {
+  float sun = 0.0f, sky = 0.0f;  ///< their shares of exposure, 1 together
+  float least = 0.0f;            ///< exposure at which it still grows
+};
+
+/// What to draw.
+struct PicturesWanted {
+  std::string title;
+  int width_px = 0, height_px = 0;
+  std::vector<NamedCamera> cameras;
+  std::vector<ImageSpec> images;
+  sim::Vec3 to_sun{0.0, 1.0, 0.0};  ///< unit: of the shadow matte, the first pass and the vines
+  /// Of the plant whose threshold the panels show; none: render::PanelLook's own.
+  std::optional<PlantLight> plant_light;
+};
+
+/// All that the scene itself asks for. Threshold panels speak of its first plant.
+PicturesWanted picturesOf(const Scene& scene);
+
 /// What pictures are made from, once growth is done. Borrowed.
 struct Finished {
-  const Job& job;
-  const sim::Growth& growth;
-  const Lighting& light;                          ///< in all of space too, where there is an image of vines
+  const std::vector<sim::TiledMesh>& meshes;
+  const sim::World& world;
+  const std::vector<sim::Attempt>& attempts;
+  const sim::Lighting& light;                     ///< in all of space too, where there is an image of vines
   const std::vector<render::PlantModel>& models;  ///< one a plant
 };
 
-/// Draws the images that a scene asks for, in its order: PNG files for the eye, and EXR files with the pure
-/// values of the exposure and colour panels. Throws sim::InputError; sim::Stopped when stopped between two
-/// pictures.
-std::vector<OutputFile> drawPictures(const Finished& finished, const std::stop_token& stop = {});
+/// Draws images, in their order: PNG files for the eye, and EXR files with the pure values of the exposure
+/// and colour panels. Throws sim::InputError; sim::Stopped when stopped between two pictures.
+std::vector<OutputFile> drawPictures(const PicturesWanted& wanted, const Finished& finished,
+                                     const std::stop_token& stop = {});
 
 }  // namespace espalier::scenes

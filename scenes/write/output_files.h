@@ -4,8 +4,6 @@
 #include <string>
 #include <vector>
 
-#include "scenes/job/report.h"
-
 namespace espalier::scenes {
 
 /// A file to be written, once its bytes have been made.
@@ -17,11 +15,5 @@ struct OutputFile {
 /// Makes every file's bytes, then the folder, and writes them all, each whole or not at all: nothing is
 /// written where one of them cannot be made. Throws sim::InputError.
 void writeAll(const std::filesystem::path& folder, const std::vector<OutputFile>& files);
-
-/// Completes the report of a run that wrote these files, and writes it as report.json, the last of them.
-void writeReport(const std::filesystem::path& folder, const std::vector<OutputFile>& files, Report& report);
-
-/// The end of a summary: how long the run took, and where its files lie.
-std::string endOfSummary(const Report& report, const std::filesystem::path& folder);
 
 }  // namespace espalier::scenes

@@ -87,25 +87,25 @@ ExposureField randomExposure(const BitVolume& occupied, const RandomSky& sky, We
                              std::shared_ptr<const VoxelSet> where) {
   requireRays(sky);
   const Voxel size = occupied.size();
-  ExposureField field{size, {}, where};
+  ExposureField field{{size, {}, where}};
   if (where) {
     const auto voxels = where->voxels();
-    field.sums.resize(voxels.size());
+    field.values.resize(voxels.size());
     parallelFor(voxels.size(), [&](std::size_t begin, std::size_t end) {
       std::vector<Voxel> crossed;
       for (std::size_t i = begin; i < end; ++i)
-        field.sums[i] = look(occupied, voxels[i], sky, weighting, crossed).sum;
+        field.values[i] = look(occupied, voxels[i], sky, weighting, crossed).sum;
     });
     return field;
   }
-  field.sums.resize(static_cast<std::size_t>(size.x) * static_cast<std::size_t>(size.y) *
-                    static_cast<std::size_t>(size.z));
+  field.values.resize(static_cast<std::size_t>(size.x) * static_cast<std::size_t>(size.y) *
+                      static_cast<std::size_t>(size.z));
   parallelForEach(static_cast<std::size_t>(size.y), [&](std::size_t y) {
     std::vector<Voxel> crossed;
     for (int z = 0; z < size.z; ++z) {
       for (int x = 0; x < size.x; ++x) {
         const Voxel p(x, static_cast<int>(y), z);
-        field.sums[field.index(p)] = look(occupied, p, sky, weighting, crossed).sum;
+        field.values[field.index(p)] = look(occupied, p, sky, weighting, crossed).sum;
       }
     }
   });

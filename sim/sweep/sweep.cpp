@@ -147,7 +147,7 @@ ExposureField sweepExposure(const BitVolume& occupied, const DirectionSet& direc
   const Voxel size = occupied.size();
   const auto nx = static_cast<std::size_t>(size.x);
   const std::size_t voxels = nx * static_cast<std::size_t>(size.y) * static_cast<std::size_t>(size.z);
-  ExposureField field{size, std::vector<std::uint16_t>(voxels, wholeSum(directions))};
+  ExposureField field{{size, std::vector<std::uint16_t>(voxels, wholeSum(directions))}};
   const auto subtract = [&](std::uint16_t* all, const lanes::Adders& adders, const Block& block) {
     std::array<std::uint16_t, 64 * kRows> blocked;
     for (std::size_t x = 0; x < nx; x += 64) {
@@ -162,14 +162,14 @@ ExposureField sweepExposure(const BitVolume& occupied, const DirectionSet& direc
       }
     }
   };
-  sumUp(occupied, directions, {0, size.y - 1}, field.sums, subtract);
+  sumUp(occupied, directions, {0, size.y - 1}, field.values, subtract);
   return field;
 }
 
 ExposureField sweepExposure(const BitVolume& occupied, const DirectionSet& directions,
                             std::shared_ptr<const VoxelSet> where) {
-  ExposureField field{occupied.size(), std::vector<std::uint16_t>(where->count(), wholeSum(directions)),
-                      where};
+  ExposureField field{
+      {occupied.size(), std::vector<std::uint16_t>(where->count(), wholeSum(directions)), where}};
   const auto subtract = [&](std::uint16_t* sums, const lanes::Adders& adders, const Block& block) {
     std::array<std::uint16_t, 64 * kRows> blocked;
     forEachAsked(
@@ -182,7 +182,7 @@ ExposureField sweepExposure(const BitVolume& occupied, const DirectionSet& direc
           }
         });
   };
-  sumUp(occupied, directions, extentOf(*where), field.sums, subtract);
+  sumUp(occupied, directions, extentOf(*where), field.values, subtract);
   return field;
 }
 

@@ -31,20 +31,20 @@ void benchLevels(const sim::BitVolume& occupied, const sim::DirectionSet& sky, d
     sim::lanes::useLevel(level);
     sim::ExposureField field;
     const double seconds = medianSeconds([&] { field = sim::sweepExposure(occupied, sky); });
-    report.add({kRow, "the sweep's rays by " + level, rays / seconds / 1e6, "Mray/s", hashOf(field.sums)});
+    report.add({kRow, "the sweep's rays by " + level, rays / seconds / 1e6, "Mray/s", hashOf(field.values)});
   }
   sim::lanes::useLevel(best);
 }
 
 }  // namespace
 
-void benchEveryVoxel(const scenes::Job& job, Report& report) {
-  const sim::BitVolume& occupied = job.world.opaque();
+void benchEveryVoxel(const scenes::Scene& scene, const scenes::Site& site, Report& report) {
+  const sim::BitVolume& occupied = site.world.opaque();
   const sim::Voxel size = occupied.size();
   const auto sky = skyOf(128);
   const double rays = static_cast<double>(size.x) * size.y * size.z * static_cast<double>(sky.size());
   report.title(fmt::format("2. Sky exposure of every voxel: {}, {} x {} x {} voxels, {} directions",
-                           job.scene.name, size.x, size.y, size.z, sky.size()));
+                           scene.name, size.x, size.y, size.z, sky.size()));
 
   const auto places = scattered(size);
   const double sample_rays = static_cast<double>(places.size()) * static_cast<double>(sky.size());
@@ -60,14 +60,14 @@ void benchEveryVoxel(const scenes::Job& job, Report& report) {
       medianSeconds({[&] { field = sim::sweepExposure(occupied, sky); },
                      [&] { cast(plain, [&](sim::Voxel p) { return sim::lookOut(occupied, p, sky); }); },
                      [&] { cast(prepared, [&](sim::Voxel p) { return lookout.from(occupied, p); }); }});
-  const std::uint64_t state = hashOf(field.sums);
+  const std::uint64_t state = hashOf(field.values);
   const double rate = rays / seconds[0];
   report.add({kRow, "the sweep", seconds[0] * 1e3, "ms", state});
   report.add({kRow, "  rays", rate / 1e6, "Mray/s", state});
   const auto compare = [&](const std::string& what, double time, const std::vector<std::uint16_t>& sums) {
     std::size_t other = 0;
     for (std::size_t i = 0; i < places.size(); ++i)
-      other += sums[i] != field.sums[field.index(places[i])] ? 1u : 0u;
+      other += sums[i] != field.values[field.index(places[i])] ? 1u : 0u;
     report.add({kRow, what, sample_rays / time / 1e6, "Mray/s", hashOf(sums)});
     report.note(fmt::format("  {} of {} places differ from the sweep", other, places.size()));
   };

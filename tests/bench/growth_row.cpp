@@ -52,17 +52,17 @@ class Listening : public sim::Process {
 
 }  // namespace
 
-void benchGrowth(scenes::Job& job, Report& report) {
+void benchGrowth(const scenes::Scene& scene, scenes::Site& site, Report& report) {
   constexpr const char* kRow = "4 growth";
   constexpr int kEvery = 5;  // iterations; the sweeps would take longer than all else
-  sim::GrowthSettings settings = scenes::growthSettings(job);
+  sim::GrowthSettings settings = scenes::growthSettings(scene, site);
   std::vector<std::shared_ptr<const Listening>> listeners;
-  auto plantings = job.plantings;
+  auto plantings = scenes::makePlantings(scene, site);
   for (auto& planting : plantings) {
     listeners.push_back(std::make_shared<Listening>(planting.process));
     planting.process = listeners.back();
   }
-  const sim::LightSensor sensor(job.world.opaque(), settings.light);
+  const sim::LightSensor sensor(site.world.opaque(), settings.light);
   double growing = 0.0, asking = 0.0, casting = 0.0, sweeping = 0.0, everywhere = 0.0;
   std::size_t iterations = 0, buds = 0;
   auto began = Clock::now();
@@ -75,7 +75,7 @@ void benchGrowth(scenes::Job& job, Report& report) {
     }
     if (progress.iteration % kEvery == 0) {
       growing += seconds;
-      const sim::BitVolume& opaque = job.world.opaque();
+      const sim::BitVolume& opaque = site.world.opaque();
       const auto medians =
           medianSeconds({[&] { sensor.at(opaque, places); }, [&] { sensor.byRays(opaque, places); },
                          [&] { sensor.bySweep(opaque, places); },
@@ -92,12 +92,12 @@ void benchGrowth(scenes::Job& job, Report& report) {
     }
     began = Clock::now();
   };
-  const sim::Growth growth = sim::grow(job.world, plantings, settings);
-  const std::uint64_t state = sim::stateHash(job.world, growth);
+  const sim::Growth growth = sim::grow(site.world, plantings, settings);
+  const std::uint64_t state = sim::stateHash(site.world, growth);
   const auto mean = [&](double sum) { return sum / static_cast<double>(iterations); };
   report.title(fmt::format(
       "4. Light while {} grows: sky of {} and sun of {} directions; means over every {}th of {} iterations",
-      job.scene.name, settings.light.sky.size(), settings.light.sun.size(), kEvery, growth.iterations));
+      scene.name, settings.light.sky.size(), settings.light.sun.size(), kEvery, growth.iterations));
   report.add({kRow, "buds that ask", mean(static_cast<double>(buds)), "", state});
   report.add({kRow, "an iteration, with the light that its buds ask for", mean(growing) * 1e3, "ms", state});
   report.add({kRow, "their light, as growth asks for it", mean(asking) * 1e3, "ms", state});

@@ -52,7 +52,7 @@ void benchLargeWorlds(double most_voxels, Report& report) {
       field = {};  // there may not be room for two
       field = sim::sweepExposure(world, sky);
     });
-    state = hashOf(field.sums);
+    state = hashOf(field.values);
     const double picoseconds = seconds / voxels / directions * 1e12;
     moved = voxels * (directions * moved_bits / 8.0 + 2.0) / seconds;
     memory = voxels * (1.0 / 8.0 + 2.0) / seconds;

@@ -15,10 +15,10 @@ namespace {
 
 using namespace espalier;
 
-scenes::Job courtyard() {
+scenes::Scene courtyard() {
   auto scene = scenes::readScene(ESPALIER_SOURCE_DIR "/scenes/library/courtyard.yaml");
   if (!scene) throw sim::InputError(scenes::format(scene.problems()));
-  return scenes::prepareJob(std::move(*scene));
+  return std::move(*scene);
 }
 
 }  // namespace
@@ -37,11 +37,12 @@ int main(int argc, char** argv) {
   try {
     bench::Report report(bench::machineText());
     report.note(bench::loadText());
-    scenes::Job job = courtyard();
-    if (wanted(1)) bench::benchSurfaces(job, report);
-    if (wanted(2)) bench::benchEveryVoxel(job, report);
+    const scenes::Scene scene = courtyard();
+    scenes::Site site = scenes::makeSite(scene);
+    if (wanted(1)) bench::benchSurfaces(scene, site, report);
+    if (wanted(2)) bench::benchEveryVoxel(scene, site, report);
     if (wanted(3)) bench::benchLargeWorlds(most_voxels, report);
-    if (wanted(4)) bench::benchGrowth(job, report);
+    if (wanted(4)) bench::benchGrowth(scene, site, report);
     report.writeCsv(csv);
     if (!document.empty()) report.writeInto(document);
   } catch (const std::exception& error) {

@@ -1,21 +1,21 @@
 #pragma once
-#include "scenes/prepare/job.h"
+#include "scenes/prepare/plantings.h"
 #include "tests/bench/report.h"
 
 /// The rows of the report. Each prints what it does, checks that the answers agree, and adds its figures.
 namespace espalier::bench {
 
 /// Every surface voxel of the scene, by the sweep and by each peer.
-void benchSurfaces(const scenes::Job& job, Report& report);
+void benchSurfaces(const scenes::Scene& scene, const scenes::Site& site, Report& report);
 
 /// Every voxel of the scene, by the sweep and by casting the same rays one by one.
-void benchEveryVoxel(const scenes::Job& job, Report& report);
+void benchEveryVoxel(const scenes::Scene& scene, const scenes::Site& site, Report& report);
 
 /// Worlds up to so many voxels: what a voxel and direction cost, and the bytes moved.
 void benchLargeWorlds(double most_voxels, Report& report);
 
-/// What light costs while the scene grows. Grows it.
-void benchGrowth(scenes::Job& job, Report& report);
+/// What light costs while the scene grows. Grows it in the site's world.
+void benchGrowth(const scenes::Scene& scene, scenes::Site& site, Report& report);
 
 /// A sky of at least so many directions, of equal weight for equal parts.
 sim::DirectionSet skyOf(int directions);

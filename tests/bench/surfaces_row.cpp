@@ -34,11 +34,11 @@ sim::BitVolume bitsOf(const Question& question, sim::Voxel size) {
   return bits;
 }
 
-std::vector<sim::Mesh> meshesInVoxels(const scenes::Job& job) {
+std::vector<sim::Mesh> meshesInVoxels(const scenes::Site& site) {
   std::vector<sim::Mesh> meshes;
-  for (const auto& tiled : job.meshes) {
+  for (const auto& tiled : site.meshes) {
     meshes.push_back(tiled.mesh);
-    for (sim::Vec3& v : meshes.back().vertices_m) v = sim::voxelFromWorld(job.world.frame(), v);
+    for (sim::Vec3& v : meshes.back().vertices_m) v = sim::voxelFromWorld(site.world.frame(), v);
   }
   return meshes;
 }
@@ -105,29 +105,29 @@ sim::DirectionSet skyOf(int directions) {
   }
 }
 
-void benchSurfaces(const scenes::Job& job, Report& report) {
-  const sim::BitVolume& occupied = job.world.opaque();
+void benchSurfaces(const scenes::Scene& scene, const scenes::Site& site, Report& report) {
+  const sim::BitVolume& occupied = site.world.opaque();
   const sim::Sky sky{sim::Weighting::uniform, skyOf(128), 0.0};
-  const sim::SurfaceSensors sensors = sim::surfaceSensors(job.world);
+  const sim::SurfaceSensors sensors = sim::surfaceSensors(site.world);
   const Question question{sky.directions, sensors.places->voxels()};
   const sim::Voxel size = occupied.size();
   report.title(fmt::format(
       "1. Sky exposure of every surface voxel: {}, {} x {} x {} voxels, {} surfaces judged from {} free "
       "places, {} directions",
-      job.scene.name, size.x, size.y, size.z, sensors.surfaces.size(), question.places.size(),
+      scene.name, size.x, size.y, size.z, sensors.surfaces.size(), question.places.size(),
       sky.directions.size()));
 
   const Question sample = sampleOf(question);
   const auto sampled = std::make_shared<const sim::VoxelSet>(bitsOf(sample, size));
-  const Sums expected = sim::sweepExposure(occupied, sky.directions, sampled).sums;
-  const Peers embree = embreePeers(occupied, meshesInVoxels(job)), nanovdb = nanovdbPeers(occupied);
+  const Sums expected = sim::sweepExposure(occupied, sky.directions, sampled).values;
+  const Peers embree = embreePeers(occupied, meshesInVoxels(site)), nanovdb = nanovdbPeers(occupied);
   const Fastest of_embree = fastestOf(embree, sample, expected, report);
   const Fastest of_nanovdb = fastestOf(nanovdb, sample, expected, report);
   const std::array<const Peer*, 3> rivals = {of_embree.on_faces, of_nanovdb.on_faces, of_embree.of_all};
   Sums ours;
   std::array<Sums, 3> theirs;
   const std::vector<double> seconds = medianSeconds(
-      {[&] { ours = sim::sweepExposure(occupied, sky.directions, sensors.places).sums; },
+      {[&] { ours = sim::sweepExposure(occupied, sky.directions, sensors.places).values; },
        [&] { sim::surfaceSky(sensors, sim::sweepOpen(occupied, sky.directions, sensors.places), sky); },
        [&] { theirs[0] = rivals[0]->answer(question); }, [&] { theirs[1] = rivals[1]->answer(question); },
        [&] { theirs[2] = rivals[2]->answer(question); }});

@@ -166,6 +166,29 @@ TEST_F(Overhang, EachCameraHasItsPictures) {
     EXPECT_TRUE(fs::exists(scratch_.path("out") / name)) << name;
 }
 
+/// Light falls whether or not anything can grow in it.
+TEST_F(Overhang, PlantsThatCannotGrowAreNoHindrance) {
+  scratch_.write("giant.yaml", "espalier: rules\nrandom_tree: {length: 40 m}\n");
+  scratch_.write("vine.yaml", "espalier: rules\nregions: {bark: forbid}\n");
+  scratch_.write("scene.yaml", std::string(kScene) +
+                                   "plants:\n  - {name: giant, rules: giant.yaml, seeds: [[2, 1, 2]]}\n"
+                                   "  - {name: buried, rules: vine.yaml, seeds: [[2, 0, 2]]}\n");
+  const auto ran = expose();
+  EXPECT_EQ(ran.status, 0) << ran.output;
+  EXPECT_TRUE(fs::exists(scratch_.path("out/threshold.png")));
+  const auto certified = tests::espalier("certify " + scratch_.path("scene.yaml").string());
+  EXPECT_EQ(certified.status, 0) << certified.output;
+}
+
+TEST_F(Overhang, ACameraInAWallIsAnError) {
+  scratch_.write("scene.yaml",
+                 std::string(kScene) + "cameras:\n  low: {eye: [2, 0, 2], target: [2, 2, 2]}\n");
+  const auto ran = expose();
+  EXPECT_EQ(ran.status, 2) << ran.output;
+  EXPECT_NE(ran.output.find("scene.yaml: camera 'low' stands inside 'overhang' (floor)"), std::string::npos)
+      << ran.output;
+}
+
 TEST_F(Overhang, JsonPrintsTheReportAndQuietNothing) {
   const auto ran = expose("--json --no-pictures");
   ASSERT_EQ(ran.status, 0);

@@ -2,8 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include "scenes/prepare/job.h"
-
 namespace espalier::scenes {
 namespace {
 
@@ -35,28 +33,6 @@ TEST(Lights, ASunWithoutAPlaceIsTheArc) {
   EXPECT_NEAR(makeSun(spec).totalHours(), 12.0, 1e-9);
   EXPECT_GT(sunDirection(spec, 12.0).x, 0.3);
   EXPECT_EQ(shadowDirection(spec), sunDirection(spec, 15.0));
-}
-
-TEST(Lights, AJobKnowsItsSkyItsSunAndItsRandomRays) {
-  Scene scene;
-  scene.world.voxel_m = 0.5;
-  scene.world.bounds_m = {{sim::Vec3(-2.0), sim::Vec3(2.0)}};
-  scene.seed = 7;
-  scene.sun = sydney();
-  scene.sky.weighting = sim::Weighting::cosine;
-  scene.sky.accuracy = 0.02;
-  {
-    const auto job = prepareJob(scene);
-    EXPECT_FALSE(job.random_sky);
-    EXPECT_EQ(job.sky.weighting, sim::Weighting::cosine);
-    EXPECT_LE(job.sky.standard_error, 0.02);
-    EXPECT_EQ(job.sun.about, makeSun(scene.sun).about);
-  }
-  scene.sky.sampling = Sampling::random;
-  const auto job = prepareJob(scene);
-  ASSERT_TRUE(job.random_sky);
-  EXPECT_EQ(job.random_sky->rays, 100);
-  EXPECT_EQ(job.random_sky->seed, 7u);
 }
 
 }  // namespace

@@ -10,6 +10,7 @@
 #include "render/image/camera.h"
 #include "render/voxels/panels.h"
 #include "sim/base/bits.h"
+#include "sim/base/faces.h"
 #include "sim/base/frame.h"
 #include "sim/world/field.h"
 #include "sim/world/ray.h"
@@ -18,7 +19,7 @@ namespace espalier::tests {
 
 /// What the free voxel in front of a face holds. The field must outlive it.
 inline render::FaceValue inFront(const sim::ExposureField& field) {
-  return [&field](sim::Voxel v, std::uint8_t face) { return field.at(v + render::kFaceNormals[face]); };
+  return [&field](sim::Voxel v, std::uint8_t face) { return field.at(v + sim::kFaceNormals[face]); };
 }
 
 /// A garden small enough to hold in the head: paving, a wall with an arched window and a coping, steps, a bed
@@ -46,14 +47,14 @@ class LittleGarden {
 
   /// Fraction of the free directions, at free voxels that touch something; 0 elsewhere.
   sim::ExposureField exposure(const std::vector<sim::Vec3>& directions) const {
-    sim::ExposureField field{frame_.size, std::vector<std::uint16_t>(cells())};
+    sim::ExposureField field{{frame_.size, std::vector<std::uint16_t>(cells())}};
     const sim::Bricks bricks(occupied_);
     forEach([&](sim::Voxel v) {
       if (occupied_.at(v) || !touches(v)) return;
       std::size_t open = 0;
       for (const sim::Vec3& d : directions)
         open += sim::firstHit(occupied_, bricks, sim::Vec3(v), d) ? 0u : 1u;
-      field.sums[field.index(v)] =
+      field.values[field.index(v)] =
           static_cast<std::uint16_t>(open * sim::ExposureField::kWhole / directions.size());
     });
     return field;

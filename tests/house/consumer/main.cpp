@@ -1,6 +1,6 @@
 // How much of the sky the surfaces of a mesh see: consumer MESH
 #include <scenes/import/world_of.h>
-#include <scenes/lighting.h>
+#include <sim/light/lighting.h>
 
 #include <cstdio>
 
@@ -8,7 +8,7 @@ int main(int, char** arguments) {
   using namespace espalier;
   const sim::World world = scenes::worldOf(arguments[1], 0.25);  // 25 cm voxels
   const sim::Sky sky = sim::makeSky({.weighting = sim::Weighting::cosine});
-  const scenes::Lighting exposure = scenes::lightOf(world, sky);
+  const sim::Lighting exposure = sim::lightOf(world, sky);
 
   double sum = 0.0, area = 0.0;
   for (std::size_t i = 0; i < exposure.surfaces.size(); ++i) {

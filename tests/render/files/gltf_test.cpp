@@ -125,7 +125,7 @@ TEST_F(Glb, TheKhronosValidatorIsContent) {
     const auto file = std::filesystem::path(testing::TempDir()) / (std::string("espalier_") + name + ".glb");
     sim::writeWhole(file, bytes);
     const std::string command = "NODE_PATH='" + node_path +
-                                "' node '" ESPALIER_SOURCE_DIR "/tests/render/validate_glb.cjs' '" +
+                                "' node '" ESPALIER_SOURCE_DIR "/tests/render/files/validate_glb.cjs' '" +
                                 file.string() + "'";
     const int status = WEXITSTATUS(std::system(command.c_str()));
     std::filesystem::remove(file);

@@ -109,14 +109,14 @@ TEST_F(FinishedPicture, FragmentsAreLitByTheirVoxels) {
     scene_.to_sun = {0, -1, 0};
     return static_cast<double>(draw(40, 30).at(20, 16)[0]);
   }();
-  std::fill(sky_.sums.begin(), sky_.sums.end(), std::uint16_t{0});
+  std::fill(sky_.values.begin(), sky_.values.end(), std::uint16_t{0});
   EXPECT_LT(static_cast<double>(draw(40, 30).at(20, 16)[0]), 0.6 * open);
 }
 
 TEST_F(FinishedPicture, MissingOrMismatchedFieldsAreRefused) {
   scene_.sky = nullptr;
   EXPECT_THROW(draw(), sim::InputError);
-  sim::ExposureField small{sim::Voxel(2), std::vector<std::uint16_t>(8)};
+  sim::ExposureField small{{sim::Voxel(2), std::vector<std::uint16_t>(8)}};
   scene_.sky = &small;
   EXPECT_THROW(draw(), sim::InputError);
 }
@@ -132,11 +132,11 @@ TEST_F(FinishedPicture, LooksAsItDid) {
 
 TEST(SkyView, AveragesFreeVoxelsInFrontOnly) {
   sim::BitVolume wall({8, 8, 8});
-  sim::ExposureField sky{wall.size(), std::vector<std::uint16_t>(512, sim::ExposureField::kWhole / 2)};
+  sim::ExposureField sky{{wall.size(), std::vector<std::uint16_t>(512, sim::ExposureField::kWhole / 2)}};
   for (int y = 0; y < 8; ++y) {
     for (int z = 0; z < 8; ++z) {
       wall.set({2, y, z});
-      sky.sums[sky.index({2, y, z})] = 0;  // what is inside the wall must not leak out
+      sky.values[sky.index({2, y, z})] = 0;  // what is inside the wall must not leak out
     }
   }
   const sim::Frame frame{Vec3(0.0), 1.0, wall.size()};

@@ -13,6 +13,8 @@
 namespace espalier::render {
 namespace {
 
+using sim::kFaceNormals;
+
 constexpr std::array kAll = {Panel::sun_exposure, Panel::sky_exposure,   Panel::threshold,
                              Panel::shadow_matte, Panel::surface_colour, Panel::first_pass};
 
@@ -27,9 +29,9 @@ struct Scene {
   }
   sim::ExposureField madeUp(int seed) const {
     const sim::Voxel size = garden.frame().size;
-    sim::ExposureField field{size, {}};
+    sim::ExposureField field{{size, {}}};
     const int cells = size.x * size.y * size.z;
-    for (int i = 0; i < cells; ++i) field.sums.push_back(static_cast<std::uint16_t>(i * 40503 * seed));
+    for (int i = 0; i < cells; ++i) field.values.push_back(static_cast<std::uint16_t>(i * 40503 * seed));
     return field;
   }
   PanelWorld world() const {
@@ -79,7 +81,7 @@ TEST(Panels, MeasuredPicturesHoldTheFieldsThemselves) {
 
 TEST(Panels, AtEdgesFieldsAreMeansOverTheWorldAloneAndColoursArePremultiplied) {
   Scene scene;
-  std::fill(scene.sky.sums.begin(), scene.sky.sums.end(), std::uint16_t{40000});
+  std::fill(scene.sky.values.begin(), scene.sky.values.end(), std::uint16_t{40000});
   const PanelWorld world{scene.garden.occupied(), scene.bricks, tests::inFront(scene.sun),
                          tests::inFront(scene.sky), [](sim::Voxel) { return sim::Colour(0.5f); }};
   const PanelPainter painter(scene.seen, world, scene.look, kAll);
@@ -106,11 +108,11 @@ TEST(Panels, AtEdgesFieldsAreMeansOverTheWorldAloneAndColoursArePremultiplied) {
 TEST(Panels, ExposureIsSmoothOverAFace) {
   const sim::Frame frame{sim::Vec3(0.0), 1.0, {16, 4, 16}};
   sim::BitVolume occupied(frame.size);
-  sim::ExposureField field{frame.size, std::vector<std::uint16_t>(16 * 4 * 16)};
+  sim::ExposureField field{{frame.size, std::vector<std::uint16_t>(16 * 4 * 16)}};
   for (int z = 0; z < 16; ++z) {
     for (int x = 0; x < 16; ++x) {
       occupied.set({x, 0, z});
-      for (int y = 0; y < 4; ++y) field.sums[field.index({x, y, z})] = static_cast<std::uint16_t>(4000 * x);
+      for (int y = 0; y < 4; ++y) field.values[field.index({x, y, z})] = static_cast<std::uint16_t>(4000 * x);
     }
   }
   const sim::Bricks bricks(occupied);

@@ -13,6 +13,9 @@
 namespace espalier::render {
 namespace {
 
+using sim::faceAxis;
+using sim::kFaceNormals;
+
 constexpr int kWidth = 200, kHeight = 150;
 
 struct Scene {

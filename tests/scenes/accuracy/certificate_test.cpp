@@ -102,30 +102,30 @@ TEST(Certificate, VoxelsErrLittleAndLessWhereTheyAreFiner) {
   }
 }
 
-Job smallJob() {
-  auto scene = readScene(std::string(ESPALIER_SOURCE_DIR) + "/scenes/library/figure_3.yaml");
-  return prepareJob(std::move(*scene));
+Scene smallScene() {
+  return *readScene(std::string(ESPALIER_SOURCE_DIR) + "/scenes/library/figure_3.yaml");
 }
 
 TEST(Certificate, OfASceneAgreesWithRaysOnItsTriangles) {
-  const Job job = smallJob();
-  const Certificate certificate = certify(job);
+  const Scene scene = smallScene();
+  const Site site = makeSite(scene);
+  const Certificate certificate = certify(site, scene.seed);
   ASSERT_TRUE(certificate.spots);
   const auto& spots = *certificate.spots;
   EXPECT_GT(spots.points, 2000u);
   EXPECT_LT(std::abs(spots.bias), 0.01);
   EXPECT_LT(spots.median, 0.01);
   EXPECT_LT(spots.percentile_95, 0.08);
-  EXPECT_EQ(certificate.voxel_m, job.world.frame().voxel_m);
-  EXPECT_EQ(certificate.directions, job.sky.directions.size());
+  EXPECT_EQ(certificate.voxel_m, site.world.frame().voxel_m);
+  EXPECT_EQ(certificate.directions, site.sky.directions.size());
   // The worst place is a place of the scene.
-  EXPECT_TRUE(sim::contains(job.world.frame().size,
-                            sim::voxelAt(sim::voxelFromWorld(job.world.frame(), spots.worst.at_m))));
-  EXPECT_EQ(spotCheck(job)->rms, spots.rms);  // the same points in every run
+  EXPECT_TRUE(sim::contains(site.world.frame().size,
+                            sim::voxelAt(sim::voxelFromWorld(site.world.frame(), spots.worst.at_m))));
+  EXPECT_EQ(spotCheck(site, scene.seed)->rms, spots.rms);  // the same points in every run
   const auto json = nlohmann::json::parse(toJson(certificate));
-  EXPECT_EQ(json["weighting"], std::string(sim::nameOf(job.sky.weighting)));
+  EXPECT_EQ(json["weighting"], std::string(sim::nameOf(site.sky.weighting)));
   EXPECT_EQ(json["shapes"].size(), certificate.lines.size());
-  EXPECT_NE(toText(certificate).find(std::string(sim::nameOf(job.sky.weighting)) + " weighting"),
+  EXPECT_NE(toText(certificate).find(std::string(sim::nameOf(site.sky.weighting)) + " weighting"),
             std::string::npos);
 }
 

@@ -51,21 +51,15 @@ std::vector<std::vector<std::string>> readCsv(const std::string& text) {
 
 /// A world of two parts whose values are made up, so that every number can be told.
 struct Made {
-  Job job{.scene = {},
-          .meshes = {},
-          .fills = {},
-          .world = sim::World({sim::Vec3(0.0), 0.5, {8, 4, 4}}),
-          .plantings = {},
-          .sky = {},
-          .random_sky = {},
-          .sun = {}};
-  Lighting light;
+  sim::World world{{sim::Vec3(0.0), 0.5, {8, 4, 4}}};
+  sim::Lighting light;
+
+  ExposureTable table() const { return exposureTable("two \"walls\", a test", world, light); }
 
   Made() {
-    job.scene.name = "two \"walls\", a test";
-    const sim::PartId wall = job.world.addPart({"house, old", "wall", sim::PartKind::scene, -1});
-    const sim::PartId roof = job.world.addPart({"house, old", "roof", sim::PartKind::scene, -1});
-    job.world.addPart({"house, old", "hidden", sim::PartKind::scene, -1});  // has no surface
+    const sim::PartId wall = world.addPart({"house, old", "wall", sim::PartKind::scene, -1});
+    const sim::PartId roof = world.addPart({"house, old", "roof", sim::PartKind::scene, -1});
+    world.addPart({"house, old", "hidden", sim::PartKind::scene, -1});  // has no surface
     // Of the wall 0, 1, 2, 3, 4 tenths; the last one covers its voxel thrice as much as the others.
     for (int i = 0; i < 5; ++i) add(wall, 0.1f * static_cast<float>(i), i == 4 ? 0.75f : 0.25f);
     add(roof, 1.0f, 1.0f);
@@ -89,7 +83,7 @@ struct Made {
 
 TEST(ExposureTable, IsWeightedByArea) {
   const Made made;
-  const ExposureTable table = exposureTable(made.job, made.light);
+  const ExposureTable table = made.table();
   ASSERT_EQ(table.rows.size(), 3u);
   const ExposureRow& wall = table.rows[0];
   EXPECT_EQ(wall.region, "wall");
@@ -114,7 +108,7 @@ TEST(ExposureTable, IsWeightedByArea) {
 
 TEST(ExposureTable, CsvFollowsItsRfcAndSaysWhatJsonSays) {
   const Made made;
-  const ExposureTable table = exposureTable(made.job, made.light);
+  const ExposureTable table = made.table();
   const auto rows = readCsv(toCsv(table));
   ASSERT_EQ(rows.size(), 1u + 3u * 3u);
   const json all = json::parse(toJson(table));
@@ -158,7 +152,7 @@ TEST(ExposureTable, CsvFollowsItsRfcAndSaysWhatJsonSays) {
 TEST(ExposureTable, WithoutASunHasNoColumnsOfOne) {
   Made made;
   made.light.about.sun.clear();
-  const ExposureTable table = exposureTable(made.job, made.light);
+  const ExposureTable table = made.table();
   EXPECT_EQ(table.quantities.size(), 1u);
   EXPECT_EQ(toCsv(table).find("sun"), std::string::npos);
   EXPECT_EQ(readCsv(toCsv(table)).size(), 4u);
@@ -166,7 +160,7 @@ TEST(ExposureTable, WithoutASunHasNoColumnsOfOne) {
 
 TEST(ExposureTable, TheTextNamesEveryRegionWithItsMean) {
   const Made made;
-  const std::string text = toText(exposureTable(made.job, made.light));
+  const std::string text = toText(made.table());
   for (const char* part : {"wall", "roof", "all surfaces", "0.26 (0.10 .. 0.40)", "area m2"})
     EXPECT_NE(text.find(part), std::string::npos) << part << '\n' << text;
 }

@@ -19,8 +19,8 @@ class LightFields : public testing::Test {
     wanted_.brightest = true;
     wanted_.space_hours = true;
     wanted_.space = std::make_shared<const sim::VoxelSet>(sim::freeBand(world_, world_.occupied(), 2));
-    light_ = lightOf(world_, sim::makeSky({sim::Weighting::cosine, 0.005, 96}), sim::makeSun(sim::SunArc{}),
-                     wanted_);
+    light_ = sim::lightOf(world_, sim::makeSky({sim::Weighting::cosine, 0.005, 96}),
+                          sim::makeSun(sim::SunArc{}), wanted_);
   }
   static sim::World world() {
     sim::Mesh ground = tests::emptyMesh("ground");
@@ -33,8 +33,8 @@ class LightFields : public testing::Test {
   }
 
   sim::World world_ = world();
-  LightWanted wanted_;
-  Lighting light_;
+  sim::LightWanted wanted_;
+  sim::Lighting light_;
 };
 
 TEST_F(LightFields, SurfacesHaveTheirOwnValuesAndNothingElseIsActive) {
@@ -81,9 +81,10 @@ TEST_F(LightFields, FreeSpaceHasGridsOfItsOwn) {
 }
 
 TEST_F(LightFields, WithoutASunThereAreNoGridsOfOne) {
-  LightWanted wanted;
+  sim::LightWanted wanted;
   wanted.brightest = true;
-  const Lighting dark = lightOf(world_, sim::makeSky({sim::Weighting::uniform, 0.005, 32}), {}, wanted);
+  const sim::Lighting dark =
+      sim::lightOf(world_, sim::makeSky({sim::Weighting::uniform, 0.005, 32}), {}, wanted);
   const auto file = tests::readBack(render::fieldVdbBytes(world_, exposureFields(dark, nullptr)));
   EXPECT_EQ(file.grids.size(), 4u);
   EXPECT_FALSE(file.grids.contains("sun_exposure"));

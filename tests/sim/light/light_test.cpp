@@ -36,7 +36,7 @@ TEST(Light, IsWhateverTheMapSays) {
   const sim::LightSensor sensor(bits, {sky, {}});
   const Voxel few[] = {{4, 5, 6}};
   const auto map = sim::sweepExposure(bits, sky);
-  EXPECT_EQ(sensor.at(bits, few)[0].sky.sum, map.sums[map.index(few[0])]);
+  EXPECT_EQ(sensor.at(bits, few)[0].sky.sum, map.values[map.index(few[0])]);
 }
 
 }  // namespace

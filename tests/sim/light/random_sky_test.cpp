@@ -86,14 +86,14 @@ TEST(RandomSky, FillsFieldsLikeSingleLooksOnAnyNumberOfThreads) {
   const RandomSky sky{20, 3};
   const auto field = sim::randomExposure(bits, sky, Weighting::uniform, where);
   const auto everywhere = sim::randomExposure(bits, sky, Weighting::uniform, nullptr);
-  ASSERT_EQ(field.sums.size(), where->count());
+  ASSERT_EQ(field.values.size(), where->count());
   for (const Voxel v : where->voxels()) {
     const auto sum = sim::lookOut(bits, v, sky, Weighting::uniform).sum;
-    EXPECT_EQ(field.sums[field.index(v)], sum);
-    EXPECT_EQ(everywhere.sums[everywhere.index(v)], sum);
+    EXPECT_EQ(field.values[field.index(v)], sum);
+    EXPECT_EQ(everywhere.values[everywhere.index(v)], sum);
   }
   sim::onThreads(3, [&] {
-    EXPECT_EQ(sim::randomExposure(bits, sky, Weighting::uniform, nullptr).sums, everywhere.sums);
+    EXPECT_EQ(sim::randomExposure(bits, sky, Weighting::uniform, nullptr).values, everywhere.values);
   });
 }
 

@@ -44,7 +44,7 @@ void expectSameAsRays(const sim::BitVolume& bits, const sim::DirectionSet& set) 
   const sim::ExposureField there = sim::sweepExposure(bits, set, where);
   const sim::OpenTable table = sim::sweepOpen(bits, set, where);
   const sim::Lookout lookout(bits, set);
-  ASSERT_EQ(there.sums.size(), where->count());
+  ASSERT_EQ(there.values.size(), where->count());
   const Voxel size = bits.size();
   std::size_t place = 0;
   for (int y = 0; y < size.y; ++y) {
@@ -52,13 +52,13 @@ void expectSameAsRays(const sim::BitVolume& bits, const sim::DirectionSet& set) 
       for (int x = 0; x < size.x; ++x) {
         const Voxel p(x, y, z);
         const sim::Outlook plain = sim::lookOut(bits, p, set);
-        ASSERT_EQ(field.sums[field.index(p)], plain.sum) << x << ' ' << y << ' ' << z;
+        ASSERT_EQ(field.values[field.index(p)], plain.sum) << x << ' ' << y << ' ' << z;
         const sim::Outlook prepared = lookout.from(bits, p);
         ASSERT_EQ(prepared.sum, plain.sum) << x << ' ' << y << ' ' << z;
         ASSERT_EQ(prepared.toward, plain.toward);
         if (!where->has(p)) continue;
         ASSERT_EQ(where->number(p), place);
-        ASSERT_EQ(there.sums[place], plain.sum) << x << ' ' << y << ' ' << z;
+        ASSERT_EQ(there.values[place], plain.sum) << x << ' ' << y << ' ' << z;
         for (std::size_t d = 0; d < set.size(); ++d) {
           ASSERT_EQ(table.open(place, d), sim::reachesEdge(bits, p, set[d]))
               << x << ' ' << y << ' ' << z << " along " << set[d].v.x << ' ' << set[d].v.y << ' '
@@ -138,7 +138,7 @@ TEST(Sweep, DoesNotDependOnTheNumberOfThreads) {
   const auto set = sim::makeSky({.directions = 100}).directions;
   std::vector<std::vector<std::uint16_t>> answers;
   for (const int threads : {1, 2, 5}) {
-    sim::onThreads(threads, [&] { answers.push_back(sim::sweepExposure(bits, set).sums); });
+    sim::onThreads(threads, [&] { answers.push_back(sim::sweepExposure(bits, set).values); });
   }
   EXPECT_EQ(answers[0], answers[1]);
   EXPECT_EQ(answers[0], answers[2]);

@@ -4,7 +4,6 @@
 #include <memory>
 #include <optional>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "sim/light/random_sky.h"
@@ -13,18 +12,18 @@
 #include "sim/world/field.h"
 #include "sim/world/world.h"
 
-namespace espalier::scenes {
+namespace espalier::sim {
 
 struct LightWanted {
   bool faces = true;       ///< light of the faces that are judged by themselves
   bool brightest = false;  ///< the brightest way from each surface
-  /// Voxels where light is wanted beside the surfaces, such as sim::freeBand's; null: none.
-  std::shared_ptr<const sim::VoxelSet> space = nullptr;
+  /// Voxels where light is wanted beside the surfaces, such as freeBand's; null: none.
+  std::shared_ptr<const VoxelSet> space = nullptr;
   bool dense = false;        ///< in every voxel of the world, whatever `space` says
   bool space_hours = false;  ///< hours of sun too, there
   /// Greene's rays for sky_exposure instead of the sky's directions. They know no normals: surfaces then
   /// receive what level ground would in front of them.
-  std::optional<sim::RandomSky> random_sky = std::nullopt;
+  std::optional<RandomSky> random_sky = std::nullopt;
 };
 
 /// What the numbers of a light are: named wherever they are shown.
@@ -39,8 +38,6 @@ struct LightAbout {
   double sun_hours = 0.0;  ///< a day, where nothing obstructs
   double voxel_m = 0.0;
 };
-/// The same as names and texts, for tables and headers.
-std::vector<std::pair<std::string, std::string>> texts(const LightAbout& about);
 
 /// What surfaces receive of one kind of light: the values of Lighting::surfaces, then of Lighting::faces.
 struct Received {
@@ -55,32 +52,31 @@ struct Received {
 /// receives what a surface with the face's normal would in the voxel before it. So walls of a single
 /// sheet have values from behind too: they are in pictures and .vdb files, and in no table.
 struct Lighting {
-  std::vector<sim::TiledVoxel> surfaces;       ///< with places in front, in (y, z, x) order
-  std::shared_ptr<const sim::VoxelSet> where;  ///< the same, numbered alike
-  std::vector<std::uint64_t> faces;            ///< judged by themselves: faceKey of each, ascending
-  std::shared_ptr<const sim::VoxelSet> gaps;   ///< voxels with such faces that are no surfaces
+  std::vector<TiledVoxel> surfaces;       ///< with places in front, in (y, z, x) order
+  std::shared_ptr<const VoxelSet> where;  ///< the same, numbered alike
+  std::vector<std::uint64_t> faces;       ///< judged by themselves: faceKey of each, ascending
+  std::shared_ptr<const VoxelSet> gaps;   ///< voxels with such faces that are no surfaces
 
-  Received sky, sun;                  ///< 0..1
-  Received sun_hours;                 ///< a day
-  std::vector<sim::Vec3f> brightest;  ///< by surface: unit, zero where no sky is seen; empty if not wanted
+  Received sky, sun;             ///< 0..1
+  Received sun_hours;            ///< a day
+  std::vector<Vec3f> brightest;  ///< by surface: unit, zero where no sky is seen; empty if not wanted
 
   /// In free space, as level ground receives it; null where not wanted. Hours are fractions of
   /// about.sun_hours.
-  std::shared_ptr<const sim::ExposureField> space_sky, space_sun, space_hours;
+  std::shared_ptr<const ExposureField> space_sky, space_sun, space_hours;
 
   LightAbout about;
 
-  /// By voxel, in (y, z, x) order, then face: as in render/voxels/visibility.h.
-  std::uint64_t faceKey(sim::Voxel voxel, std::uint8_t face) const;
+  /// By voxel, in (y, z, x) order, then face, as sim/base/faces.h numbers them.
+  std::uint64_t faceKey(Voxel voxel, std::uint8_t face) const;
   /// Of a face of an occupied voxel with no occupied voxel before it.
-  float atFace(const Received& light, sim::Voxel voxel, std::uint8_t face) const;
+  float atFace(const Received& light, Voxel voxel, std::uint8_t face) const;
   /// Of each voxel of `gaps` the mean over its faces.
   std::vector<float> ofGaps(const Received& light) const;
 };
 
 /// Finds the light of a world; a sun without directions gives none. Takes the world's bits, the surfaces, a
 /// bit for each direction and place before a surface, and what is wanted in free space.
-Lighting lightOf(const sim::World& world, const sim::Sky& sky, const sim::Sun& sun = {},
-                 const LightWanted& wanted = {});
+Lighting lightOf(const World& world, const Sky& sky, const Sun& sun = {}, const LightWanted& wanted = {});
 
-}  // namespace espalier::scenes
+}  // namespace espalier::sim

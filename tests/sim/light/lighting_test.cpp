@@ -1,53 +1,47 @@
 // Light of worlds whose answers are known.
-#include "scenes/lighting.h"
+#include "sim/light/lighting.h"
 
 #include <gtest/gtest.h>
 
-#include "render/voxels/visibility.h"
 #include "sim/base/parallel.h"
 #include "sim/sweep/sweep.h"
 #include "sim/tile/build_world.h"
 #include "sim/world/band.h"
 #include "tests/support/meshes.h"
 
-namespace espalier::scenes {
+namespace espalier::sim {
 namespace {
 
-using sim::Vec3;
-using sim::Vec3f;
-using sim::Voxel;
-using sim::Weighting;
-
 /// Open ground: one sheet in the lowest voxels, looking up.
-sim::World openGround() {
-  sim::Mesh mesh = tests::emptyMesh("ground");
+World openGround() {
+  Mesh mesh = tests::emptyMesh("ground");
   mesh.vertices_m = {{0, 0.5, 0}, {16, 0.5, 0}, {16, 0.5, 12}, {0, 0.5, 12}};
   tests::addTriangle(mesh, 0, 2, 1);
   tests::addTriangle(mesh, 0, 3, 2);
-  return sim::buildWorld({Vec3(0.5), 1.0, {16, 8, 12}}, {{mesh, false}}, 0);
+  return buildWorld({Vec3(0.5), 1.0, {16, 8, 12}}, {{mesh, false}}, 0);
 }
 
 /// The ground with a wall across it, a single sheet that looks to +z.
-sim::World wallOnGround() {
-  sim::Mesh mesh = tests::emptyMesh("court");
+World wallOnGround() {
+  Mesh mesh = tests::emptyMesh("court");
   mesh.vertices_m = {{0, 0.5, 0},    {32, 0.5, 0},    {32, 0.5, 24},   {0, 0.5, 24},
                      {0, 1.0, 12.5}, {32, 1.0, 12.5}, {32, 9.9, 12.5}, {0, 9.9, 12.5}};
   tests::addTriangle(mesh, 0, 2, 1);
   tests::addTriangle(mesh, 0, 3, 2);
   tests::addTriangle(mesh, 4, 5, 6);
   tests::addTriangle(mesh, 4, 6, 7);
-  return sim::buildWorld({Vec3(0.5), 1.0, {32, 14, 24}}, {{mesh, false}}, 0);
+  return buildWorld({Vec3(0.5), 1.0, {32, 14, 24}}, {{mesh, false}}, 0);
 }
 
-sim::Sky sky(Weighting weighting, int directions = 96) {
-  return sim::makeSky({weighting, 0.005, directions});
+Sky sky(Weighting weighting, int directions = 96) {
+  return makeSky({weighting, 0.005, directions});
 }
 
 class EachWeighting : public testing::TestWithParam<Weighting> {};
 
 TEST_P(EachWeighting, OpenGroundReceivesAll) {
-  const sim::World world = openGround();
-  const Lighting light = lightOf(world, sky(GetParam()), sim::makeSun(sim::SunArc{}));
+  const World world = openGround();
+  const Lighting light = lightOf(world, sky(GetParam()), makeSun(SunArc{}));
   ASSERT_EQ(light.surfaces.size(), 16u * 12u);
   ASSERT_EQ(light.where->count(), light.surfaces.size());
   for (std::size_t i = 0; i < light.surfaces.size(); ++i) {
@@ -58,7 +52,7 @@ TEST_P(EachWeighting, OpenGroundReceivesAll) {
     EXPECT_EQ(light.atFace(light.sky, light.surfaces[i].voxel, 3), light.sky.values[i]);
   }
   EXPECT_TRUE(light.faces.empty());
-  EXPECT_EQ(light.about.weighting, sim::nameOf(GetParam()));
+  EXPECT_EQ(light.about.weighting, nameOf(GetParam()));
 }
 
 INSTANTIATE_TEST_SUITE_P(Weightings, EachWeighting,
@@ -81,7 +75,7 @@ TEST(Lighting, TheBrightestWayOfOpenGroundIsUpAndBesideAWallAwayFromIt) {
 }
 
 TEST(Lighting, ASheetSeenFromBehindIsJudgedByItsFace) {
-  const sim::World world = wallOnGround();
+  const World world = wallOnGround();
   const Lighting light = lightOf(world, sky(Weighting::cosine, 256));
   const Voxel on_wall(16, 8, 12);
   ASSERT_TRUE(light.where->has(on_wall));
@@ -96,13 +90,11 @@ TEST(Lighting, ASheetSeenFromBehindIsJudgedByItsFace) {
 
 TEST(Lighting, WhatHasNoPlaceInFrontIsJudgedByItsFacesAndIsNoSurface) {
   // Looks down onto something that lies right below it: nothing is in front, but its other faces are free.
-  sim::World world = openGround();
-  const sim::PartId part = world.addPart({"box", "lid", sim::PartKind::scene, -1});
-  const sim::Surface down{
-      .part = part, .colour = sim::Colour(0.5f), .coverage = 1.0f, .normal = Vec3f(0, -1, 0)};
-  const sim::Surface up{
-      .part = part, .colour = sim::Colour(0.5f), .coverage = 1.0f, .normal = Vec3f(0, 1, 0)};
-  std::vector<sim::TiledVoxel> tiled{{{8, 5, 6}, down}};
+  World world = openGround();
+  const PartId part = world.addPart({"box", "lid", PartKind::scene, -1});
+  const Surface down{.part = part, .colour = Colour(0.5f), .coverage = 1.0f, .normal = Vec3f(0, -1, 0)};
+  const Surface up{.part = part, .colour = Colour(0.5f), .coverage = 1.0f, .normal = Vec3f(0, 1, 0)};
+  std::vector<TiledVoxel> tiled{{{8, 5, 6}, down}};
   for (int y = 1; y < 5; ++y) {
     for (int z = 5; z < 8; ++z) {
       for (int x = 7; x < 10; ++x) tiled.push_back({{x, y, z}, up});
@@ -121,7 +113,7 @@ TEST(Lighting, WhatHasNoPlaceInFrontIsJudgedByItsFacesAndIsNoSurface) {
 }
 
 TEST(Lighting, FacesAtTheEdgeOfTheWorldSeeTheHalfThatTheyFace) {
-  const Lighting light = lightOf(openGround(), sky(Weighting::cosine, 256), sim::makeSun(sim::SunArc{}));
+  const Lighting light = lightOf(openGround(), sky(Weighting::cosine, 256), makeSun(SunArc{}));
   EXPECT_NEAR(light.sky.beyond[3], 1.0f, 0.01f);
   EXPECT_EQ(light.sky.beyond[2], 0.0f);
   for (const int side : {0, 1, 4, 5})
@@ -129,24 +121,24 @@ TEST(Lighting, FacesAtTheEdgeOfTheWorldSeeTheHalfThatTheyFace) {
 }
 
 TEST(Lighting, SpaceHoldsWhatTheSweepSaysAndNothingWhereNothingWasAsked) {
-  const sim::World world = wallOnGround();
-  const sim::Sky cosine = sky(Weighting::cosine);
-  const sim::Sun sun = sim::makeSun(sim::SunArc{});
+  const World world = wallOnGround();
+  const Sky cosine = sky(Weighting::cosine);
+  const Sun sun = makeSun(SunArc{});
   EXPECT_EQ(lightOf(world, cosine, sun).space_sky, nullptr);
   LightWanted wanted;
-  wanted.space = std::make_shared<const sim::VoxelSet>(sim::freeBand(world, world.occupied(), 2));
+  wanted.space = std::make_shared<const VoxelSet>(freeBand(world, world.occupied(), 2));
   wanted.space_hours = true;
   const Lighting light = lightOf(world, cosine, sun, wanted);
-  const sim::ExposureField dense = sim::sweepExposure(world.opaque(), sim::receivedBy(cosine));
+  const ExposureField dense = sweepExposure(world.opaque(), receivedBy(cosine));
   for (const Voxel v : wanted.space->voxels()) ASSERT_EQ(light.space_sky->at(v), dense.at(v));
-  EXPECT_EQ(light.space_sky->sums.size(), wanted.space->count());
+  EXPECT_EQ(light.space_sky->values.size(), wanted.space->count());
   EXPECT_EQ(light.space_hours, light.space_sun);  // an evenly weighted sun: the same shares
 }
 
 TEST(Lighting, GreenesRaysAgreeWithTheDirectionsAsFarAsTheyCan) {
-  const sim::World world = wallOnGround();
+  const World world = wallOnGround();
   LightWanted wanted;
-  wanted.random_sky = sim::RandomSky{400, 3};
+  wanted.random_sky = RandomSky{400, 3};
   const Lighting random = lightOf(world, sky(Weighting::uniform), {}, wanted);
   const Lighting even = lightOf(world, sky(Weighting::uniform, 400));
   ASSERT_EQ(random.sky.values.size(), even.sky.values.size());
@@ -163,13 +155,13 @@ TEST(Lighting, GreenesRaysAgreeWithTheDirectionsAsFarAsTheyCan) {
 }
 
 TEST(Lighting, IsTheSameOnAnyNumberOfThreads) {
-  const sim::World world = wallOnGround();
+  const World world = wallOnGround();
   std::vector<Lighting> lights;
   for (const int threads : {1, 2, 5}) {
-    sim::onThreads(threads, [&] {
+    onThreads(threads, [&] {
       LightWanted wanted;
       wanted.brightest = true;
-      lights.push_back(lightOf(world, sky(Weighting::cie_overcast), sim::makeSun(sim::SunArc{}), wanted));
+      lights.push_back(lightOf(world, sky(Weighting::cie_overcast), makeSun(SunArc{}), wanted));
     });
   }
   for (const Lighting& light : lights) {
@@ -181,4 +173,4 @@ TEST(Lighting, IsTheSameOnAnyNumberOfThreads) {
 }
 
 }  // namespace
-}  // namespace espalier::scenes
+}  // namespace espalier::sim

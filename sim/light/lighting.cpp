@@ -1,33 +1,27 @@
-#include "scenes/lighting.h"
-
-#include <fmt/format.h>
+#include "sim/light/lighting.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 
-#include "render/voxels/visibility.h"
-#include "scenes/lit_faces.h"
+#include "sim/base/faces.h"
 #include "sim/base/parallel.h"
+#include "sim/light/lit_faces.h"
 #include "sim/light/surface.h"
 #include "sim/sweep/sweep.h"
 
-namespace espalier::scenes {
+namespace espalier::sim {
 namespace {
 
-using render::kFaceNormals;
-using sim::Vec3;
-using sim::Vec3f;
-using sim::Voxel;
-
-std::shared_ptr<const sim::VoxelSet> voxelsOf(const std::vector<sim::TiledVoxel>& tiled, Voxel size) {
-  sim::BitVolume bits(size);
-  for (const sim::TiledVoxel& t : tiled) bits.set(t.voxel);
-  return std::make_shared<const sim::VoxelSet>(std::move(bits));
+std::shared_ptr<const VoxelSet> voxelsOf(const std::vector<TiledVoxel>& tiled, Voxel size) {
+  BitVolume bits(size);
+  for (const TiledVoxel& t : tiled) bits.set(t.voxel);
+  return std::make_shared<const VoxelSet>(std::move(bits));
 }
 
 /// What a face looking each way receives where nothing obstructs: of the half before it alone.
 template <typename Amount>
-std::array<float, 6> unobstructed(const sim::DirectionSet& directions, Amount amount) {
+std::array<float, 6> unobstructed(const DirectionSet& directions, Amount amount) {
   std::array<float, 6> sums{};
   for (std::uint8_t face = 0; face < kFaces; ++face) {
     const Vec3 normal(kFaceNormals[face]);
@@ -41,13 +35,13 @@ std::array<float, 6> unobstructed(const sim::DirectionSet& directions, Amount am
   return sums;
 }
 
-double share(const sim::LatticeDirection& direction) {
-  return static_cast<double>(direction.weight) / sim::ExposureField::kWhole;
+double share(const LatticeDirection& direction) {
+  return static_cast<double>(direction.weight) / ExposureField::kWhole;
 }
 
 /// For each place the sum of its open directions by their brightness: the first moment of the sky in sight.
 /// Directions are looked up eight at a time.
-std::vector<Vec3f> moments(const sim::OpenTable& open, const sim::Sky& sky) {
+std::vector<Vec3f> moments(const OpenTable& open, const Sky& sky) {
   std::vector<std::array<Vec3f, 256>> sums(open.words() * 8);
   for (std::size_t eight = 0; eight < sums.size(); ++eight) {
     for (std::size_t byte = 1; byte < 256; ++byte) {
@@ -56,13 +50,12 @@ std::vector<Vec3f> moments(const sim::OpenTable& open, const sim::Sky& sky) {
       sums[eight][byte] = sums[eight][rest];
       if (i >= sky.directions.size()) continue;
       const Vec3 unit = glm::normalize(Vec3(sky.directions[i].v));
-      const double luminance =
-          sky.weighting == sim::Weighting::cie_overcast ? (1.0 + 2.0 * unit.y) / 3.0 : 1.0;
+      const double luminance = sky.weighting == Weighting::cie_overcast ? (1.0 + 2.0 * unit.y) / 3.0 : 1.0;
       sums[eight][byte] += Vec3f(share(sky.directions[i]) * luminance * unit);
     }
   }
   std::vector<Vec3f> moments(open.where->count());
-  sim::parallelFor(moments.size(), [&](std::size_t begin, std::size_t end) {
+  parallelFor(moments.size(), [&](std::size_t begin, std::size_t end) {
     for (std::size_t place = begin; place < end; ++place) {
       const auto row = open.row(place);
       Vec3f sum(0.0f);
@@ -74,10 +67,10 @@ std::vector<Vec3f> moments(const sim::OpenTable& open, const sim::Sky& sky) {
   return moments;
 }
 
-std::vector<Vec3f> brightestWays(const sim::SurfaceSensors& sensors, std::size_t surfaces,
+std::vector<Vec3f> brightestWays(const SurfaceSensors& sensors, std::size_t surfaces,
                                  const std::vector<Vec3f>& moments) {
   std::vector<Vec3f> ways(surfaces);
-  sim::parallelFor(surfaces, [&](std::size_t begin, std::size_t end) {
+  parallelFor(surfaces, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       Vec3f sum(0.0f);
       for (const auto& tap : sensors.of(i)) sum += tap.weight * moments[tap.place];
@@ -89,50 +82,50 @@ std::vector<Vec3f> brightestWays(const sim::SurfaceSensors& sensors, std::size_t
 }
 
 /// The sun's directions weighted by their hours.
-sim::DirectionSet byHours(const sim::Sun& sun) {
+DirectionSet byHours(const Sun& sun) {
   std::vector<Voxel> vectors;
-  for (const sim::LatticeDirection& d : sun.directions) vectors.push_back(d.v);
-  return sim::directionSet(vectors, sun.hours, sim::ExposureField::kWhole);
+  for (const LatticeDirection& d : sun.directions) vectors.push_back(d.v);
+  return directionSet(vectors, sun.hours, ExposureField::kWhole);
 }
 
-bool sameWeights(const sim::DirectionSet& a, const sim::DirectionSet& b) {
+bool sameWeights(const DirectionSet& a, const DirectionSet& b) {
   return std::equal(a.begin(), a.end(), b.begin(), b.end(),
                     [](const auto& p, const auto& q) { return p.v == q.v && p.weight == q.weight; });
 }
 
-void findInSpace(Lighting& light, const sim::World& world, const sim::Sky& sky, const sim::Sun& sun,
+void findInSpace(Lighting& light, const World& world, const Sky& sky, const Sun& sun,
                  const LightWanted& wanted) {
-  const auto field = [&](const sim::DirectionSet& directions) {
-    return std::make_shared<const sim::ExposureField>(
-        wanted.dense ? sim::sweepExposure(world.opaque(), directions)
-                     : sim::sweepExposure(world.opaque(), directions, wanted.space));
+  const auto field = [&](const DirectionSet& directions) {
+    return std::make_shared<const ExposureField>(
+        wanted.dense ? sweepExposure(world.opaque(), directions)
+                     : sweepExposure(world.opaque(), directions, wanted.space));
   };
   light.space_sky =
       wanted.random_sky
-          ? std::make_shared<const sim::ExposureField>(sim::randomExposure(
+          ? std::make_shared<const ExposureField>(randomExposure(
                 world.opaque(), *wanted.random_sky, sky.weighting, wanted.dense ? nullptr : wanted.space))
-          : field(sim::receivedBy(sky));
+          : field(receivedBy(sky));
   light.space_sun = field(sun.directions);
   if (!wanted.space_hours) return;
-  const sim::DirectionSet hours = byHours(sun);
+  const DirectionSet hours = byHours(sun);
   light.space_hours = sameWeights(hours, sun.directions) ? light.space_sun : field(hours);
 }
 
-LightAbout aboutLight(const sim::Frame& frame, const sim::Sky& sky, const sim::Sun& sun,
-                      const std::optional<sim::RandomSky>& random_sky) {
+LightAbout aboutLight(const Frame& frame, const Sky& sky, const Sun& sun,
+                      const std::optional<RandomSky>& random_sky) {
   LightAbout about;
-  about.weighting = sim::nameOf(sky.weighting);
+  about.weighting = nameOf(sky.weighting);
   if (random_sky) {
-    about.sky = sim::describe(*random_sky, sky.weighting);
-    if (sky.weighting != sim::Weighting::uniform) about.sky += ", as by level ground";
+    about.sky = describe(*random_sky, sky.weighting);
+    if (sky.weighting != Weighting::uniform) about.sky += ", as by level ground";
     about.directions = static_cast<std::size_t>(random_sky->rays);
   } else {
-    about.sky = sim::describe(sky);
+    about.sky = describe(sky);
     about.directions = sky.directions.size();
     about.standard_error = sky.standard_error;
   }
   if (!sun.directions.empty()) {
-    about.sun = sim::describe(sun);
+    about.sun = describe(sun);
     about.sun_directions = sun.directions.size();
     about.sun_error_deg = sun.worst_angle_deg;
     about.sun_hours = sun.totalHours();
@@ -142,45 +135,32 @@ LightAbout aboutLight(const sim::Frame& frame, const sim::Sky& sky, const sim::S
 }
 
 /// The field at each receiver's places, by their weights.
-std::vector<float> tapped(const sim::SurfaceSensors& sensors, const sim::ExposureField& field) {
+std::vector<float> tapped(const SurfaceSensors& sensors, const ExposureField& field) {
   std::vector<float> values(sensors.surfaces.size());
-  sim::parallelFor(values.size(), [&](std::size_t begin, std::size_t end) {
+  parallelFor(values.size(), [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       float sum = 0.0f;
       for (const auto& tap : sensors.of(i))
-        sum += tap.weight * static_cast<float>(field.sums[tap.place]) / sim::ExposureField::kWhole;
+        sum += tap.weight * static_cast<float>(field.values[tap.place]) / ExposureField::kWhole;
       values[i] = std::clamp(sum, 0.0f, 1.0f);
     }
   });
   return values;
 }
 
-void findSky(Lighting& light, const sim::World& world, const sim::Sky& sky, const LightWanted& wanted,
-             const sim::SurfaceSensors& sensors, std::size_t surfaces) {
+void findSky(Lighting& light, const World& world, const Sky& sky, const LightWanted& wanted,
+             const SurfaceSensors& sensors, std::size_t surfaces) {
   if (wanted.random_sky) {
-    light.sky.values = tapped(
-        sensors, sim::randomExposure(world.opaque(), *wanted.random_sky, sky.weighting, sensors.places));
+    light.sky.values =
+        tapped(sensors, randomExposure(world.opaque(), *wanted.random_sky, sky.weighting, sensors.places));
     if (!wanted.brightest) return;
   }
-  const sim::OpenTable open = sim::sweepOpen(world.opaque(), sky.directions, sensors.places);
-  if (!wanted.random_sky) light.sky.values = sim::surfaceSky(sensors, open, sky);
+  const OpenTable open = sweepOpen(world.opaque(), sky.directions, sensors.places);
+  if (!wanted.random_sky) light.sky.values = surfaceSky(sensors, open, sky);
   if (wanted.brightest) light.brightest = brightestWays(sensors, surfaces, moments(open, sky));
 }
 
 }  // namespace
-
-std::vector<std::pair<std::string, std::string>> texts(const LightAbout& about) {
-  std::vector<std::pair<std::string, std::string>> texts = {
-      {"sky", about.sky}, {"weighting", about.weighting}, {"directions", std::to_string(about.directions)}};
-  if (about.standard_error > 0.0)
-    texts.emplace_back("standard_error", fmt::format("{:.2g}", about.standard_error));
-  if (!about.sun.empty()) {
-    texts.emplace_back("sun", about.sun);
-    texts.emplace_back("sun_directions", std::to_string(about.sun_directions));
-    texts.emplace_back("sun_error_deg", fmt::format("{:.2g}", about.sun_error_deg));
-  }
-  return texts;
-}
 
 std::uint64_t Lighting::faceKey(Voxel v, std::uint8_t face) const {
   const Voxel size = where->bits().size();
@@ -215,34 +195,33 @@ std::vector<float> Lighting::ofGaps(const Received& light) const {
   return means;
 }
 
-Lighting lightOf(const sim::World& world, const sim::Sky& sky, const sim::Sun& sun,
-                 const LightWanted& wanted) {
+Lighting lightOf(const World& world, const Sky& sky, const Sun& sun, const LightWanted& wanted) {
   Lighting light;
   light.about = aboutLight(world.frame(), sky, sun, wanted.random_sky);
-  sim::SurfaceSensors sensors = sim::surfaceSensors(world);
+  SurfaceSensors sensors = surfaceSensors(world);
   const std::size_t count = sensors.surfaces.size();
   light.where = voxelsOf(sensors.surfaces, world.frame().size);
   light.surfaces.swap(sensors.surfaces);
   if (wanted.faces) light.faces = facesByThemselves(world, light);
-  sim::BitVolume gaps(world.frame().size);
+  BitVolume gaps(world.frame().size);
   for (const std::uint64_t key : light.faces) {
     const Voxel v = voxelOfKey(key, world.frame().size);
     if (!light.where->has(v)) gaps.set(v);
   }
-  light.gaps = std::make_shared<const sim::VoxelSet>(std::move(gaps));
+  light.gaps = std::make_shared<const VoxelSet>(std::move(gaps));
   light.surfaces.swap(sensors.surfaces);
   addFaces(sensors, light.faces, world.opaque());
   findSky(light, world, sky, wanted, sensors, count);
   {
-    const sim::OpenTable open = sim::sweepOpen(world.opaque(), sun.directions, sensors.places);
-    light.sun.values = sim::surfaceSun(sensors, open, sun);
-    light.sun_hours.values = sim::surfaceSunHours(sensors, open, sun);
+    const OpenTable open = sweepOpen(world.opaque(), sun.directions, sensors.places);
+    light.sun.values = surfaceSun(sensors, open, sun);
+    light.sun_hours.values = surfaceSunHours(sensors, open, sun);
   }
   light.surfaces = std::move(sensors.surfaces);
   light.surfaces.resize(count);
   light.sky.beyond = unobstructed(sky.directions, [&](std::size_t i, Vec3 normal) {
     const auto& d = sky.directions[i];
-    return share(d) * sim::received(sky.weighting, glm::normalize(Vec3(d.v)), normal);
+    return share(d) * received(sky.weighting, glm::normalize(Vec3(d.v)), normal);
   });
   light.sun.beyond =
       unobstructed(sun.directions, [&](std::size_t i, Vec3) { return share(sun.directions[i]); });
@@ -251,4 +230,4 @@ Lighting lightOf(const sim::World& world, const sim::Sky& sky, const sim::Sun& s
   return light;
 }
 
-}  // namespace espalier::scenes
+}  // namespace espalier::sim

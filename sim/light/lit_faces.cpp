@@ -1,17 +1,13 @@
-#include "scenes/lit_faces.h"
+#include "sim/light/lit_faces.h"
 
 #include <bit>
 #include <optional>
 
-#include "render/voxels/visibility.h"
+#include "sim/base/faces.h"
 #include "sim/base/parallel.h"
 
-namespace espalier::scenes {
+namespace espalier::sim {
 namespace {
-
-using render::kFaceNormals;
-using sim::Vec3f;
-using sim::Voxel;
 
 /// A face belongs to its voxel's surface if the surface's normal leans to its side at all: the steps of a
 /// gentle slope do. What is smaller is rounding.
@@ -19,7 +15,7 @@ constexpr float kLean = 1e-3f;
 
 /// Calls work(x) for the voxels of a row that have a free voxel, or the world's edge, at one of their faces.
 template <typename Work>
-void forEachExposed(const sim::BitVolume& occupied, int y, int z, Work work) {
+void forEachExposed(const BitVolume& occupied, int y, int z, Work work) {
   const std::uint64_t* const row = occupied.row(y, z);
   const auto word = [&](int dy, int dz, int w) {
     const int ny = y + dy, nz = z + dz;
@@ -31,22 +27,22 @@ void forEachExposed(const sim::BitVolume& occupied, int y, int z, Work work) {
                                    ((row[w] >> 1) | (row[w + 1] << 63)) & word(-1, 0, w) & word(1, 0, w) &
                                    word(0, -1, w) & word(0, 1, w);
     for (std::uint64_t left = row[w] & ~enclosed; left != 0; left &= left - 1)
-      work(w * sim::BitVolume::kWordBits + std::countr_zero(left));
+      work(w * BitVolume::kWordBits + std::countr_zero(left));
   }
 }
 
 /// From where a face is judged: from the voxel before it, or where a sheet lies just there, from the next.
-std::optional<Voxel> placeOf(std::uint64_t face, const sim::BitVolume& opaque) {
+std::optional<Voxel> placeOf(std::uint64_t face, const BitVolume& opaque) {
   const Voxel normal = kFaceNormals[face % kFaces];
   Voxel place = voxelOfKey(face, opaque.size()) + normal;
   if (opaque.at(place)) place += normal;
-  if (!sim::contains(opaque.size(), place) || opaque.at(place)) return std::nullopt;
+  if (!contains(opaque.size(), place) || opaque.at(place)) return std::nullopt;
   return place;
 }
 
 }  // namespace
 
-bool belongs(const sim::Surface& surface, std::uint8_t face) {
+bool belongs(const Surface& surface, std::uint8_t face) {
   return glm::dot(surface.normal, Vec3f(kFaceNormals[face])) > kLean;
 }
 
@@ -58,19 +54,19 @@ Voxel voxelOfKey(std::uint64_t key, Voxel size) {
   return {x, static_cast<int>(index / nz), static_cast<int>(index % nz)};
 }
 
-std::vector<std::uint64_t> facesByThemselves(const sim::World& world, const Lighting& light) {
-  const sim::BitVolume& occupied = world.occupied();
+std::vector<std::uint64_t> facesByThemselves(const World& world, const Lighting& light) {
+  const BitVolume& occupied = world.occupied();
   std::vector<std::vector<std::uint64_t>> slices(static_cast<std::size_t>(occupied.size().y));
-  sim::parallelForEach(slices.size(), [&](std::size_t slice) {
+  parallelForEach(slices.size(), [&](std::size_t slice) {
     const int y = static_cast<int>(slice);
     for (int z = 0; z < occupied.size().z; ++z) {
       forEachExposed(occupied, y, z, [&](int x) {
         const Voxel v(x, y, z);
-        const sim::Surface* const surface =
+        const Surface* const surface =
             light.where->has(v) ? &light.surfaces[light.where->number(v)].surface : nullptr;
         for (std::uint8_t face = 0; face < kFaces; ++face) {
           const Voxel front = v + kFaceNormals[face];
-          if (!sim::contains(occupied.size(), front) || occupied.at(front)) continue;
+          if (!contains(occupied.size(), front) || occupied.at(front)) continue;
           if (!surface || !belongs(*surface, face)) slices[slice].push_back(light.faceKey(v, face));
         }
       });
@@ -81,14 +77,13 @@ std::vector<std::uint64_t> facesByThemselves(const sim::World& world, const Ligh
   return all;
 }
 
-void addFaces(sim::SurfaceSensors& sensors, const std::vector<std::uint64_t>& faces,
-              const sim::BitVolume& opaque) {
+void addFaces(SurfaceSensors& sensors, const std::vector<std::uint64_t>& faces, const BitVolume& opaque) {
   if (faces.empty()) return;
-  sim::BitVolume bits = sensors.places->bits();
+  BitVolume bits = sensors.places->bits();
   for (const std::uint64_t face : faces) {
     if (const auto place = placeOf(face, opaque)) bits.set(*place);
   }
-  const auto places = std::make_shared<const sim::VoxelSet>(std::move(bits));
+  const auto places = std::make_shared<const VoxelSet>(std::move(bits));
   std::vector<std::uint32_t> renumbered;
   renumbered.reserve(sensors.places->count());
   for (const Voxel v : sensors.places->voxels())
@@ -96,7 +91,7 @@ void addFaces(sim::SurfaceSensors& sensors, const std::vector<std::uint64_t>& fa
   for (auto& tap : sensors.taps) tap.place = renumbered[tap.place];
   sensors.places = places;
   for (const std::uint64_t face : faces) {
-    sim::Surface surface;
+    Surface surface;
     surface.normal = Vec3f(kFaceNormals[face % kFaces]);
     sensors.surfaces.push_back({voxelOfKey(face, opaque.size()), surface});
     if (const auto place = placeOf(face, opaque))
@@ -105,4 +100,4 @@ void addFaces(sim::SurfaceSensors& sensors, const std::vector<std::uint64_t>& fa
   }
 }
 
-}  // namespace espalier::scenes
+}  // namespace espalier::sim

@@ -1,0 +1,110 @@
+#include "scenes/prepare/site.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+
+#include "scenes/import/mesh_import.h"
+#include "scenes/lights.h"
+#include "scenes/prepare/in_scene.h"
+#include "sim/base/error.h"
+#include "sim/base/parallel.h"
+
+namespace espalier::scenes {
+namespace {
+
+std::vector<sim::TiledMesh> readMeshes(const Scene& scene) {
+  for (const SceneMesh& spec : scene.meshes) {
+    if (spec.optional && !std::filesystem::exists(spec.file)) {
+      throw MeshMissing(fmt::format("{}: the mesh {} is not there", scene.file.string(), spec.file.string()));
+    }
+  }
+  std::vector<sim::TiledMesh> meshes;
+  for (const SceneMesh& spec : scene.meshes) {
+    sim::Mesh mesh =
+        placeMesh(importMesh(spec.file, spec.regions_from), spec.scale, spec.rotate_deg, spec.translate_m);
+    mesh.name = spec.name;
+    if (spec.colour) {
+      for (sim::Material& material : mesh.materials) material.colour = *spec.colour;
+    }
+    meshes.push_back({std::move(mesh), spec.solid});
+  }
+  return meshes;
+}
+
+/// The voxel size that gives the longest side of the bounds this many voxels.
+double voxelFor(int resolution, const WorldSpec& spec, const std::vector<sim::TiledMesh>& meshes) {
+  sim::Vec3 extent(0.0);
+  if (spec.bounds_m) {
+    extent = (*spec.bounds_m)[1] - (*spec.bounds_m)[0];
+  } else {
+    sim::Vec3 low(INFINITY), high(-INFINITY);
+    for (const auto& tiled : meshes) {
+      for (const sim::Vec3& v : tiled.mesh.vertices_m) {
+        low = glm::min(low, v);
+        high = glm::max(high, v);
+      }
+    }
+    extent = high - low + 2.0 * spec.margin_m;
+  }
+  return std::max({extent.x, extent.y, extent.z}) / resolution;
+}
+
+sim::Frame frameFor(const Scene& scene, const std::vector<sim::TiledMesh>& meshes) {
+  const WorldSpec& spec = scene.world;
+  const double voxel_m = spec.voxel_m ? *spec.voxel_m : voxelFor(spec.resolution.value_or(160), spec, meshes);
+  if (!spec.bounds_m) return sim::frameAround(meshes, voxel_m, spec.margin_m);
+  const auto& [low, high] = *spec.bounds_m;
+  // A thousandth of a voxel too much is a rounding of the file's decimals, not another voxel.
+  const sim::Vec3 count = glm::ceil((high - low) / voxel_m - 1e-3);
+  if (std::max({count.x, count.y, count.z}) > 16000.0) {
+    throw sim::InputError(
+        fmt::format("{}: world: {:.0f} x {:.0f} x {:.0f} voxels; expected at most 16000 a side, as "
+                    "with a voxel of {:.3g} m",
+                    scene.file.string(), count.x, count.y, count.z,
+                    std::max({high.x - low.x, high.y - low.y, high.z - low.z}) / 16000.0));
+  }
+  return {low + 0.5 * voxel_m, voxel_m, sim::Voxel(count)};
+}
+
+}  // namespace
+
+Site makeSite(const Scene& scene) {
+  std::vector<sim::TiledMesh> meshes = readMeshes(scene);
+  return inScene(scene, [&]() -> Site {
+    std::vector<sim::FillReport> fills;
+    std::optional<sim::World> world;
+    sim::Sky sky;
+    sim::Sun sun;
+    sim::parallelInvoke(
+        [&] {
+          const sim::Frame frame = frameFor(scene, meshes);
+          world.emplace(sim::buildWorld(frame, meshes, scene.world.layers, &fills));
+        },
+        [&] {
+          sky = sim::makeSky(skySettings(scene.sky));
+          sun = makeSun(scene.sun);
+        });
+    return {std::move(meshes),
+            std::move(fills),
+            std::move(*world),
+            std::move(sky),
+            randomSky(scene.sky, scene.seed),
+            std::move(sun)};
+  });
+}
+
+void requireCamerasInTheOpen(const Scene& scene, const sim::World& world) {
+  for (const NamedCamera& camera : scene.cameras) {
+    const sim::PartId part =
+        world.partAt(sim::voxelAt(sim::voxelFromWorld(world.frame(), camera.camera.eye_m)));
+    if (part == sim::kFree) continue;
+    throw sim::InputError(fmt::format("{}: camera '{}' stands inside '{}' ({}); move its eye into the open",
+                                      scene.file.string(), camera.name, world.part(part).object,
+                                      world.part(part).region));
+  }
+}
+
+}  // namespace espalier::scenes

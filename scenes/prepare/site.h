@@ -1,0 +1,40 @@
+#pragma once
+#include <optional>
+#include <stdexcept>
+#include <vector>
+
+#include "scenes/scene.h"
+#include "sim/light/random_sky.h"
+#include "sim/light/sky.h"
+#include "sim/light/sun.h"
+#include "sim/tile/build_world.h"
+#include "sim/world/world.h"
+
+namespace espalier::scenes {
+
+/// A mesh that the scene calls optional is not there.
+class MeshMissing : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+/// Where plants will stand and light falls: what a scene says of the world, made once and kept. It knows
+/// nothing of the scene's plants, and can be made whether or not they can grow there. Nothing changes it but
+/// growth, where a run lets its plants grow in the site's own world.
+struct Site {
+  std::vector<sim::TiledMesh> meshes;  ///< as placed, world metres
+  std::vector<sim::FillReport> fills;  ///< of the solid ones
+  sim::World world;                    ///< with nothing but the meshes in it
+  sim::Sky sky;
+  std::optional<sim::RandomSky> random_sky;  ///< where the scene asks for it: instead of sky's directions
+  sim::Sun sun;
+};
+
+/// Reads a scene's meshes and tiles them. Throws sim::InputError, naming the scene's file where the fault is
+/// the scene's; MeshMissing.
+Site makeSite(const Scene& scene);
+
+/// Throws sim::InputError, naming the scene's file, where a camera's eye lies in an occupied voxel.
+void requireCamerasInTheOpen(const Scene& scene, const sim::World& world);
+
+}  // namespace espalier::scenes

@@ -1,0 +1,105 @@
+#include "scenes/prepare/site.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "scenes/lights.h"
+#include "sim/base/error.h"
+#include "tests/support/scratch.h"
+
+namespace espalier::scenes {
+namespace {
+
+using namespace std::chrono_literals;
+
+Scene emptyScene() {
+  Scene scene;
+  scene.file = "garden.yaml";
+  scene.world.voxel_m = 0.5;
+  scene.world.bounds_m = {{sim::Vec3(-2.0), sim::Vec3(2.0)}};
+  scene.seed = 7;
+  scene.sky.weighting = sim::Weighting::cosine;
+  scene.sky.accuracy = 0.02;
+  return scene;
+}
+
+TEST(Site, KnowsItsSkyItsSunAndItsRandomRays) {
+  Scene scene = emptyScene();
+  scene.sun.place = SunSpec::Place{-33.87, 151.22, 10.0};
+  scene.sun.date = 2019y / 6 / 21;
+  {
+    const Site site = makeSite(scene);
+    EXPECT_EQ(site.world.frame().size, sim::Voxel(8));
+    EXPECT_FALSE(site.random_sky);
+    EXPECT_EQ(site.sky.weighting, sim::Weighting::cosine);
+    EXPECT_LE(site.sky.standard_error, 0.02);
+    EXPECT_EQ(site.sun.about, makeSun(scene.sun).about);
+  }
+  scene.sky.sampling = Sampling::random;
+  const Site site = makeSite(scene);
+  ASSERT_TRUE(site.random_sky);
+  EXPECT_EQ(site.random_sky->rays, 100);
+  EXPECT_EQ(site.random_sky->seed, 7u);
+}
+
+TEST(Site, KeepsItsMeshesAsPlaced) {
+  const tests::Scratch scratch;
+  Scene scene = emptyScene();
+  SceneMesh mesh;
+  mesh.name = "slab";
+  mesh.file = scratch.write("slab.obj", "v 0 0 0\nv 1 0 0\nv 1 0 1\ng top\nf 1 3 2\n");
+  mesh.scale = 2.0;
+  mesh.translate_m = {-1, 0.25, -1};
+  scene.meshes.push_back(mesh);
+  const Site site = makeSite(scene);
+  ASSERT_EQ(site.meshes.size(), 1u);
+  const auto& vertices = site.meshes[0].mesh.vertices_m;
+  EXPECT_EQ(vertices.size(), 3u);
+  EXPECT_NE(std::find(vertices.begin(), vertices.end(), sim::Vec3(1, 0.25, 1)), vertices.end());
+  EXPECT_EQ(site.world.part(site.world.partAt({4, 4, 3})).region, "top");
+}
+
+TEST(Site, AnOptionalMeshThatIsNotThereIsSaidSo) {
+  Scene scene = emptyScene();
+  SceneMesh mesh;
+  mesh.file = "/nowhere/gone.obj";
+  mesh.optional = true;
+  scene.meshes.push_back(mesh);
+  EXPECT_THROW(makeSite(scene), MeshMissing);
+}
+
+TEST(Site, FaultsOfTheSceneNameItsFile) {
+  Scene scene = emptyScene();
+  scene.world.voxel_m = 1e-4;
+  try {
+    makeSite(scene);
+    FAIL() << "a world of 40000 voxels a side was made";
+  } catch (const sim::InputError& error) {
+    EXPECT_TRUE(std::string_view(error.what()).starts_with("garden.yaml: world: ")) << error.what();
+  }
+}
+
+TEST(Site, ACameraInAWallIsNamed) {
+  const tests::Scratch scratch;
+  Scene scene = emptyScene();
+  SceneMesh mesh;
+  mesh.name = "slab";
+  mesh.file =
+      scratch.write("slab.obj", "v -2 0.25 -2\nv 2 0.25 -2\nv 2 0.25 2\nv -2 0.25 2\ng top\nf 1 4 3 2\n");
+  scene.meshes.push_back(mesh);
+  scene.cameras.push_back({"main", {{0.2, 1.2, 0.2}, {0, 0, 0}, 40}});
+  const Site site = makeSite(scene);
+  requireCamerasInTheOpen(scene, site.world);
+  scene.cameras.push_back({"low", {{0.2, 0.2, 0.2}, {0, 0, 0}, 40}});
+  try {
+    requireCamerasInTheOpen(scene, site.world);
+    FAIL() << "a camera in a slab was let pass";
+  } catch (const sim::InputError& error) {
+    EXPECT_STREQ(error.what(),
+                 "garden.yaml: camera 'low' stands inside 'slab' (top); move its eye into the open");
+  }
+}
+
+}  // namespace
+}  // namespace espalier::scenes

@@ -134,7 +134,10 @@ std::string expectation(const Key& key) {
     case Kind::rules:
       return "the path of a rule file, or a mapping of rule keys";
     case Kind::regions:
-      return "a mapping from region names to 'forbid', {rules: file.yaml} or rule keys that differ there";
+      return fmt::format(
+          "a mapping from region names (or {}) to 'forbid', {{rules: file.yaml}} or rule keys that "
+          "differ there",
+          kOthers);
     case Kind::section:
       break;
     case Kind::entries:

@@ -43,11 +43,14 @@ enum class Kind {
   file,         ///< a path, relative to the file that names it
   base,         ///< the file of a rule set to build on
   rules,        ///< a rule set: its file, or a mapping of rule keys
-  regions,      ///< a mapping from region names to rule sets, or the word forbid
+  regions,      ///< of a RuleSet: a mapping from region names and kOthers to rule sets, or the word forbid
   section,      ///< a mapping with keys of its own
   entries,      ///< a list of such mappings
   named         ///< a mapping from names to such mappings
 };
+
+/// Among the names of Kind::regions: every region that is not named.
+inline constexpr const char* kOthers = "others";
 
 /// Bounds of a number; of each number of a range, a curve or a point.
 struct Limits {

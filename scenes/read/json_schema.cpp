@@ -77,6 +77,22 @@ Json nested(const Key& key) {
   return anyOf({mapping, valueOf(*rules::find(*key.child, key.shorthand))});
 }
 
+Json regions(const Key& key) {
+  const Json file{{"type", "string"}, {"minLength", 1}};
+  const Json rule = anyOf({file,
+                           {{"type", "object"},
+                            {"additionalProperties", false},
+                            {"required", {"rules"}},
+                            {"properties", {{"rules", anyOf({file, reference("rule_set")})}}}},
+                           reference("rule_set")});
+  Json others{{"description", "Every region that is not named."}};
+  others.update(rule);
+  return {{"type", "object"},
+          {"maxProperties", key.most},
+          {"properties", {{rules::kOthers, std::move(others)}}},
+          {"additionalProperties", rule}};
+}
+
 Json valueOf(const Key& key) {
   switch (key.kind) {
     case Kind::header:
@@ -120,16 +136,7 @@ Json valueOf(const Key& key) {
     case Kind::rules:
       return anyOf({{{"type", "string"}, {"minLength", 1}}, reference("rule_set")});
     case Kind::regions:
-      return {{"type", "object"},
-              {"maxProperties", key.most},
-              {"additionalProperties",
-               anyOf({{{"type", "string"}, {"minLength", 1}},
-                      {{"type", "object"},
-                       {"additionalProperties", false},
-                       {"required", {"rules"}},
-                       {"properties",
-                        {{"rules", anyOf({{{"type", "string"}, {"minLength", 1}}, reference("rule_set")})}}}},
-                      reference("rule_set")})}};
+      return regions(key);
     case Kind::section:
       return nested(key);
     case Kind::entries:

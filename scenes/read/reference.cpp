@@ -34,7 +34,8 @@ How values are written:
 as a whole, regions one by one.
 
 `regions` maps the names of the scene's regions to `forbid`, to a rule set's file, to `{rules: file.yaml}`, or to keys
-that differ there: `regions: {paving: forbid, wall: {bias: {up: 0.2}}}`.
+that differ there: `regions: {wall: {bias: {up: 0.2}}, others: forbid}`. `others` stands for every region that is not
+named. A region that a scene does not have is a warning when something grows there.
 
 The last column has the name in Ned Greene's *Voxel Space Automata* (SIGGRAPH 1989), where the paper has one.
 )";

@@ -124,7 +124,12 @@ void RuleLoader::addRegions(const Layers& layers, RuleSet& rules) {
       continue;
     }
     for (const auto& entry : map.entries) {
-      rules.regions[entry.key] = region(entry.value, "regions." + entry.key, plain);
+      auto rule = region(entry.value, "regions." + entry.key, plain);
+      if (entry.key == rules::kOthers) {
+        rules.others = std::move(rule);
+      } else {
+        rules.regions[entry.key] = std::move(rule);
+      }
     }
   }
 }

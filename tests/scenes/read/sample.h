@@ -75,7 +75,7 @@ inline std::vector<std::string> goodTexts(const rules::Key& key) {
     case Kind::rules:
       return {"other.yaml", "{name: x}", "{}"};
     case Kind::regions:
-      return {"{a: forbid, b: other.yaml, c: {rules: other.yaml}, d: {name: x}}", "{}"};
+      return {"{a: forbid, b: other.yaml, c: {rules: other.yaml}, d: {name: x}}", "{others: forbid}", "{}"};
     case Kind::section:
       return {goodMapping(*key.child)};
     case Kind::entries:
@@ -161,7 +161,13 @@ inline std::vector<std::string> badTexts(const rules::Key& key) {
     case Kind::rules:
       return {"[]", "\"\"", "none.yaml", "{nmae: x}"};
     case Kind::regions:
-      return {"[]", "x", "{a: forbiden}", "{a: []}", "{a: {nmae: x}}", "{a: {rules: {}, name: x}}"};
+      return {"[]",
+              "x",
+              "{a: forbiden}",
+              "{a: []}",
+              "{a: {nmae: x}}",
+              "{a: {rules: {}, name: x}}",
+              "{others: {nmae: x}}"};
     case Kind::section:
       return {"[[]]", "{unknown_key: 1}", "few_words"};
     case Kind::entries:

@@ -50,6 +50,7 @@ std::uint64_t peakMemoryBytes() {
 std::string toJson(const Report& report) {
   Json json;
   json["scene"] = report.scene;
+  json["warnings"] = report.warnings;
   const sim::Frame& frame = report.frame;
   json["world"] = {{"size", {frame.size.x, frame.size.y, frame.size.z}},
                    {"voxel_m", frame.voxel_m},

@@ -8,8 +8,10 @@
 #include "render/files/vdb.h"
 #include "render/model/plant_model.h"
 #include "scenes/job/stages.h"
+#include "scenes/job/warnings.h"
 #include "scenes/lighting.h"
 #include "scenes/prepare/job.h"
+#include "scenes/prepare/unknown_regions.h"
 #include "scenes/show/light_fields.h"
 #include "scenes/show/pictures.h"
 #include "scenes/write/output_files.h"
@@ -66,6 +68,7 @@ Report runScene(Scene scene, const RunOptions& options) {
   Stages stages(options, report);
   Job job = stages.run("tiling", [&] { return prepareJob(std::move(scene)); });
   describeWorld(report, job);
+  warn(unknownRegions(job.scene, job.world), job.scene.file, options, report);
   const sim::BitVolume before = job.world.occupied();
 
   sim::GrowthSettings settings = growthSettings(job);

@@ -10,7 +10,7 @@
 #include "rules/growth/random_tree.h"
 #include "scenes/import/mesh_import.h"
 #include "scenes/lights.h"
-#include "scenes/problem.h"
+#include "scenes/prepare/unknown_regions.h"
 #include "sim/base/error.h"
 #include "sim/base/parallel.h"
 #include "sim/base/random.h"
@@ -97,16 +97,6 @@ std::vector<sim::Vec3> scatter(const sim::World& world, const Scatter& spec, std
   return seeds;
 }
 
-void requireRegion(const sim::World& world, const std::string& region) {
-  std::vector<std::string> known;
-  for (const sim::Part& part : world.parts()) {
-    if (part.region == region) return;
-    known.push_back(part.region);
-  }
-  throw sim::InputError(fmt::format("there is no region '{}'; the meshes have: {}{}", region,
-                                    fmt::join(known, ", "), didYouMean(region, known)));
-}
-
 void requireCamerasInTheOpen(const Job& job) {
   for (const NamedCamera& camera : job.scene.cameras) {
     const sim::PartId part =
@@ -124,11 +114,9 @@ sim::Planting plant(Job& job, const PlantSpec& spec, std::size_t number) {
     planting.seeds_vx.push_back(sim::voxelFromWorld(job.world.frame(), seed_m));
   }
   if (spec.scatter) {
-    requireRegion(job.world, spec.scatter->region);
     const auto seeds = scatter(job.world, *spec.scatter, job.scene.seed, number);
     planting.seeds_vx.insert(planting.seeds_vx.end(), seeds.begin(), seeds.end());
   }
-  for (const auto& [region, rule] : spec.rules->regions) requireRegion(job.world, region);
   return planting;
 }
 
@@ -136,7 +124,7 @@ sim::Planting plant(Job& job, const PlantSpec& spec, std::size_t number) {
 
 Job prepareJob(Scene scene) {
   std::vector<sim::TiledMesh> meshes = readMeshes(scene);
-  const std::string where = scene.file.string() + ": ";
+  const std::string where = scene.file.string() + ":";
   try {
     std::vector<sim::FillReport> fills;
     sim::Sky sky;
@@ -154,6 +142,7 @@ Job prepareJob(Scene scene) {
     const auto random_sky = randomSky(scene.sky, scene.seed);
     Job job{std::move(scene), std::move(meshes), std::move(fills), std::move(*world), {}, {},
             std::move(sky),   random_sky,        std::move(sun)};
+    requireRegionsToScatterOver(job.scene, job.world);
     for (std::size_t i = 0; i < job.scene.plants.size(); ++i) {
       job.plantings.push_back(plant(job, job.scene.plants[i], i));
     }
@@ -161,7 +150,7 @@ Job prepareJob(Scene scene) {
     return job;
   } catch (const sim::InputError& error) {
     if (std::string_view(error.what()).starts_with(where)) throw;
-    throw sim::InputError(where + error.what());
+    throw sim::InputError(where + " " + error.what());
   }
 }
 

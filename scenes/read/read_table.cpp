@@ -189,16 +189,6 @@ Found locate(const YamlNode& root, std::string_view path) {
   return found;
 }
 
-Place placeOf(const std::vector<const YamlNode*>& layers, std::string_view path) {
-  Found best{layers.back()->place, 0, false};
-  for (auto layer = layers.rbegin(); layer != layers.rend(); ++layer) {
-    const auto found = locate(**layer, path);
-    if (found.whole) return found.place;
-    if (found.depth > best.depth) best = found;
-  }
-  return best.place;
-}
-
 /// Is one path the other's beginning?
 bool overlap(std::string_view a, std::string_view b) {
   const auto shorter = std::min(a.size(), b.size());
@@ -212,6 +202,16 @@ bool overlap(std::string_view a, std::string_view b) {
 void readTable(const YamlNode& map, const Table& table, void* target, const std::string& path,
                Reading& reading) {
   TableReader(reading).read(map, table, target, path);
+}
+
+Place placeOf(const std::vector<const YamlNode*>& layers, std::string_view path) {
+  Found best{layers.back()->place, 0, false};
+  for (auto layer = layers.rbegin(); layer != layers.rend(); ++layer) {
+    const auto found = locate(**layer, path);
+    if (found.whole) return found.place;
+    if (found.depth > best.depth) best = found;
+  }
+  return best.place;
 }
 
 void runChecks(const std::vector<rules::Check>& checks, const void* target,

@@ -128,6 +128,7 @@ void RuleLoader::addRegions(const Layers& layers, RuleSet& rules) {
       if (entry.key == rules::kOthers) {
         rules.others = std::move(rule);
       } else {
+        mention(entry);
         rules.regions[entry.key] = std::move(rule);
       }
     }
@@ -158,6 +159,12 @@ rules::RegionRule RuleLoader::region(const YamlNode& node, const std::string& pa
             inQuotes(entry.key)));
   }
   return {false, reference(whole->value, path + ".rules", enclosing)};
+}
+
+void RuleLoader::mention(const YamlEntry& region) {
+  const Place& place = region.place;
+  if (mentioned_.emplace(place.path.get(), place.line, place.column).second)
+    mentions_.push_back({region.key, place});
 }
 
 bool RuleLoader::countOne(const Place& place) {

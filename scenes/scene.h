@@ -105,11 +105,16 @@ struct Scatter {
   Place region_place = {};  ///< where a scene file names the region; without a path where none does
 };
 
+struct SeedSpec {
+  sim::Vec3 at_m{0.0};
+  std::string key;  ///< what its random numbers hang on; empty: its place
+};
+
 struct PlantSpec {
   std::string name;
   std::filesystem::path rules_file;
   std::shared_ptr<const rules::RuleSet> rules;
-  std::vector<sim::Vec3> seeds_m;
+  std::vector<SeedSpec> seeds;
   std::optional<Scatter> scatter;
 };
 

@@ -33,7 +33,6 @@ enum class Kind {
   colour,       ///< "#rrggbb" or [r, g, b], both sRGB; stored linear
   point,        ///< [x, y, z] of numbers
   place,        ///< [x, y, z], each as in `metres`
-  places,       ///< a list of places
   polygons,     ///< a list of polygons, each a list of points
   choice,       ///< one of a few words
   name,         ///< a word that may become part of a file name
@@ -73,7 +72,7 @@ struct RuleReference {
 
 /// A value on its way between a file and a struct. monostate: none.
 using Datum = std::variant<std::monostate, bool, std::int64_t, WholeRange, double, Value, Length, sim::Colour,
-                           sim::Vec3, std::chrono::year_month_day, std::string, std::vector<sim::Vec3>,
+                           sim::Vec3, std::chrono::year_month_day, std::string,
                            std::vector<std::vector<sim::Vec3>>, std::vector<std::string>, RuleReference>;
 
 struct Table;
@@ -88,7 +87,7 @@ struct Key {
   std::string meaning;  ///< one line
   std::string greene;   ///< Greene's own name for it (Voxel Space Automata, 1989, figure 4), if he has one
   bool required = false;
-  std::size_t most = 0;  ///< entries of a list; 0: as many as the file holds
+  std::size_t most = 0;  ///< entries of a list, characters of a text; 0: as many as the file holds
   std::vector<std::string> choices;
   std::string shorthand;  ///< sections and entries: the key that a value which is no mapping stands for
   std::shared_ptr<const Table> child;  ///< section, entries, named
@@ -108,6 +107,9 @@ struct Table {
 };
 
 const Key* find(const Table& table, std::string_view name);
+
+/// The key that a value which is no mapping stands for, or null.
+const Key* briefOf(const Key& key);
 
 /// Something that must hold between keys.
 struct Check {

@@ -100,10 +100,6 @@ class TableOf {
     return field<sim::Vec3>(n, Kind::place, a, s);
   }
   template <class A>
-  TableOf& places(std::string n, A a, About s) {
-    return field<std::vector<sim::Vec3>>(n, Kind::places, a, s);
-  }
-  template <class A>
   TableOf& polygons(std::string n, A a, About s) {
     return field<std::vector<std::vector<sim::Vec3>>>(n, Kind::polygons, a, s);
   }
@@ -204,7 +200,9 @@ class TableOf {
     key.clear = [member](void* t) { (static_cast<T*>(t)->*member).clear(); };
     key.append = [member, kind](void* t, const std::string& item_name) -> void* {
       auto& item = (static_cast<T*>(t)->*member).emplace_back();
-      if (kind == Kind::named) item.name = item_name;
+      if constexpr (requires { item.name; }) {
+        if (kind == Kind::named) item.name = item_name;
+      }
       return &item;
     };
     return *this;

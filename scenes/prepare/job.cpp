@@ -110,8 +110,8 @@ void requireCamerasInTheOpen(const Job& job) {
 sim::Planting plant(Job& job, const PlantSpec& spec, std::size_t number) {
   job.rules.push_back(rules::makeRandomTree(spec.rules, job.world.frame().voxel_m));
   sim::Planting planting{spec.name, job.rules.back().get(), {}};
-  for (const sim::Vec3& seed_m : spec.seeds_m) {
-    planting.seeds_vx.push_back(sim::voxelFromWorld(job.world.frame(), seed_m));
+  for (const SeedSpec& seed : spec.seeds) {
+    planting.seeds_vx.push_back(sim::voxelFromWorld(job.world.frame(), seed.at_m));
   }
   if (spec.scatter) {
     const auto seeds = scatter(job.world, *spec.scatter, job.scene.seed, number);

@@ -68,13 +68,19 @@ Json varying(const Json& one) {
   return anyOf({one, list(one, 2, 2), curve});
 }
 
+Json textOf(const Key& key) {
+  Json schema{{"type", "string"}, {"minLength", 1}};
+  if (key.most > 0) schema["maxLength"] = key.most;
+  return schema;
+}
+
 Json table(const Table& keys);
 Json valueOf(const Key& key);
 
 Json nested(const Key& key) {
   const Json mapping = table(*key.child);
-  if (key.shorthand.empty()) return mapping;
-  return anyOf({mapping, valueOf(*rules::find(*key.child, key.shorthand))});
+  const Key* brief = rules::briefOf(key);
+  return brief ? anyOf({mapping, valueOf(*brief)}) : mapping;
 }
 
 Json regions(const Key& key) {
@@ -117,8 +123,6 @@ Json valueOf(const Key& key) {
       return list(bounded(key, "number"), 3, 3);
     case Kind::place:
       return list(anyOf({bounded(key, "number"), lengthText("mm|cm|m")}), 3, 3);
-    case Kind::places:
-      return list(list(anyOf({bounded(key, "number"), lengthText("mm|cm|m")}), 3, 3), 0, 0);
     case Kind::polygons:
       return list(list(list(bounded(key, "number"), 3, 3), 3, 64), 1, key.most);
     case Kind::choice:
@@ -132,7 +136,7 @@ Json valueOf(const Key& key) {
     case Kind::text:
     case Kind::file:
     case Kind::base:
-      return {{"type", "string"}, {"minLength", 1}};
+      return textOf(key);
     case Kind::rules:
       return anyOf({{{"type", "string"}, {"minLength", 1}}, reference("rule_set")});
     case Kind::regions:

@@ -55,7 +55,8 @@ How values are written:
 - *name*: letters, digits, `_`, `-` and `.`: it may become part of a file's name.
 - *rule set*: a rule file's path, or a mapping of the keys of one (see the page of rule files).
 
-`world` needs either a voxel size or a resolution. An entry of `meshes` may be just a path, one of `images` just its kind.
+`world` needs either a voxel size or a resolution. An entry of `meshes` may be just a path, one of `images` just its
+kind, one of `seeds` just its place.
 `sun` is an inclined arc, or with `place` a real sun on a date or a range of dates.
 )";
 
@@ -82,8 +83,6 @@ std::string kindText(const Key& key) {
       return "point";
     case Kind::place:
       return "place";
-    case Kind::places:
-      return "list of places";
     case Kind::polygons:
       return "list of polygons";
     case Kind::choice:
@@ -122,7 +121,10 @@ std::string defaultText(const Key& key) {
 std::string rangeOf(const Key& key) {
   const bool has_numbers = key.kind != Kind::colour && key.kind != Kind::section;
   auto text = has_numbers ? rules::rangeText(key.limits) : "";
-  if (key.most > 0) text += fmt::format("{}at most {} entries", text.empty() ? "" : "; ", key.most);
+  if (key.most > 0) {
+    text += fmt::format("{}at most {} {}", text.empty() ? "" : "; ", key.most,
+                        key.kind == Kind::text ? "characters" : "entries");
+  }
   return text;
 }
 

@@ -24,6 +24,17 @@ inline std::string goodWhole(const rules::Key& key) {
 
 std::string goodMapping(const rules::Table& table);
 
+inline std::vector<std::string> goodTexts(const rules::Key& key);
+
+/// And what a value that is no mapping may be, each put in place of {} in `around`.
+inline std::vector<std::string> withBrief(std::vector<std::string> texts, const rules::Key& key,
+                                          const char* around) {
+  if (const auto* brief = rules::briefOf(key)) {
+    for (const auto& text : goodTexts(*brief)) texts.push_back(fmt::format(fmt::runtime(around), text));
+  }
+  return texts;
+}
+
 /// Texts that a file may have for a key.
 inline std::vector<std::string> goodTexts(const rules::Key& key) {
   using rules::Kind;
@@ -54,8 +65,6 @@ inline std::vector<std::string> goodTexts(const rules::Key& key) {
       return {triple};
     case Kind::place:
       return {triple, "[1 cm, 2 mm, 0.1 m]"};
-    case Kind::places:
-      return {fmt::format("[{}, [1 cm, 0, 0]]", triple), "[]"};
     case Kind::polygons:
       return {"[[[0, 0, 0], [1, 0, 0], [0, 1, 0]]]"};
     case Kind::choice:
@@ -77,9 +86,9 @@ inline std::vector<std::string> goodTexts(const rules::Key& key) {
     case Kind::regions:
       return {"{a: forbid, b: other.yaml, c: {rules: other.yaml}, d: {name: x}}", "{others: forbid}", "{}"};
     case Kind::section:
-      return {goodMapping(*key.child)};
+      return withBrief({goodMapping(*key.child)}, key, "{}");
     case Kind::entries:
-      return {fmt::format("[{}]", goodMapping(*key.child))};
+      return withBrief({fmt::format("[{}]", goodMapping(*key.child)), "[]"}, key, "[{}]");
     case Kind::named:
       return {fmt::format("{{some: {}}}", goodMapping(*key.child))};
   }
@@ -139,9 +148,6 @@ inline std::vector<std::string> badTexts(const rules::Key& key) {
       return more(beyond(triple), {"[1, 2]", "1", "{}"});
     case Kind::place:
       return more(beyond(triple), {"[1, 2]", "1", "[1 vx, 0, 0]"});
-    case Kind::places:
-      return more(beyond([&](const std::string& text) { return fmt::format("[{}]", triple(text)); }),
-                  {"[[1, 2]]", "[1, 2, 3]", "1"});
     case Kind::polygons:
       return {"[[0, 0, 0]]", "1", "[[[0, 0, few], [1, 0, 0], [0, 1, 0]]]"};
     case Kind::choice:

@@ -77,6 +77,12 @@ using Datum = std::variant<std::monostate, bool, std::int64_t, WholeRange, doubl
 
 struct Table;
 
+/// One of several structs of a key.
+struct Item {
+  std::string name;  ///< of Kind::named
+  const void* object = nullptr;
+};
+
 /// One key. The functions take the struct that the key's table describes; which of them are there depends on
 /// kind.
 struct Key {
@@ -95,7 +101,10 @@ struct Key {
 
   std::function<void(void*, const Datum&)> set;
   std::function<Datum(const void*)> get;
-  std::function<void*(void*)> open;                        ///< section: the struct that its keys describe
+  std::function<void*(void*)> open;  ///< section: the struct that its keys describe
+  std::function<const void*(const void*)>
+      look;  ///< section: the same; null where an optional one is not there
+  std::function<std::vector<Item>(const void*)> items;     ///< entries, named: those that there are, in order
   std::function<void(void*)> clear;                        ///< entries, named: forget all
   std::function<void*(void*, const std::string&)> append;  ///< entries, named: a new one, by its name
 };

@@ -187,13 +187,21 @@ class TableOf {
         return &field;
       }
     };
+    key.look = [access](const void* t) -> const void* {
+      const auto& field = std::invoke(access, *static_cast<const T*>(t));
+      if constexpr (requires { field.has_value(); }) {
+        return field ? &*field : nullptr;
+      } else {
+        return &field;
+      }
+    };
     return *this;
   }
 
   /// A list of structs, or (Kind::named) a mapping from names to structs that have a `name`.
-  template <class Item>
-  TableOf& list(std::string name, Kind kind, std::vector<Item> T::*member, std::shared_ptr<const Table> child,
-                About about, std::string shorthand = "") {
+  template <class Entry>
+  TableOf& list(std::string name, Kind kind, std::vector<Entry> T::*member,
+                std::shared_ptr<const Table> child, About about, std::string shorthand = "") {
     Key& key = added(std::move(name), kind, std::move(about));
     key.child = std::move(child);
     key.shorthand = std::move(shorthand);
@@ -204,6 +212,17 @@ class TableOf {
         if (kind == Kind::named) item.name = item_name;
       }
       return &item;
+    };
+    key.items = [member, kind](const void* t) {
+      std::vector<Item> all;
+      for (const auto& entry : static_cast<const T*>(t)->*member) {
+        Item item{"", &entry};
+        if constexpr (requires { entry.name; }) {
+          if (kind == Kind::named) item.name = entry.name;
+        }
+        all.push_back(std::move(item));
+      }
+      return all;
     };
     return *this;
   }

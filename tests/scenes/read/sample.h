@@ -12,11 +12,19 @@
 /// soon as it stands there.
 namespace espalier::tests {
 
-/// Well inside a key's limits, and not its default.
-inline double goodNumber(const rules::Key& key) {
+/// So far into a key's limits.
+inline double numberAt(const rules::Key& key, double fraction) {
   const double low = std::max(key.limits.min, -10.0),
                high = std::min(key.limits.max, 10.0 + std::max(0.0, low));
-  return low + (high - low) * (key.name == "max" ? 0.75 : 0.25);
+  return low + (high - low) * fraction;
+}
+/// Well inside the limits, and not the default.
+inline double goodNumber(const rules::Key& key) {
+  return numberAt(key, key.name == "max" ? 0.75 : 0.25);
+}
+/// Another one.
+inline double otherNumber(const rules::Key& key) {
+  return numberAt(key, key.name == "max" ? 0.9 : 0.4);
 }
 inline std::string goodWhole(const rules::Key& key) {
   return fmt::format("{}", static_cast<long>(std::ceil(goodNumber(key))));
@@ -39,6 +47,7 @@ inline std::vector<std::string> withBrief(std::vector<std::string> texts, const 
 inline std::vector<std::string> goodTexts(const rules::Key& key) {
   using rules::Kind;
   const auto number = fmt::format("{}", goodNumber(key));
+  const auto other = fmt::format("{}", otherNumber(key));
   const auto range = fmt::format("[{0}, {0}]", number);
   const auto curve = fmt::format("{{over: exposure, points: [[0, {0}], [1, {0}]]}}", number);
   const auto triple = fmt::format("[{0}, {0}, {0}]", number);
@@ -48,11 +57,12 @@ inline std::vector<std::string> goodTexts(const rules::Key& key) {
     case Kind::flag:
       return {"true", "false"};
     case Kind::whole:
-      return {goodWhole(key)};
+      return {goodWhole(key), fmt::format("{}", static_cast<long>(std::ceil(otherNumber(key))))};
     case Kind::whole_range:
-      return {fmt::format("[{0}, {0}]", goodWhole(key)), goodWhole(key)};
+      return {fmt::format("[{0}, {0}]", goodWhole(key)), goodWhole(key),
+              fmt::format("[{}, {}]", goodWhole(key), static_cast<long>(std::ceil(otherNumber(key))))};
     case Kind::number:
-      return {number};
+      return {number, other};
     case Kind::value:
       return {number, range, curve};
     case Kind::length:
@@ -62,23 +72,23 @@ inline std::vector<std::string> goodTexts(const rules::Key& key) {
     case Kind::colour:
       return {"\"#4f7a2c\"", "[0.1, 0.2, 1]"};
     case Kind::point:
-      return {triple};
+      return {triple, fmt::format("[{0}, {1}, {0}]", number, other)};
     case Kind::place:
       return {triple, "[1 cm, 2 mm, 0.1 m]"};
     case Kind::polygons:
-      return {"[[[0, 0, 0], [1, 0, 0], [0, 1, 0]]]"};
+      return {"[[[0, 0, 0], [1, 0, 0], [0, 1, 0]]]", "[[[0, 0, 0], [1, 0, 0], [0, 1, 0.5]]]"};
     case Kind::choice:
       return key.choices;
     case Kind::date:
       return {"2026-06-21", "02-28", "\"2024-02-29\""};
     case Kind::name:
-      return {"some_name-1.x"};
+      return {"some_name-1.x", "other"};
     case Kind::text:
-      return {"\"a text: of any kind\""};
+      return {"\"a text: of any kind\"", "word"};
     case Kind::names:
       return {"[a, b]", "[]"};
     case Kind::file:
-      return {"mesh.obj"};
+      return {"mesh.obj", "sub/mesh.obj"};
     case Kind::base:
       return {"other.yaml"};
     case Kind::rules:

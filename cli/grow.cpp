@@ -16,6 +16,7 @@ void addGrow(CLI::App& app, int& exit_status) {
   const auto options = std::make_shared<JobOptions>();
   const auto seed = std::make_shared<std::optional<std::uint64_t>>();
   addJobOptions(*command, *options);
+  addStrict(*command, *options);
   command->add_option("--seed", *seed, "Random seed instead of the scene's own");
   command->callback([options, seed, &exit_status] {
     exit_status = runJob(*options, [&](scenes::Scene scene, const scenes::RunOptions& run) {

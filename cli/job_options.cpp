@@ -28,6 +28,11 @@ void addJobOptions(CLI::App& command, JobOptions& options) {
   command.add_flag("--json", options.json, "Print the report as JSON on standard output, and no progress");
 }
 
+void addStrict(CLI::App& command, JobOptions& options) {
+  command.add_flag("--strict", options.strict,
+                   "Take warnings, such as a rule for a region that the scene does not have, for errors");
+}
+
 int runJob(const JobOptions& options, const JobWork& work) {
   const Interrupt interrupt;
   auto scene = scenes::readScene(options.scene);
@@ -38,12 +43,16 @@ int runJob(const JobOptions& options, const JobWork& work) {
   scenes::RunOptions run;
   run.folder = options.folder.empty() ? "out/" + scene->file.stem().string() : options.folder;
   run.pictures = !options.no_pictures;
+  run.strict = options.strict;
   run.stop = interrupt.token();
   JobOutcome outcome;
   {
     Progress progress(options.quiet || options.json);
     run.on_stage = [&](const std::string& stage) { progress.stage(stage); };
     run.on_growth = [&](const sim::GrowthProgress& growth) { progress.growth(growth); };
+    run.on_warning = [&](const std::string& text) {
+      if (!options.quiet) progress.warning(text);
+    };
     try {
       sim::onThreads(options.threads, [&] { outcome = work(std::move(*scene), run); });
     } catch (const scenes::MeshMissing& missing) {

@@ -14,9 +14,12 @@ struct JobOptions {
   std::string folder;
   int threads = 0;
   bool quiet = false, json = false, no_pictures = false;
+  bool strict = false;  ///< of the commands that offer it
 };
 
 void addJobOptions(CLI::App& command, JobOptions& options);
+/// --strict, of commands that prepare plants.
+void addStrict(CLI::App& command, JobOptions& options);
 
 /// What is printed when the work is done.
 struct JobOutcome {

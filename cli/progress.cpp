@@ -41,6 +41,11 @@ void Progress::stage(const std::string& name) {
   line(name);
 }
 
+void Progress::warning(const std::string& text) {
+  fmt::print(stderr, "{}{}\n", open_line_ ? "\r\033[K" : "", text);
+  open_line_ = false;
+}
+
 void Progress::growth(const sim::GrowthProgress& growth) {
   if (quiet_) return;
   const auto now = Clock::now();

@@ -16,6 +16,8 @@ class Progress {
   Progress& operator=(const Progress&) = delete;
 
   void stage(const std::string& name);
+  /// A line that stays, also when quiet.
+  void warning(const std::string& text);
   void growth(const sim::GrowthProgress& growth);
 
  private:

@@ -31,11 +31,36 @@ std::size_t editDistance(std::string_view a, std::string_view b) {
   return d[a.size()][b.size()];
 }
 
+std::string placed(const Problem& problem, std::string_view kind) {
+  const auto& [path, line, column, text] = problem;
+  return line == 0 ? fmt::format("{}: {}{}", path, kind, text)
+                   : fmt::format("{}:{}:{}: {}{}", path, line, column, kind, text);
+}
+
+/// Fit for one line: control characters are spaces, and what is long is cut short.
+std::string shortened(std::string_view text) {
+  constexpr std::size_t kMost = 40;
+  std::string shown;
+  for (const char c : text) {
+    if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) {
+      shown += ' ';
+      continue;
+    }
+    // Cut between characters, never inside one.
+    if (shown.size() >= kMost && (static_cast<unsigned char>(c) & 0xc0) != 0x80) return shown + "...";
+    shown += c;
+  }
+  return shown;
+}
+
 }  // namespace
 
 std::string format(const Problem& problem) {
-  if (problem.line == 0) return fmt::format("{}: {}", problem.path, problem.text);
-  return fmt::format("{}:{}:{}: {}", problem.path, problem.line, problem.column, problem.text);
+  return placed(problem, "");
+}
+
+std::string formatWarning(const Problem& warning) {
+  return placed(warning, "warning: ");
 }
 
 std::string format(const std::vector<Problem>& problems) {
@@ -70,6 +95,8 @@ std::string didYouMean(std::string_view word, const std::vector<std::string>& ca
   std::size_t distance = std::max<std::size_t>(1, word.size() / 3) + 1;
   for (const auto& candidate : candidates) {
     if (candidate.size() > kLongestWord) continue;
+    const auto [less, more] = std::minmax(word.size(), candidate.size());
+    if (more - less >= distance) continue;
     const auto d = editDistance(word, candidate);
     if (d < distance) {
       distance = d;
@@ -82,24 +109,14 @@ std::string didYouMean(std::string_view word, const std::vector<std::string>& ca
 std::string listed(const std::vector<std::string>& words) {
   constexpr std::size_t kMost = 16;
   if (words.empty()) return "none";
-  const auto shown = std::span(words).first(std::min(words.size(), kMost));
+  std::vector<std::string> shown;
+  for (const auto& word : std::span(words).first(std::min(words.size(), kMost)))
+    shown.push_back(shortened(word));
   return fmt::format("{}{}", fmt::join(shown, ", "), words.size() > kMost ? ", ..." : "");
 }
 
 std::string inQuotes(std::string_view text) {
-  constexpr std::size_t kMost = 40;
-  std::string shown;
-  for (const char c : text) {
-    if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) {
-      shown += ' ';
-      continue;
-    }
-    // Cut between characters, never inside one.
-    if (shown.size() >= kMost && (static_cast<unsigned char>(c) & 0xc0) != 0x80)
-      return fmt::format("'{}...'", shown);
-    shown += c;
-  }
-  return fmt::format("'{}'", shown);
+  return fmt::format("'{}'", shortened(text));
 }
 
 }  // namespace espalier::scenes

@@ -20,6 +20,8 @@ struct Problem {
 
 /// "path:line:column: text".
 std::string format(const Problem& problem);
+/// "path:line:column: warning: text".
+std::string formatWarning(const Problem& warning);
 /// One line each.
 std::string format(const std::vector<Problem>& problems);
 
@@ -68,7 +70,7 @@ class Problems {
 
 /// "; did you mean 'x'?" for the candidate nearest to a misspelt word, or nothing where none is near.
 std::string didYouMean(std::string_view word, const std::vector<std::string>& candidates);
-/// Words joined by commas, as many as a reader will look at.
+/// Words joined by commas, as many and as much of each as a reader will look at.
 std::string listed(const std::vector<std::string>& words);
 /// A text from a file for use in a message: in quotes, cut short.
 std::string inQuotes(std::string_view text);

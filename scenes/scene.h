@@ -11,6 +11,7 @@
 
 #include "render/image/camera.h"
 #include "rules/language/rule_set.h"
+#include "scenes/problem.h"
 #include "sim/base/vec.h"
 #include "sim/light/sky.h"
 #include "sim/light/sun.h"
@@ -101,13 +102,19 @@ struct ExposureSpec {
 struct Scatter {
   std::string region;  ///< seeds stand on the voxels of this region that look up
   int count = 0;
+  Place region_place = {};  ///< where a scene file names the region; without a path where none does
+};
+
+struct SeedSpec {
+  sim::Vec3 at_m{0.0};
+  std::string key;  ///< what its random numbers hang on; empty: its place
 };
 
 struct PlantSpec {
   std::string name;
   std::filesystem::path rules_file;
   std::shared_ptr<const rules::RuleSet> rules;
-  std::vector<sim::Vec3> seeds_m;
+  std::vector<SeedSpec> seeds;
   std::optional<Scatter> scatter;
 };
 
@@ -144,6 +151,12 @@ struct ImageSpec {
   std::vector<std::string> of;  ///< contact_sheet: names of the images on it, in order
 };
 
+/// A region that a rule file names, and where.
+struct RegionMention {
+  std::string region;
+  Place place;
+};
+
 struct Scene {
   std::string name = "unnamed";
   std::filesystem::path file;  ///< where it was read from
@@ -153,6 +166,7 @@ struct Scene {
   SunSpec sun;
   ExposureSpec exposure;
   std::vector<PlantSpec> plants;
+  std::vector<RegionMention> region_mentions;  ///< in the rules of its plants: each place once
   int iterations = 50;
   std::uint64_t seed = 1;
   int image_width = 1280;

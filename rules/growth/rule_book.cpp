@@ -17,12 +17,9 @@ void visitFrom(const RuleSet& rules, const std::string& path, std::set<const Rul
   for (const auto& [region, rule] : rules.regions) {
     if (rule.rules) visitFrom(*rule.rules, prefix + "regions." + region, met, visit);
   }
+  if (rules.others && rules.others->rules)
+    visitFrom(*rules.others->rules, prefix + "regions.others", met, visit);
   if (rules.otherwise) visitFrom(*rules.otherwise, prefix + "otherwise", met, visit);
-}
-
-const RegionRule* ruleFor(const RuleSet& rules, const std::string& region) {
-  const auto found = rules.regions.find(region);
-  return found == rules.regions.end() ? nullptr : &found->second;
 }
 
 /// A region's rule set may have something to say of regions itself.

@@ -74,6 +74,10 @@ const Key* find(const Table& table, std::string_view name) {
   return nullptr;
 }
 
+const Key* briefOf(const Key& key) {
+  return key.shorthand.empty() ? nullptr : find(*key.child, key.shorthand);
+}
+
 bool within(const Limits& limits, double number) {
   return (limits.above ? number > limits.min : number >= limits.min) && number <= limits.max;
 }
@@ -113,8 +117,6 @@ std::string expectation(const Key& key) {
       return fmt::format("three numbers [x, y, z]{}", inUnit(key));
     case Kind::place:
       return fmt::format("a point [x, y, z]{}", inUnit(key));
-    case Kind::places:
-      return fmt::format("a list of points [[x, y, z], ...]{}", inUnit(key));
     case Kind::polygons:
       return fmt::format("a list of polygons, each a list of points [x, y, z]{}", inUnit(key));
     case Kind::choice:
@@ -124,7 +126,8 @@ std::string expectation(const Key& key) {
     case Kind::name:
       return "a name of letters, digits, '_', '-' and '.', such as south_wall";
     case Kind::text:
-      return "a text on one line";
+      return key.most == 0 ? "a text on one line"
+                           : fmt::format("a text on one line, of at most {} characters", key.most);
     case Kind::names:
       return "a list of names";
     case Kind::file:
@@ -134,7 +137,10 @@ std::string expectation(const Key& key) {
     case Kind::rules:
       return "the path of a rule file, or a mapping of rule keys";
     case Kind::regions:
-      return "a mapping from region names to 'forbid', {rules: file.yaml} or rule keys that differ there";
+      return fmt::format(
+          "a mapping from region names (or {}) to 'forbid', {{rules: file.yaml}} or rule keys that "
+          "differ there",
+          kOthers);
     case Kind::section:
       break;
     case Kind::entries:
@@ -144,11 +150,10 @@ std::string expectation(const Key& key) {
   }
   std::vector<std::string> names;
   for (const auto& k : key.child->keys) names.push_back(k.name);
-  const auto mapping = fmt::format("a mapping with some of the keys {}", fmt::join(names, ", "));
-  if (key.kind == Kind::entries) return "a list, each entry " + mapping;
+  auto mapping = fmt::format("a mapping with some of the keys {}", fmt::join(names, ", "));
   if (key.kind == Kind::named) return "a mapping from names, each to " + mapping;
-  const Key* brief = key.shorthand.empty() ? nullptr : find(*key.child, key.shorthand);
-  return brief ? fmt::format("{}, or {}", mapping, expectation(*brief)) : mapping;
+  if (const Key* brief = briefOf(key)) mapping = fmt::format("{}, or {}", mapping, expectation(*brief));
+  return key.kind == Kind::entries ? "a list, each entry " + mapping : mapping;
 }
 
 std::string written(const Datum& datum) {

@@ -33,7 +33,6 @@ enum class Kind {
   colour,       ///< "#rrggbb" or [r, g, b], both sRGB; stored linear
   point,        ///< [x, y, z] of numbers
   place,        ///< [x, y, z], each as in `metres`
-  places,       ///< a list of places
   polygons,     ///< a list of polygons, each a list of points
   choice,       ///< one of a few words
   name,         ///< a word that may become part of a file name
@@ -43,11 +42,14 @@ enum class Kind {
   file,         ///< a path, relative to the file that names it
   base,         ///< the file of a rule set to build on
   rules,        ///< a rule set: its file, or a mapping of rule keys
-  regions,      ///< a mapping from region names to rule sets, or the word forbid
+  regions,      ///< of a RuleSet: a mapping from region names and kOthers to rule sets, or the word forbid
   section,      ///< a mapping with keys of its own
   entries,      ///< a list of such mappings
   named         ///< a mapping from names to such mappings
 };
+
+/// Among the names of Kind::regions: every region that is not named.
+inline constexpr const char* kOthers = "others";
 
 /// Bounds of a number; of each number of a range, a curve or a point.
 struct Limits {
@@ -70,10 +72,16 @@ struct RuleReference {
 
 /// A value on its way between a file and a struct. monostate: none.
 using Datum = std::variant<std::monostate, bool, std::int64_t, WholeRange, double, Value, Length, sim::Colour,
-                           sim::Vec3, std::chrono::year_month_day, std::string, std::vector<sim::Vec3>,
+                           sim::Vec3, std::chrono::year_month_day, std::string,
                            std::vector<std::vector<sim::Vec3>>, std::vector<std::string>, RuleReference>;
 
 struct Table;
+
+/// One of several structs of a key.
+struct Item {
+  std::string name;  ///< of Kind::named
+  const void* object = nullptr;
+};
 
 /// One key. The functions take the struct that the key's table describes; which of them are there depends on
 /// kind.
@@ -85,7 +93,7 @@ struct Key {
   std::string meaning;  ///< one line
   std::string greene;   ///< Greene's own name for it (Voxel Space Automata, 1989, figure 4), if he has one
   bool required = false;
-  std::size_t most = 0;  ///< entries of a list; 0: as many as the file holds
+  std::size_t most = 0;  ///< entries of a list, characters of a text; 0: as many as the file holds
   std::vector<std::string> choices;
   std::string shorthand;  ///< sections and entries: the key that a value which is no mapping stands for
   std::shared_ptr<const Table> child;  ///< section, entries, named
@@ -93,7 +101,10 @@ struct Key {
 
   std::function<void(void*, const Datum&)> set;
   std::function<Datum(const void*)> get;
-  std::function<void*(void*)> open;                        ///< section: the struct that its keys describe
+  std::function<void*(void*)> open;  ///< section: the struct that its keys describe
+  std::function<const void*(const void*)>
+      look;  ///< section: the same; null where an optional one is not there
+  std::function<std::vector<Item>(const void*)> items;     ///< entries, named: those that there are, in order
   std::function<void(void*)> clear;                        ///< entries, named: forget all
   std::function<void*(void*, const std::string&)> append;  ///< entries, named: a new one, by its name
 };
@@ -105,6 +116,9 @@ struct Table {
 };
 
 const Key* find(const Table& table, std::string_view name);
+
+/// The key that a value which is no mapping stands for, or null.
+const Key* briefOf(const Key& key);
 
 /// Something that must hold between keys.
 struct Check {

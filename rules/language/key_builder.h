@@ -100,10 +100,6 @@ class TableOf {
     return field<sim::Vec3>(n, Kind::place, a, s);
   }
   template <class A>
-  TableOf& places(std::string n, A a, About s) {
-    return field<std::vector<sim::Vec3>>(n, Kind::places, a, s);
-  }
-  template <class A>
   TableOf& polygons(std::string n, A a, About s) {
     return field<std::vector<std::vector<sim::Vec3>>>(n, Kind::polygons, a, s);
   }
@@ -191,21 +187,42 @@ class TableOf {
         return &field;
       }
     };
+    key.look = [access](const void* t) -> const void* {
+      const auto& field = std::invoke(access, *static_cast<const T*>(t));
+      if constexpr (requires { field.has_value(); }) {
+        return field ? &*field : nullptr;
+      } else {
+        return &field;
+      }
+    };
     return *this;
   }
 
   /// A list of structs, or (Kind::named) a mapping from names to structs that have a `name`.
-  template <class Item>
-  TableOf& list(std::string name, Kind kind, std::vector<Item> T::*member, std::shared_ptr<const Table> child,
-                About about, std::string shorthand = "") {
+  template <class Entry>
+  TableOf& list(std::string name, Kind kind, std::vector<Entry> T::*member,
+                std::shared_ptr<const Table> child, About about, std::string shorthand = "") {
     Key& key = added(std::move(name), kind, std::move(about));
     key.child = std::move(child);
     key.shorthand = std::move(shorthand);
     key.clear = [member](void* t) { (static_cast<T*>(t)->*member).clear(); };
     key.append = [member, kind](void* t, const std::string& item_name) -> void* {
       auto& item = (static_cast<T*>(t)->*member).emplace_back();
-      if (kind == Kind::named) item.name = item_name;
+      if constexpr (requires { item.name; }) {
+        if (kind == Kind::named) item.name = item_name;
+      }
       return &item;
+    };
+    key.items = [member, kind](const void* t) {
+      std::vector<Item> all;
+      for (const auto& entry : static_cast<const T*>(t)->*member) {
+        Item item{"", &entry};
+        if constexpr (requires { entry.name; }) {
+          if (kind == Kind::named) item.name = entry.name;
+        }
+        all.push_back(std::move(item));
+      }
+      return all;
     };
     return *this;
   }

@@ -240,8 +240,9 @@ Table makeTable() {
           },
           {.meaning = "The rule set that a tip tries where this one fails; keys written in place change this "
                       "rule set."})
-      .regions({.meaning = "What holds where a region of the scene is nearest: forbid, another file, or keys "
-                           "that differ there.",
+      .regions({.meaning =
+                    "Where a region of the scene is nearest: forbid, a file, or keys that differ; others is "
+                    "each that is not named.",
                 .most = 256})
       .table();
 }

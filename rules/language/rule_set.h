@@ -1,8 +1,11 @@
 #pragma once
+#include <functional>
 #include <limits>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "rules/language/value.h"
@@ -102,8 +105,13 @@ struct RuleSet {
   sim::Colour stem_colour{0.16f, 0.10f, 0.05f};  ///< linear RGB
   double stem_radius_vx = 0.08;                  ///< of a twig that does not fork
   std::vector<Element> elements;
-  std::map<std::string, RegionRule> regions;  ///< by region name
-  std::shared_ptr<const RuleSet> otherwise;   ///< tried where this one fails (Greene's secondary set)
+  std::map<std::string, RegionRule, std::less<>> regions;  ///< by region name
+  std::optional<RegionRule> others;                        ///< of every region that is not named
+  std::shared_ptr<const RuleSet> otherwise;  ///< tried where this one fails (Greene's secondary set)
 };
+
+/// What holds in a region: what its name says, or else `others`; null where the rule set says nothing of it.
+/// Beyond the boundary layers no region is known, and nobody should ask.
+const RegionRule* ruleFor(const RuleSet& rules, std::string_view region);
 
 }  // namespace espalier::rules

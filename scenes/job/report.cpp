@@ -53,6 +53,7 @@ void describeWorld(Report& report, const Scene& scene, const Site& site) {
 std::string toJson(const Report& report) {
   Json json;
   json["scene"] = report.scene;
+  json["warnings"] = report.warnings;
   const sim::Frame& frame = report.frame;
   json["world"] = {{"size", {frame.size.x, frame.size.y, frame.size.z}},
                    {"voxel_m", frame.voxel_m},

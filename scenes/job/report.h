@@ -18,6 +18,7 @@ namespace espalier::scenes {
 /// What a run says of itself: report.json. All but `run` is the same for the same scene, rules and seed.
 struct Report {
   std::string scene;
+  std::vector<std::string> warnings;  ///< "path:line:column: text", the path from the scene's file
   sim::Frame frame;
   std::size_t occupied_voxels = 0;  ///< with the plants
   std::size_t scene_voxels = 0;     ///< before they grew

@@ -8,9 +8,11 @@
 #include "render/files/vdb.h"
 #include "render/model/plant_model.h"
 #include "scenes/job/stages.h"
+#include "scenes/job/warnings.h"
 #include "scenes/prepare/in_scene.h"
 #include "scenes/prepare/plantings.h"
 #include "scenes/prepare/site.h"
+#include "scenes/prepare/unknown_regions.h"
 #include "scenes/show/light_fields.h"
 #include "scenes/show/pictures.h"
 #include "scenes/write/output_files.h"
@@ -73,6 +75,7 @@ Report runScene(const Scene& scene, const RunOptions& options) {
     return made;
   });
   describeWorld(report, scene, site);
+  warn(unknownRegions(scene, site.world), scene.file, options, report);
   const sim::BitVolume before = site.world.occupied();
   // Plants grow in the site's own world: a run grows once, and a second world would take as much memory.
   sim::World& world = site.world;

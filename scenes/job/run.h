@@ -12,9 +12,11 @@ namespace espalier::scenes {
 struct RunOptions {
   std::filesystem::path folder;  ///< made if it is not there
   bool pictures = true;          ///< draw the scene's images
+  bool strict = false;           ///< warnings are errors
   std::stop_token stop;
   std::function<void(const std::string& stage)> on_stage;  ///< as each begins
   std::function<void(const sim::GrowthProgress&)> on_growth;
+  std::function<void(const std::string& warning)> on_warning;  ///< once each, before anything grows
 };
 
 /// The main job: reads a scene's meshes, tiles them, grows its plants, and writes the model (plant.glb), the

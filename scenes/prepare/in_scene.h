@@ -13,9 +13,9 @@ auto inScene(const Scene& scene, Work work) {
   try {
     return work();
   } catch (const sim::InputError& error) {
-    const std::string where = scene.file.string() + ": ";
+    const std::string where = scene.file.string() + ":";
     if (std::string_view(error.what()).starts_with(where)) throw;
-    throw sim::InputError(where + error.what());
+    throw sim::InputError(where + " " + error.what());
   }
 }
 

@@ -6,7 +6,7 @@
 
 #include "rules/growth/make_process.h"
 #include "scenes/prepare/in_scene.h"
-#include "scenes/problem.h"
+#include "scenes/prepare/unknown_regions.h"
 #include "sim/base/error.h"
 #include "sim/base/random.h"
 
@@ -48,27 +48,29 @@ std::vector<sim::Vec3> scatter(const sim::World& world, const Scatter& spec, std
   return seeds;
 }
 
-void requireRegion(const sim::World& world, const std::string& region) {
-  std::vector<std::string> known;
-  for (const sim::Part& part : world.parts()) {
-    if (part.region == region) return;
-    known.push_back(part.region);
+/// Those that were given, in their order, then those that were strewn.
+std::vector<sim::Seed> seedsOf(const PlantSpec& spec, const Site& site, std::uint64_t seed) {
+  const sim::Frame& frame = site.world.frame();
+  std::vector<sim::Vec3> unnamed_vx;
+  for (const SeedSpec& s : spec.seeds) {
+    if (s.key.empty()) unnamed_vx.push_back(sim::voxelFromWorld(frame, s.at_m));
   }
-  throw sim::InputError(fmt::format("there is no region '{}'; the meshes have: {}{}", region,
-                                    fmt::join(known, ", "), didYouMean(region, known)));
+  if (spec.scatter) {
+    const auto strewn_vx = scatter(site.world, *spec.scatter, sim::streamOf(seed, spec.name));
+    unnamed_vx.insert(unnamed_vx.end(), strewn_vx.begin(), strewn_vx.end());
+  }
+  std::vector<sim::Seed> seeds = sim::seedsAt(frame, unnamed_vx);
+  for (std::size_t i = 0; i < spec.seeds.size(); ++i) {
+    const SeedSpec& s = spec.seeds[i];
+    if (s.key.empty()) continue;
+    seeds.insert(seeds.begin() + static_cast<std::ptrdiff_t>(i),
+                 {sim::voxelFromWorld(frame, s.at_m), sim::keyOfName(s.key)});
+  }
+  return seeds;
 }
 
 sim::Planting plant(const PlantSpec& spec, const Site& site, std::uint64_t seed) {
-  const sim::Frame& frame = site.world.frame();
-  std::vector<sim::Vec3> places_vx;
-  for (const sim::Vec3& seed_m : spec.seeds_m) places_vx.push_back(sim::voxelFromWorld(frame, seed_m));
-  if (spec.scatter) {
-    requireRegion(site.world, spec.scatter->region);
-    const auto seeds = scatter(site.world, *spec.scatter, sim::streamOf(seed, spec.name));
-    places_vx.insert(places_vx.end(), seeds.begin(), seeds.end());
-  }
-  for (const auto& [region, rule] : spec.rules->regions) requireRegion(site.world, region);
-  return {spec.name, rules::makeProcess(spec.rules, frame.voxel_m), sim::seedsAt(frame, places_vx)};
+  return {spec.name, rules::makeProcess(spec.rules, site.world.frame().voxel_m), seedsOf(spec, site, seed)};
 }
 
 }  // namespace
@@ -76,6 +78,7 @@ sim::Planting plant(const PlantSpec& spec, const Site& site, std::uint64_t seed)
 std::vector<sim::Planting> makePlantings(const Scene& scene, const Site& site) {
   std::vector<sim::Planting> plantings;
   inScene(scene, [&] {
+    requireRegionsToScatterOver(scene, site.world);
     for (const PlantSpec& spec : scene.plants) plantings.push_back(plant(spec, site, scene.seed));
   });
   return plantings;

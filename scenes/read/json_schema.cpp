@@ -68,13 +68,35 @@ Json varying(const Json& one) {
   return anyOf({one, list(one, 2, 2), curve});
 }
 
+Json textOf(const Key& key) {
+  Json schema{{"type", "string"}, {"minLength", 1}};
+  if (key.most > 0) schema["maxLength"] = key.most;
+  return schema;
+}
+
 Json table(const Table& keys);
 Json valueOf(const Key& key);
 
 Json nested(const Key& key) {
   const Json mapping = table(*key.child);
-  if (key.shorthand.empty()) return mapping;
-  return anyOf({mapping, valueOf(*rules::find(*key.child, key.shorthand))});
+  const Key* brief = rules::briefOf(key);
+  return brief ? anyOf({mapping, valueOf(*brief)}) : mapping;
+}
+
+Json regions(const Key& key) {
+  const Json file{{"type", "string"}, {"minLength", 1}};
+  const Json rule = anyOf({file,
+                           {{"type", "object"},
+                            {"additionalProperties", false},
+                            {"required", {"rules"}},
+                            {"properties", {{"rules", anyOf({file, reference("rule_set")})}}}},
+                           reference("rule_set")});
+  Json others{{"description", "Every region that is not named."}};
+  others.update(rule);
+  return {{"type", "object"},
+          {"maxProperties", key.most},
+          {"properties", {{rules::kOthers, std::move(others)}}},
+          {"additionalProperties", rule}};
 }
 
 Json valueOf(const Key& key) {
@@ -101,8 +123,6 @@ Json valueOf(const Key& key) {
       return list(bounded(key, "number"), 3, 3);
     case Kind::place:
       return list(anyOf({bounded(key, "number"), lengthText("mm|cm|m")}), 3, 3);
-    case Kind::places:
-      return list(list(anyOf({bounded(key, "number"), lengthText("mm|cm|m")}), 3, 3), 0, 0);
     case Kind::polygons:
       return list(list(list(bounded(key, "number"), 3, 3), 3, 64), 1, key.most);
     case Kind::choice:
@@ -116,20 +136,11 @@ Json valueOf(const Key& key) {
     case Kind::text:
     case Kind::file:
     case Kind::base:
-      return {{"type", "string"}, {"minLength", 1}};
+      return textOf(key);
     case Kind::rules:
       return anyOf({{{"type", "string"}, {"minLength", 1}}, reference("rule_set")});
     case Kind::regions:
-      return {{"type", "object"},
-              {"maxProperties", key.most},
-              {"additionalProperties",
-               anyOf({{{"type", "string"}, {"minLength", 1}},
-                      {{"type", "object"},
-                       {"additionalProperties", false},
-                       {"required", {"rules"}},
-                       {"properties",
-                        {{"rules", anyOf({{{"type", "string"}, {"minLength", 1}}, reference("rule_set")})}}}},
-                      reference("rule_set")})}};
+      return regions(key);
     case Kind::section:
       return nested(key);
     case Kind::entries:

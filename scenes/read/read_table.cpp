@@ -103,7 +103,7 @@ class TableReader {
 
   /// A mapping for key.child, or the value of the key that its shorthand names.
   void readMapping(const YamlNode& node, const Key& key, void* target, const std::string& path) {
-    const Key* brief = key.shorthand.empty() ? nullptr : rules::find(*key.child, key.shorthand);
+    const Key* brief = rules::briefOf(key);
     const bool is_curve = brief && brief->kind == Kind::value && (node.entry("over") || node.entry("points"));
     if (node.kind == YamlNode::Kind::map && !is_curve) return read(node, *key.child, target, path + ".");
     if (brief && node.kind != YamlNode::Kind::null)
@@ -121,10 +121,27 @@ class TableReader {
   void readEntries(const YamlNode& node, const Key& key, void* target, const std::string& path) {
     if (node.kind != YamlNode::Kind::list) return fail(node, key, path);
     if (!roomFor(node, node.items.size(), key, path)) return;
+    if (lacksBrackets(node, key)) return failBrackets(node, key, path);
     key.clear(target);
     for (std::size_t i = 0; i < node.items.size(); ++i) {
       readItem(node.items[i], key, key.append(target, ""), fmt::format("{}[{}]", path, i));
     }
+  }
+
+  /// A level of brackets was forgotten: [x, y, z] in place of [[x, y, z]]. Said once, not for every number.
+  static bool lacksBrackets(const YamlNode& node, const Key& key) {
+    const Key* brief = rules::briefOf(key);
+    return brief && (brief->kind == Kind::place || brief->kind == Kind::point) && !node.items.empty() &&
+           std::all_of(node.items.begin(), node.items.end(),
+                       [](const auto& item) { return item.kind == YamlNode::Kind::scalar; });
+  }
+
+  void failBrackets(const YamlNode& node, const Key& key, const std::string& path) {
+    reading_.problems.add(
+        node.place,
+        fmt::format("{} has a list of single values where a list of points should stand; expected {}", path,
+                    rules::expectation(key)));
+    reading_.failed.insert(path);
   }
 
   void readNamed(const YamlNode& node, const Key& key, void* target, const std::string& path) {
@@ -189,16 +206,6 @@ Found locate(const YamlNode& root, std::string_view path) {
   return found;
 }
 
-Place placeOf(const std::vector<const YamlNode*>& layers, std::string_view path) {
-  Found best{layers.back()->place, 0, false};
-  for (auto layer = layers.rbegin(); layer != layers.rend(); ++layer) {
-    const auto found = locate(**layer, path);
-    if (found.whole) return found.place;
-    if (found.depth > best.depth) best = found;
-  }
-  return best.place;
-}
-
 /// Is one path the other's beginning?
 bool overlap(std::string_view a, std::string_view b) {
   const auto shorter = std::min(a.size(), b.size());
@@ -212,6 +219,16 @@ bool overlap(std::string_view a, std::string_view b) {
 void readTable(const YamlNode& map, const Table& table, void* target, const std::string& path,
                Reading& reading) {
   TableReader(reading).read(map, table, target, path);
+}
+
+Place placeOf(const std::vector<const YamlNode*>& layers, std::string_view path) {
+  Found best{layers.back()->place, 0, false};
+  for (auto layer = layers.rbegin(); layer != layers.rend(); ++layer) {
+    const auto found = locate(**layer, path);
+    if (found.whole) return found.place;
+    if (found.depth > best.depth) best = found;
+  }
+  return best.place;
 }
 
 void runChecks(const std::vector<rules::Check>& checks, const void* target,

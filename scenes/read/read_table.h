@@ -2,6 +2,7 @@
 #include <functional>
 #include <set>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "rules/language/key.h"
@@ -31,6 +32,9 @@ void readTable(const YamlNode& map, const rules::Table& table, void* target, con
 /// last one foremost; complaints go to the place where the key was written last.
 void runChecks(const std::vector<rules::Check>& checks, const void* target,
                const std::vector<const YamlNode*>& layers, Reading& reading);
+
+/// Where a path stands in the last of the layers that has it; as far as it leads, where none has all of it.
+Place placeOf(const std::vector<const YamlNode*>& layers, std::string_view path);
 
 /// What a key is called in Greene's paper and where it stands here: "seekprox" -> "prefer.proximity".
 struct KnownAs {

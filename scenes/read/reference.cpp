@@ -34,7 +34,8 @@ How values are written:
 as a whole, regions one by one.
 
 `regions` maps the names of the scene's regions to `forbid`, to a rule set's file, to `{rules: file.yaml}`, or to keys
-that differ there: `regions: {paving: forbid, wall: {bias: {up: 0.2}}}`.
+that differ there: `regions: {wall: {bias: {up: 0.2}}, others: forbid}`. `others` stands for every region that is not
+named. A region that a scene does not have is a warning when something grows there.
 
 The last column has the name in Ned Greene's *Voxel Space Automata* (SIGGRAPH 1989), where the paper has one.
 )";
@@ -54,7 +55,8 @@ How values are written:
 - *name*: letters, digits, `_`, `-` and `.`: it may become part of a file's name.
 - *rule set*: a rule file's path, or a mapping of the keys of one (see the page of rule files).
 
-`world` needs either a voxel size or a resolution. An entry of `meshes` may be just a path, one of `images` just its kind.
+`world` needs either a voxel size or a resolution. An entry of `meshes` may be just a path, one of `images` just its
+kind, one of `seeds` just its place.
 `sun` is an inclined arc, or with `place` a real sun on a date or a range of dates.
 )";
 
@@ -81,8 +83,6 @@ std::string kindText(const Key& key) {
       return "point";
     case Kind::place:
       return "place";
-    case Kind::places:
-      return "list of places";
     case Kind::polygons:
       return "list of polygons";
     case Kind::choice:
@@ -121,7 +121,10 @@ std::string defaultText(const Key& key) {
 std::string rangeOf(const Key& key) {
   const bool has_numbers = key.kind != Kind::colour && key.kind != Kind::section;
   auto text = has_numbers ? rules::rangeText(key.limits) : "";
-  if (key.most > 0) text += fmt::format("{}at most {} entries", text.empty() ? "" : "; ", key.most);
+  if (key.most > 0) {
+    text += fmt::format("{}at most {} {}", text.empty() ? "" : "; ", key.most,
+                        key.kind == Kind::text ? "characters" : "entries");
+  }
   return text;
 }
 

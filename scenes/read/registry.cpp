@@ -98,6 +98,18 @@ std::shared_ptr<const Table> exposureKeys() {
       .shared();
 }
 
+std::shared_ptr<const Table> seedKeys() {
+  return TableOf<SeedSpec>()
+      .place("at", &SeedSpec::at_m,
+             {.unit = kMetres, .limits = kCoordinate, .meaning = "Where it stands.", .required = true})
+      .text(
+          "key", &SeedSpec::key,
+          {.meaning = "What its random numbers hang on, in place of where it stands: with a key of its own a "
+                      "plant draws the same wherever it is moved.",
+           .most = 100})
+      .shared();
+}
+
 std::shared_ptr<const Table> plantKeys() {
   const auto scatter =
       TableOf<Scatter>()
@@ -120,8 +132,8 @@ std::shared_ptr<const Table> plantKeys() {
           {.meaning = "How it grows: a rule file, or rule keys in place.", .required = true})
       .name("name", &PlantSpec::name,
             {.meaning = "What reports and outputs call it; without it, plant_1, plant_2 and so on."})
-      .places("seeds", &PlantSpec::seeds_m,
-              {.unit = kMetres, .limits = kCoordinate, .meaning = "Where it starts, once for each point."})
+      .list<SeedSpec>("seeds", Kind::entries, &PlantSpec::seeds, seedKeys(),
+                      {.meaning = "Where it starts, once for each."}, "at")
       .section("scatter", &PlantSpec::scatter, scatter,
                {.meaning = "Seeds strewn at random, beside those that are given."})
       .shared();

@@ -124,7 +124,13 @@ void RuleLoader::addRegions(const Layers& layers, RuleSet& rules) {
       continue;
     }
     for (const auto& entry : map.entries) {
-      rules.regions[entry.key] = region(entry.value, "regions." + entry.key, plain);
+      auto rule = region(entry.value, "regions." + entry.key, plain);
+      if (entry.key == rules::kOthers) {
+        rules.others = std::move(rule);
+      } else {
+        mention(entry);
+        rules.regions[entry.key] = std::move(rule);
+      }
     }
   }
 }
@@ -153,6 +159,12 @@ rules::RegionRule RuleLoader::region(const YamlNode& node, const std::string& pa
             inQuotes(entry.key)));
   }
   return {false, reference(whole->value, path + ".rules", enclosing)};
+}
+
+void RuleLoader::mention(const YamlEntry& region) {
+  const Place& place = region.place;
+  if (mentioned_.emplace(place.path.get(), place.line, place.column).second)
+    mentions_.push_back({region.key, place});
 }
 
 bool RuleLoader::countOne(const Place& place) {

@@ -2,12 +2,15 @@
 #include <filesystem>
 #include <map>
 #include <memory>
+#include <set>
 #include <string>
+#include <tuple>
 #include <utility>
 #include <vector>
 
 #include "rules/language/rule_set.h"
 #include "scenes/problem.h"
+#include "scenes/scene.h"
 #include "scenes/yaml/yaml_tree.h"
 
 namespace espalier::scenes {
@@ -24,6 +27,8 @@ class RuleLoader {
   /// keys change `enclosing`.
   std::shared_ptr<const rules::RuleSet> reference(const YamlNode& node, const std::string& path,
                                                   const rules::RuleSet& enclosing);
+  /// Every place so far that names a region, in the order of reading.
+  const std::vector<RegionMention>& mentions() const { return mentions_; }
 
  private:
   using Layers = std::vector<const YamlNode*>;
@@ -38,11 +43,15 @@ class RuleLoader {
   std::shared_ptr<const rules::RuleSet> build(const Layers& layers, rules::RuleSet rules);
   void addRegions(const Layers& layers, rules::RuleSet& rules);
   rules::RegionRule region(const YamlNode& node, const std::string& path, const rules::RuleSet& enclosing);
+  void mention(const YamlEntry& region);
   bool countOne(const Place& place);
 
   Problems& problems_;
   std::map<std::string, File> files_;                      ///< by canonical path
   std::vector<std::pair<std::string, std::string>> open_;  ///< files being read: canonical and shown paths
+  std::vector<RegionMention> mentions_;
+  std::set<std::tuple<const std::string*, int, int>>
+      mentioned_;  ///< places: a base is read for each that has it
   int sets_ = 0;
 };
 

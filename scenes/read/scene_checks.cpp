@@ -61,14 +61,27 @@ void checkSeeds(const Scene& scene, const Given&, const Complain& complain) {
   if (!scene.world.bounds_m) return;
   const auto& [low, high] = *scene.world.bounds_m;
   for (std::size_t p = 0; p < scene.plants.size(); ++p) {
-    const auto& seeds = scene.plants[p].seeds_m;
+    const auto& seeds = scene.plants[p].seeds;
     for (std::size_t s = 0; s < seeds.size(); ++s) {
-      if (glm::all(glm::greaterThanEqual(seeds[s], low)) && glm::all(glm::lessThanEqual(seeds[s], high)))
-        continue;
-      complain(fmt::format("plants[{}].seeds[{}]", p, s),
+      const sim::Vec3& at = seeds[s].at_m;
+      if (glm::all(glm::greaterThanEqual(at, low)) && glm::all(glm::lessThanEqual(at, high))) continue;
+      complain(fmt::format("plants[{}].seeds[{}].at", p, s),
                fmt::format("the seed [{}, {}, {}] lies outside the world; expected it within [{}, {}, {}] "
                            "and [{}, {}, {}]",
-                           seeds[s].x, seeds[s].y, seeds[s].z, low.x, low.y, low.z, high.x, high.y, high.z));
+                           at.x, at.y, at.z, low.x, low.y, low.z, high.x, high.y, high.z));
+    }
+  }
+}
+
+void checkSeedKeys(const Scene& scene, const Given&, const Complain& complain) {
+  for (std::size_t p = 0; p < scene.plants.size(); ++p) {
+    const auto& seeds = scene.plants[p].seeds;
+    std::set<std::string_view> seen;
+    for (std::size_t s = 0; s < seeds.size(); ++s) {
+      if (seeds[s].key.empty() || seen.insert(seeds[s].key).second) continue;
+      complain(fmt::format("plants[{}].seeds[{}].key", p, s),
+               fmt::format("a second seed of this plant has the key {}; expected keys that differ",
+                           inQuotes(seeds[s].key)));
     }
   }
 }
@@ -83,7 +96,7 @@ void checkMeshes(const Scene& scene, const Given&, const Complain& complain) {
 void checkPlants(const Scene& scene, const Given&, const Complain& complain) {
   for (std::size_t p = 0; p < scene.plants.size(); ++p) {
     const auto& plant = scene.plants[p];
-    if (plant.seeds_m.empty() && !plant.scatter) {
+    if (plant.seeds.empty() && !plant.scatter) {
       complain(
           fmt::format("plants[{}]", p),
           "a plant without seeds; expected seeds: [[x, y, z], ...] or scatter: {region: name, count: 10}");
@@ -177,6 +190,7 @@ const std::vector<Check>& sceneChecks() {
       check({"world.voxel", "world.resolution"}, checkWorldSize),
       check({"world.bounds", "world.voxel"}, checkBounds),
       check({"world.bounds"}, checkSeeds),
+      check({}, checkSeedKeys),
       check({"meshes", "world.bounds"}, checkMeshes),
       check({"sky"}, checkSky),
       check({"sun"}, checkSun),

@@ -95,8 +95,11 @@ std::optional<std::string> ScalarReader::text(const Node& node) const {
   if (node.kind != Node::Kind::scalar) return mismatch(node);
   if (node.refused) return std::nullopt;
   if (node.text.empty()) return fail(node, "is empty");
-  if (node.text.size() > kLongestText)
-    return fail(node, fmt::format("is a text of {} bytes, more than {}", node.text.size(), kLongestText));
+  const auto most = key.kind == Kind::text && key.most > 0 ? key.most : kLongestText;
+  const auto length = static_cast<std::size_t>(std::count_if(node.text.begin(), node.text.end(), [](char c) {
+    return (static_cast<unsigned char>(c) & 0xc0) != 0x80;
+  }));
+  if (length > most) return fail(node, fmt::format("is a text of {} characters, more than {}", length, most));
   if (node.text.find('\n') != node.text.npos) return wrongScalar(node, "has more than one line");
   return node.text;
 }

@@ -238,8 +238,6 @@ std::optional<Datum> readDatum(const Node& node, const Key& key, const std::stri
       return datum(point(node));
     case Kind::place:
       return datum(place(node));
-    case Kind::places:
-      return datum(listOf(read, node, kMaxNodes, place));
     case Kind::polygons:
       return datum(listOf(read, node, key.most, polygon));
     case Kind::choice:

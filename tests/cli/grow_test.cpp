@@ -207,6 +207,35 @@ TEST_F(Plot, WhatOnlyShowsInTheWorldIsNamedToo) {
   EXPECT_NE(large.find("voxel"), std::string::npos) << large;
 }
 
+TEST_F(Plot, ARegionThatTheSceneLacksIsAWarningAndWithStrictAnError) {
+  scratch_.write("vine.yaml",
+                 tests::fileText(scratch_.path("vine.yaml")) + "\nregions: {wal: forbid, wall: {}}\n");
+  const auto warned = grow("--no-pictures");
+  EXPECT_EQ(warned.status, 0) << warned.output;
+  const auto at = warned.output.find(
+      ": warning: no mesh of the scene has a region 'wal'; expected one of ground, "
+      "wall; did you mean 'wall'?\n");
+  ASSERT_NE(at, std::string::npos) << warned.output;
+  EXPECT_LT(at, warned.output.find("growing")) << "told before anything grows";
+  EXPECT_EQ(warned.output.find("warning", at + 10), std::string::npos) << "told once";
+  const auto told = report()["warnings"];
+  ASSERT_EQ(told.size(), 1u);
+  EXPECT_TRUE(told[0].get<std::string>().starts_with("vine.yaml:")) << told[0];
+  const auto strict = grow("--no-pictures --strict", "strict");
+  EXPECT_EQ(strict.status, 2);
+  EXPECT_NE(strict.output.find(":11: no mesh of the scene has a region 'wal'"), std::string::npos)
+      << strict.output;
+  EXPECT_FALSE(fs::exists(scratch_.path("strict")));
+  EXPECT_EQ(grow("--no-pictures --quiet", "quiet").output, "");
+  EXPECT_EQ(report("quiet")["warnings"], told);
+}
+
+TEST_F(Plot, StrictMindsNothingWhereAllIsWell) {
+  const auto ran = grow("--no-pictures --strict");
+  EXPECT_EQ(ran.status, 0) << ran.output;
+  EXPECT_EQ(report()["warnings"], json::array());
+}
+
 TEST_F(Plot, AFolderThatCannotBeMadeIsAnError) {
   scratch_.write("file", "in the way");
   const auto ran = grow("--no-pictures", "file");

@@ -86,11 +86,10 @@ TEST_F(Step, SeedsAreScatteredOverAllThatLooksUpAndNothingElse) {
   ASSERT_GT(places.size(), 150u);
   ASSERT_LT(places.size(), site.world.occupied().count() / 2);  // it is solid
   scene_.plants[0].scatter = Scatter{"stone", static_cast<int>(places.size())};
-  const Plantings all = makePlantings(scene_, site);
-  ASSERT_EQ(all.seeds.size(), 1u);
-  EXPECT_EQ(all.seeds[0].rule, all.rules[0].get());
+  const auto all = makePlantings(scene_, site);
+  ASSERT_EQ(all.size(), 1u);
   std::vector<sim::Voxel> scattered;
-  for (const sim::Vec3& seed : all.seeds[0].seeds_vx) scattered.emplace_back(seed);
+  for (const sim::Seed& seed : all[0].seeds) scattered.emplace_back(seed.at_vx);
   const auto order = [](sim::Voxel a, sim::Voxel b) {
     return std::tie(a.y, a.z, a.x) < std::tie(b.y, b.z, b.x);
   };
@@ -100,20 +99,23 @@ TEST_F(Step, SeedsAreScatteredOverAllThatLooksUpAndNothingElse) {
 }
 
 TEST_F(Step, SeedsGivenInMetresComeFirst) {
-  scene_.plants[0].seeds_m = {{0.3, 1.7, 2.0}};
+  scene_.plants[0].seeds = {{{0.3, 1.7, 2.0}, "north door"}};
   scene_.plants[0].scatter = Scatter{"roof", 2};
   const Site site = makeSite(scene_);
   const auto plantings = makePlantings(scene_, site);
-  const auto& seeds = plantings.seeds[0].seeds_vx;
+  const auto& seeds = plantings[0].seeds;
   ASSERT_EQ(seeds.size(), 3u);
-  EXPECT_EQ(seeds[0], sim::voxelFromWorld(site.world.frame(), {0.3, 1.7, 2.0}));
-  EXPECT_NE(seeds[1], seeds[2]);
+  EXPECT_EQ(seeds[0].at_vx, sim::voxelFromWorld(site.world.frame(), {0.3, 1.7, 2.0}));
+  EXPECT_EQ(seeds[0].key, sim::keyOfName("north door"));
+  EXPECT_NE(seeds[1].at_vx, seeds[2].at_vx);
+  EXPECT_NE(seeds[1].key, seeds[2].key);
 }
 
 TEST_F(Step, WhatCannotBePlantedNamesTheSceneAndTheSiteStands) {
   scene_.plants[0].scatter = Scatter{"ston", 2};
   EXPECT_EQ(failure(),
-            "step.yaml: there is no region 'ston'; the meshes have: stone, roof; did you mean 'stone'?");
+            "step.yaml: no mesh of the scene has a region 'ston'; expected one of stone, roof; did you mean "
+            "'stone'?");
   scene_.plants[0].scatter = Scatter{"roof", 400};
   EXPECT_NE(failure().find("step.yaml: scatter: region 'roof' has "), std::string::npos) << failure();
   scene_.plants[0].scatter.reset();

@@ -209,11 +209,15 @@ const std::vector<BadFile> kBadRules = {
      {"scene.yaml:1:11: this is a scene file; expected a rule file (espalier: rules)"}},
     {"regions that are a list",
      "regions: [wall]\n",
-     {"2:10: regions is a list of 1; expected a mapping from region names to 'forbid'"}},
+     {"2:10: regions is a list of 1; expected a mapping from region names (or others) to 'forbid'"}},
     {"a region that is forbiden",
      "regions: {wall: forbiden}\n",
      {"2:17: regions.wall is 'forbiden'; expected 'forbid', the path of a rule file, or a mapping of rule "
       "keys; did you mean 'forbid'?"}},
+    {"others that are forbiden",
+     "regions: {others: forbiden}\n",
+     {"2:19: regions.others is 'forbiden'; expected"}},
+    {"a bad key in others", "regions: {others: {bias: {upp: 1}}}\n", {"2:27: unknown key 'upp'"}},
     {"a region with rules and more",
      "regions: {wall: {rules: {}, bias: {up: 1}}}\n",
      {"2:29: the key 'bias' beside 'rules', which names a whole rule set; expected it alone; did you mean "

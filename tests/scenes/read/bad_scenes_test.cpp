@@ -164,9 +164,32 @@ const std::vector<BadFile> kBadScenes = {
     {"a seed outside",
      "plants:\n  - rules: {}\n    seeds:\n      - [0, 0, 0]\n      - [0, 7, 0]\n",
      {"7:9: the seed [0, 7, 0] lies outside the world; expected it within [-1, -1, -1] and [1, 1, 1]"}},
+    {"a keyed seed outside",
+     "plants: [{rules: {}, seeds: [{key: a, at: [0, 7, 0]}]}]\n",
+     {"3:39: the seed [0, 7, 0] lies outside the world"}},
+    {"a seed without a place",
+     "plants: [{rules: {}, seeds: [{key: a}]}]\n",
+     {"3:30: the key 'at' is missing here; expected a point [x, y, z] (metres)"}},
+    {"a seed with a stray key",
+     "plants: [{rules: {}, seeds: [{at: [0, 0, 0], kye: a}]}]\n",
+     {"3:46: unknown key 'kye'; expected one of at, key; did you mean 'key'?"}},
+    {"a key of a seed given twice",
+     "plants:\n  - rules: {}\n    seeds: [{at: [0, 0, 0], key: a}, [0, 0, 0], {at: [0, 1, 0], key: a}]\n"
+     "  - {rules: {}, name: b, seeds: [{at: [0, 0, 0], key: a}]}\n",
+     {"5:70: a second seed of this plant has the key 'a'; expected keys that differ"}},
+    {"a key of a seed that goes on and on",
+     "plants: [{rules: {}, seeds: [{at: [0, 0, 0], key: "
+     "abcdefghijklmnopqrstuvwxyzabcdefghijklmnopqrstuvwxyzabcdefghijklmnopqrstuvwxyzabcdefghijklmnopqrstuvwxy"
+     "z}]}]\n",
+     {"3:51: plants[0].seeds[0].key is a text of 104 characters, more than 100; expected a text on one line, "
+      "of "
+      "at most 100 characters"}},
+    {"a seed that is a word",
+     "plants: [{rules: {}, seeds: [[0, 0, 0], door]}]\n",
+     {"3:41: plants[0].seeds[1].at is 'door'; expected a point [x, y, z] (metres)"}},
     {"a seed of four",
      "plants: [{rules: {}, seeds: [[0, 0, 0, 0]]}]\n",
-     {"3:30: plants[0].seeds has a list of 4 where three numbers should stand"}},
+     {"3:30: plants[0].seeds[0].at has a list of 4 where three numbers should stand"}},
     {"two plants of one name",
      "plants: [{rules: {}, name: a, seeds: [[0,0,0]]}, {rules: {}, name: a, seeds: [[0,0,0]]}]\n",
      {"3:68: a second one of the plants is called 'a'"}},

@@ -164,6 +164,37 @@ TEST(ReadRules, ReadsRegionsInEveryForm) {
   EXPECT_EQ(rules->regions.at("door").rules->bias.light, Value(0.0));
 }
 
+TEST(ReadRules, ReadsWhatHoldsInTheOtherRegions) {
+  EXPECT_FALSE(goodText("regions: {wall: forbid}")->others);
+  const auto forbidden = goodText("regions: {wall: {}, others: forbid}");
+  ASSERT_TRUE(forbidden->others);
+  EXPECT_TRUE(forbidden->others->forbidden);
+  EXPECT_EQ(forbidden->regions.size(), 1u) << "others is no region";
+  const auto keys = goodText("bias: {up: 0.4, light: 0.3}\nregions: {others: {bias: {up: 0.1}}}\n");
+  EXPECT_EQ(keys->others->rules->bias.up, Value(0.1));
+  EXPECT_EQ(keys->others->rules->bias.light, Value(0.3));
+  EXPECT_FALSE(keys->others->rules->others) << "a region's own rule set has no regions but its own";
+  const Scratch scratch;
+  scratch.write("ivy.yaml", "espalier: rules\nname: ivy\n");
+  EXPECT_EQ(
+      good(scratch.write("f.yaml", "espalier: rules\nregions: {others: ivy.yaml}\n"))->others->rules->name,
+      "ivy");
+}
+
+TEST(ReadRules, ReplacesTheOthersOfABaseAndKeepsItsRegions) {
+  const Scratch scratch;
+  scratch.write("base.yaml", "espalier: rules\nregions: {wall: {}, others: forbid}\n");
+  const auto silent =
+      good(scratch.write("a.yaml", "espalier: rules\nbase: base.yaml\nregions: {roof: forbid}\n"));
+  EXPECT_TRUE(silent->others->forbidden);
+  EXPECT_EQ(silent->regions.size(), 2u);
+  const auto rules =
+      good(scratch.write("b.yaml", "espalier: rules\nbase: base.yaml\nregions: {others: {bias: {up: 1}}}\n"));
+  EXPECT_FALSE(rules->others->forbidden);
+  EXPECT_EQ(rules->others->rules->bias.up, Value(1));
+  EXPECT_TRUE(rules->regions.contains("wall"));
+}
+
 TEST(ReadRules, BuildsTheRegionsOfABaseFromTheNewValues) {
   const Scratch scratch;
   scratch.write("base.yaml",

@@ -33,7 +33,7 @@ TEST(ReadScene, ReadsTheCourtyard) {
   EXPECT_EQ(scene.iterations, 51);
   std::size_t seeds = 0;
   for (const auto& plant : scene.plants) {
-    seeds += plant.seeds_m.size();
+    seeds += plant.seeds.size();
     ASSERT_TRUE(plant.rules);
   }
   EXPECT_EQ(seeds, 17u);
@@ -54,7 +54,7 @@ world: {resolution: 200, margin: 50 cm, layers: 6}
 sky: {weighting: cosine, directions: 500}
 sun: {tilt: 10, toward: 90, samples: 12, shadow_hour: 9.5}
 plants:
-  - {rules: ../rules/vine.yaml, seeds: [[0, 0, 0], [1 m, 2 cm, 3 mm]]}
+  - {rules: ../rules/vine.yaml, seeds: [[0, 0, 0], [1 m, 2 cm, 3 mm], {at: [2, 1 cm, 0], key: north door}]}
   - {rules: {name: here, bias: {up: 1}}, name: fern, scatter: {region: the bed, count: 40}}
 iterations: 7
 seed: 9007199254740991
@@ -90,7 +90,11 @@ images:
   EXPECT_EQ(scene.plants[0].name, "plant_1");
   EXPECT_EQ(scene.plants[0].rules->name, "the vine");
   EXPECT_EQ(scene.plants[0].rules_file, scratch.path("rules/vine.yaml"));
-  EXPECT_EQ(scene.plants[0].seeds_m[1], sim::Vec3(1, 0.02, 0.003));
+  ASSERT_EQ(scene.plants[0].seeds.size(), 3u);
+  EXPECT_EQ(scene.plants[0].seeds[1].at_m, sim::Vec3(1, 0.02, 0.003));
+  EXPECT_EQ(scene.plants[0].seeds[1].key, "");
+  EXPECT_EQ(scene.plants[0].seeds[2].at_m, sim::Vec3(2, 0.01, 0));
+  EXPECT_EQ(scene.plants[0].seeds[2].key, "north door");
   EXPECT_EQ(scene.plants[1].rules->bias.up, rules::Value(1));
   EXPECT_EQ(scene.plants[1].scatter->region, "the bed");
   EXPECT_EQ(scene.plants[1].scatter->count, 40);
@@ -158,7 +162,7 @@ TEST(ReadScene, ReportsTheProblemsOfTheSceneAndOfItsRulesTogether) {
           .problems());
   EXPECT_EQ(std::count(shown.begin(), shown.end(), '\n'), 5) << shown;
   for (const char* message :
-       {"s.yaml:2:16: world.voxel is '4 inch'", "s.yaml:4:32: plants[0].seeds has a list of 2",
+       {"s.yaml:2:16: world.voxel is '4 inch'", "s.yaml:4:32: plants[0].seeds[0].at has a list of 2",
         "s.yaml:5:44: unknown key 'nmae'", "s.yaml:1:1: no mesh and no world.bounds",
         "vine.yaml:2:8: unknown key 'upp'", "vine.yaml:3:16: light.boost is 'fast'"}) {
     EXPECT_NE(shown.find(message), shown.npos) << message << "\n" << shown;

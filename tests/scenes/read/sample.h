@@ -12,11 +12,19 @@
 /// soon as it stands there.
 namespace espalier::tests {
 
-/// Well inside a key's limits, and not its default.
-inline double goodNumber(const rules::Key& key) {
+/// So far into a key's limits.
+inline double numberAt(const rules::Key& key, double fraction) {
   const double low = std::max(key.limits.min, -10.0),
                high = std::min(key.limits.max, 10.0 + std::max(0.0, low));
-  return low + (high - low) * (key.name == "max" ? 0.75 : 0.25);
+  return low + (high - low) * fraction;
+}
+/// Well inside the limits, and not the default.
+inline double goodNumber(const rules::Key& key) {
+  return numberAt(key, key.name == "max" ? 0.75 : 0.25);
+}
+/// Another one.
+inline double otherNumber(const rules::Key& key) {
+  return numberAt(key, key.name == "max" ? 0.9 : 0.4);
 }
 inline std::string goodWhole(const rules::Key& key) {
   return fmt::format("{}", static_cast<long>(std::ceil(goodNumber(key))));
@@ -24,10 +32,22 @@ inline std::string goodWhole(const rules::Key& key) {
 
 std::string goodMapping(const rules::Table& table);
 
+inline std::vector<std::string> goodTexts(const rules::Key& key);
+
+/// And what a value that is no mapping may be, each put in place of {} in `around`.
+inline std::vector<std::string> withBrief(std::vector<std::string> texts, const rules::Key& key,
+                                          const char* around) {
+  if (const auto* brief = rules::briefOf(key)) {
+    for (const auto& text : goodTexts(*brief)) texts.push_back(fmt::format(fmt::runtime(around), text));
+  }
+  return texts;
+}
+
 /// Texts that a file may have for a key.
 inline std::vector<std::string> goodTexts(const rules::Key& key) {
   using rules::Kind;
   const auto number = fmt::format("{}", goodNumber(key));
+  const auto other = fmt::format("{}", otherNumber(key));
   const auto range = fmt::format("[{0}, {0}]", number);
   const auto curve = fmt::format("{{over: exposure, points: [[0, {0}], [1, {0}]]}}", number);
   const auto triple = fmt::format("[{0}, {0}, {0}]", number);
@@ -37,11 +57,12 @@ inline std::vector<std::string> goodTexts(const rules::Key& key) {
     case Kind::flag:
       return {"true", "false"};
     case Kind::whole:
-      return {goodWhole(key)};
+      return {goodWhole(key), fmt::format("{}", static_cast<long>(std::ceil(otherNumber(key))))};
     case Kind::whole_range:
-      return {fmt::format("[{0}, {0}]", goodWhole(key)), goodWhole(key)};
+      return {fmt::format("[{0}, {0}]", goodWhole(key)), goodWhole(key),
+              fmt::format("[{}, {}]", goodWhole(key), static_cast<long>(std::ceil(otherNumber(key))))};
     case Kind::number:
-      return {number};
+      return {number, other};
     case Kind::value:
       return {number, range, curve};
     case Kind::length:
@@ -51,35 +72,33 @@ inline std::vector<std::string> goodTexts(const rules::Key& key) {
     case Kind::colour:
       return {"\"#4f7a2c\"", "[0.1, 0.2, 1]"};
     case Kind::point:
-      return {triple};
+      return {triple, fmt::format("[{0}, {1}, {0}]", number, other)};
     case Kind::place:
       return {triple, "[1 cm, 2 mm, 0.1 m]"};
-    case Kind::places:
-      return {fmt::format("[{}, [1 cm, 0, 0]]", triple), "[]"};
     case Kind::polygons:
-      return {"[[[0, 0, 0], [1, 0, 0], [0, 1, 0]]]"};
+      return {"[[[0, 0, 0], [1, 0, 0], [0, 1, 0]]]", "[[[0, 0, 0], [1, 0, 0], [0, 1, 0.5]]]"};
     case Kind::choice:
       return key.choices;
     case Kind::date:
       return {"2026-06-21", "02-28", "\"2024-02-29\""};
     case Kind::name:
-      return {"some_name-1.x"};
+      return {"some_name-1.x", "other"};
     case Kind::text:
-      return {"\"a text: of any kind\""};
+      return {"\"a text: of any kind\"", "word"};
     case Kind::names:
       return {"[a, b]", "[]"};
     case Kind::file:
-      return {"mesh.obj"};
+      return {"mesh.obj", "sub/mesh.obj"};
     case Kind::base:
       return {"other.yaml"};
     case Kind::rules:
       return {"other.yaml", "{name: x}", "{}"};
     case Kind::regions:
-      return {"{a: forbid, b: other.yaml, c: {rules: other.yaml}, d: {name: x}}", "{}"};
+      return {"{a: forbid, b: other.yaml, c: {rules: other.yaml}, d: {name: x}}", "{others: forbid}", "{}"};
     case Kind::section:
-      return {goodMapping(*key.child)};
+      return withBrief({goodMapping(*key.child)}, key, "{}");
     case Kind::entries:
-      return {fmt::format("[{}]", goodMapping(*key.child))};
+      return withBrief({fmt::format("[{}]", goodMapping(*key.child)), "[]"}, key, "[{}]");
     case Kind::named:
       return {fmt::format("{{some: {}}}", goodMapping(*key.child))};
   }
@@ -139,9 +158,6 @@ inline std::vector<std::string> badTexts(const rules::Key& key) {
       return more(beyond(triple), {"[1, 2]", "1", "{}"});
     case Kind::place:
       return more(beyond(triple), {"[1, 2]", "1", "[1 vx, 0, 0]"});
-    case Kind::places:
-      return more(beyond([&](const std::string& text) { return fmt::format("[{}]", triple(text)); }),
-                  {"[[1, 2]]", "[1, 2, 3]", "1"});
     case Kind::polygons:
       return {"[[0, 0, 0]]", "1", "[[[0, 0, few], [1, 0, 0], [0, 1, 0]]]"};
     case Kind::choice:
@@ -161,7 +177,13 @@ inline std::vector<std::string> badTexts(const rules::Key& key) {
     case Kind::rules:
       return {"[]", "\"\"", "none.yaml", "{nmae: x}"};
     case Kind::regions:
-      return {"[]", "x", "{a: forbiden}", "{a: []}", "{a: {nmae: x}}", "{a: {rules: {}, name: x}}"};
+      return {"[]",
+              "x",
+              "{a: forbiden}",
+              "{a: []}",
+              "{a: {nmae: x}}",
+              "{a: {rules: {}, name: x}}",
+              "{others: {nmae: x}}"};
     case Kind::section:
       return {"[[]]", "{unknown_key: 1}", "few_words"};
     case Kind::entries:

@@ -38,7 +38,7 @@ set(scenes_prepare import)
 set(scenes_accuracy prepare)
 set(scenes_write "")
 set(scenes_show write)
-set(scenes_job show write accuracy prepare)
+set(scenes_job show write accuracy prepare read)
 
 # Files without a wing: all wings of their room see them, and they see no wing.
 set(flat_scenes scene lights problem clean_text)

@@ -41,6 +41,15 @@ small $work/courtyard/vines.png vines 780
 small $work/courtyard/contact_sheet.png contact_sheet 960
 for kind in sky_exposure sun_exposure threshold; do small $work/courtyard/$kind.png $kind 800; done
 
+# One run in three parts, drawn after each.
+program=${ESPALIER:-./run espalier}
+for iterations in 12 25 51; do
+  $program grow scenes/library/courtyard.yaml -o $work/kept --resume --iterations $iterations --no-pictures --quiet
+  $program render scenes/library/courtyard.yaml --from $work/kept --images vines -o $work/kept_$iterations --quiet
+done
+oiiotool $work/kept_{12,25,51}/vines.png --mosaic:pad=8 3x1 -o $work/kept_growth.png
+small $work/kept_growth.png kept_growth 1040
+
 grow scenes/library/figure_2.yaml
 small $work/figure_2/figure_2.png flat_walk 960
 grow scenes/library/figure_3.yaml

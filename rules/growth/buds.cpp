@@ -1,6 +1,7 @@
 #include "rules/growth/buds.h"
 
 #include <algorithm>
+#include <limits>
 #include <tuple>
 
 #include "sim/base/error.h"
@@ -61,6 +62,8 @@ std::vector<sim::Site> dueBuds(const sim::StandView& stand, const sim::Columns& 
     if (bud.plant < 0 || static_cast<std::size_t>(bud.plant) >= stand.plants.size() || bud.node < 0 ||
         bud.node >= stand.plants[static_cast<std::size_t>(bud.plant)].skeleton.size())
       throw sim::BrokenContract("a bud on a node that is not there");
+    if (bud.number < 0 || bud.number > std::numeric_limits<std::uint16_t>::max())
+      throw sim::BrokenContract("a bud with a number that no site has");
     const sim::Skeleton& skeleton = stand.plants[static_cast<std::size_t>(bud.plant)].skeleton;
     sites.push_back({bud.plant, bud.node, static_cast<std::uint16_t>(bud.number),
                      skeleton.position_vx[static_cast<std::size_t>(bud.node)]});

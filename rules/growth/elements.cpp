@@ -19,8 +19,36 @@ double areaOf(const std::vector<sim::Vec3>& corners) {
   return 0.5 * glm::length(sum);
 }
 
+using Voxels = std::vector<sim::Voxel>;
+
 bool before(sim::Voxel a, sim::Voxel b) {
   return std::tie(a.y, a.z, a.x) < std::tie(b.y, b.z, b.x);
+}
+
+/// Whether a voxel is among some that are in order.
+bool among(const Voxels& sorted, sim::Voxel v) {
+  return std::binary_search(sorted.begin(), sorted.end(), v, before);
+}
+
+/// The voxels of an element, in order and each once. False, and nothing was tiled, where a corner lies
+/// outside the world: the rule language allows elements that are far larger than that.
+bool tileInside(sim::Voxel world_size, const sim::PlacedElement& element, const Element& rule,
+                Voxels& tiled) {
+  for (const auto& polygon : rule.polygons) {
+    for (const sim::Vec3 corner : polygon) {
+      if (!sim::contains(world_size, sim::voxelAt(sim::placed(element, corner)))) return false;
+    }
+  }
+  tiled.clear();
+  std::vector<sim::Vec3> corners;
+  for (const auto& polygon : rule.polygons) {
+    corners.clear();
+    for (const sim::Vec3 corner : polygon) corners.push_back(sim::placed(element, corner));
+    sim::tilePolygon(corners, tiled);
+  }
+  std::sort(tiled.begin(), tiled.end(), before);
+  tiled.erase(std::unique(tiled.begin(), tiled.end()), tiled.end());
+  return true;
 }
 
 /// Where each of an element trial's random numbers stands (sim::Slots).
@@ -59,12 +87,8 @@ std::vector<sim::ProposedElement> proposeElements(const sim::SiteView& view, con
                                                   sim::Vec3 to_vx, const std::vector<sim::Voxel>& segment,
                                                   std::int32_t first_shape, const sim::RandomKey& key) {
   std::vector<sim::ProposedElement> placed;
-  std::vector<sim::Voxel> taken;  // by elements of this very proposal
-  std::vector<sim::Voxel> tiled;
-  std::vector<sim::Vec3> corners;
-  const auto has = [](const std::vector<sim::Voxel>& voxels, sim::Voxel v) {
-    return std::find(voxels.begin(), voxels.end(), v) != voxels.end();
-  };
+  Voxels own = segment, taken, tiled;  // taken: by elements of this very proposal, in order
+  std::sort(own.begin(), own.end(), before);
   const sim::Vec3 stem = glm::normalize(to_vx - around.at_vx);
   for (std::size_t shape = 0; shape < rules.elements.size(); ++shape) {
     const Element& rule = rules.elements[shape];
@@ -76,7 +100,8 @@ std::vector<sim::ProposedElement> proposeElements(const sim::SiteView& view, con
     for (const auto& polygon : rule.polygons) area += areaOf(polygon);
     for (unsigned i = 0; i < count; ++i) {
       for (int trial = 0; trial < rule.trials; ++trial) {
-        // At most 64 shapes, and 1001 of each: 100 a segment, ten times as many in full light.
+        // The rule language allows 64 shapes, and 1000 of each: 100 a segment, ten times as many in full
+        // light.
         sim::Slots slots(key, sim::Purpose::element, static_cast<unsigned>(shape << 10) + i,
                          static_cast<unsigned>(trial));
         sim::PlacedElement element;
@@ -86,21 +111,16 @@ std::vector<sim::ProposedElement> proposeElements(const sim::SiteView& view, con
         element.scale = evaluate(rule.size, senses.circumstance, slots.uniform(kSize)) * senses.vigour;
         turn(element, around, senses, stem, evaluate(rule.face, senses.circumstance, slots.uniform(kFace)),
              slots);
-        tiled.clear();
-        for (const auto& polygon : rule.polygons) {
-          corners.clear();
-          for (const sim::Vec3 corner : polygon) corners.push_back(sim::placed(element, corner));
-          sim::tilePolygon(corners, tiled);
-        }
-        std::sort(tiled.begin(), tiled.end(), before);
-        tiled.erase(std::unique(tiled.begin(), tiled.end()), tiled.end());
-        // Its own segment is no obstacle, but its siblings are.
-        std::erase_if(tiled, [&](sim::Voxel v) { return has(segment, v); });
-        if (std::any_of(tiled.begin(), tiled.end(), [&](sim::Voxel v) { return has(taken, v); })) continue;
-        std::vector<sim::Voxel> takes;
+        if (!tileInside(view.world.frame().size, element, rule, tiled)) continue;
+        // The world is frozen: the element's own segment and its siblings do not stand there yet. The one is
+        // no obstacle, the others are.
+        std::erase_if(tiled, [&](sim::Voxel v) { return among(own, v); });
+        Voxels takes;
         if (sim::fit(view.world, tiled, around.attachment, sim::Passage::around, takes) != sim::Fit::clear)
           continue;
-        taken.insert(taken.end(), takes.begin(), takes.end());
+        if (std::any_of(takes.begin(), takes.end(), [&](sim::Voxel v) { return among(taken, v); })) continue;
+        const auto middle = taken.insert(taken.end(), takes.begin(), takes.end());
+        std::inplace_merge(taken.begin(), middle, taken.end(), before);
         const double share = area * element.scale * element.scale /
                              static_cast<double>(std::max<std::size_t>(1, takes.size()));
         placed.push_back(

@@ -7,10 +7,10 @@
 
 namespace espalier::rules {
 
-/// Tries to place elements on a new segment: the expected number grows with the light, as their size does
-/// (Greene's boost), and each is tried up to Element::trials times in random places and attitudes until one
-/// intersects nothing but its own segment. `first_shape` is the plant's number of the rule set's first
-/// element.
+/// Tries to place elements on a new segment, from around.at_vx to `to_vx`, that passes the voxels `segment`:
+/// the expected number grows with the light, as their size does (Greene's boost), and each is tried up to
+/// Element::trials times in random places and attitudes until one intersects nothing but its own segment and
+/// the limbs that this one leaves. `first_shape` is the plant's number of the rule set's first element.
 std::vector<sim::ProposedElement> proposeElements(const sim::SiteView& view, const RuleSet& rules,
                                                   const Surroundings& around, const Senses& senses,
                                                   sim::Vec3 to_vx, const std::vector<sim::Voxel>& segment,

@@ -55,7 +55,8 @@ class BookProcess final : public sim::Process {
                         const sim::RandomKey& key) const override;
 
  private:
-  /// Why a set does not grow here; grown if it does.
+  /// Why a set does not grow here; grown if it does, and then the proposal says what. `set` numbers the sets
+  /// that one site tries, from 0.
   Outcome tryToGrow(const sim::SiteView& view, const sim::Site& site, const RuleSet& rules,
                     const Surroundings& around, const sim::RandomKey& key, unsigned set,
                     sim::Proposal& proposal) const;
@@ -83,7 +84,6 @@ Outcome BookProcess::tryToGrow(const sim::SiteView& view, const sim::Site& site,
   if (!best) return Outcome::no_trial;
   proposal.elements =
       proposeElements(view, rules, around, senses, best->to_vx, best->passes, book_.firstShape(rules), key);
-  if (view.record_attempts) proposal.attempts.push_back({around.at_vx, best->to_vx, Outcome::grown, true});
   proposal.segment = {best->to_vx,
                       std::move(best->takes),
                       rules.require.clear ? sim::Passage::around : sim::Passage::through,
@@ -107,12 +107,15 @@ sim::Proposal BookProcess::propose(const sim::SiteView& view, const sim::Site& s
   const Surroundings around = lookAround(view, site);
   for (unsigned set = 0; rules != nullptr; ++set, rules = book_.next(*rules, view.world, at)) {
     const Outcome outcome = tryToGrow(view, site, *rules, around, key, set, proposal);
-    // What is told of a site that did not grow is why its first set failed, unless a later one got farther.
+    // What is told of a site that did not grow is why its first set failed, unless a later one got as far as
+    // trials.
     if (set == 0 || outcome == Outcome::no_trial || outcome == Outcome::grown || outcome == Outcome::resting)
       proposal.outcome = outcome;
     if (outcome == Outcome::grown || outcome == Outcome::resting) break;
   }
-  const bool seed = around.heading == sim::Vec3(0.0);
+  const bool seed = view.plant.skeleton.parent[static_cast<std::size_t>(site.node)] == sim::kNoNode;
+  // A seed that found no way may find one in the next iteration, by other trials; without it there is no
+  // plant.
   proposal.retire = proposal.outcome != Outcome::resting && !(proposal.outcome == Outcome::no_trial && seed);
   return proposal;
 }
@@ -124,11 +127,10 @@ std::shared_ptr<const sim::Process> makeProcess(std::shared_ptr<const RuleSet> r
     const double unit = set.random_tree.length.metres ? voxel_m : 1.0;
     const double shortest = lowest(set.random_tree.length.value) / unit;
     const double longest = highest(set.random_tree.length.value) / unit;
-    if (shortest < 0.1 || longest > 60.0) {
+    if (!(shortest >= 0.1 && longest <= 60.0)) {
       throw sim::InputError(
           fmt::format("rule set '{}'{}: random_tree.length is {:.3g} to {:.3g} voxel widths at a voxel of "
-                      "{:.4g} m; expected "
-                      "0.1 to 60",
+                      "{:.4g} m; expected 0.1 to 60",
                       set.name, path.empty() ? "" : ", " + path, shortest, longest, voxel_m));
     }
   });

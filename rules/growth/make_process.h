@@ -8,16 +8,15 @@ namespace espalier::rules {
 
 /// A rule set as a growth process: in each iteration a due bud tries the rule set that holds where it is,
 /// then those that stand by for it (`otherwise`), each with its own senses, regions and light, and grows by
-/// the first that succeeds. `propagate` picks how a set grows. A branch leaves a node once the node's branch
-/// age is reached.
+/// the first that succeeds; where that one would rather rest, it rests. `propagate` picks how a set grows. A
+/// branch leaves a node once the node's branch age is reached.
 ///
-/// Where Greene's text leaves it open:
-/// - growth rate with light: a bud at exposure e grows in an iteration with probability vigour(e) / boost, so
-/// that
-///   fully exposed buds grow in every iteration and dim ones `boost` times more rarely; segments keep their
-///   length;
-/// - a bud for which every set has failed retires, as around it the world only gets fuller; a seed tries
-/// again.
+/// Where Greene's text leaves it open: a bud at exposure e grows in an iteration with probability
+/// vigour(e) / boost, so that buds in full light grow in every iteration and dim ones `boost` times more
+/// rarely; segments keep their length. A bud for which every set has failed retires, as around it the world
+/// only gets fuller; a seed that found no way tries again.
+///
+/// The plant's one stem looks as the top rule set says.
 ///
 /// `voxel_m` turns lengths given in metres into voxel widths. Throws sim::InputError for a rule set that
 /// cannot work, wherever the book leads to it (a segment longer than 60 voxel widths or shorter than 0.1).

@@ -44,6 +44,7 @@ std::optional<Candidate> bestTrial(const sim::SiteView& view, const sim::Site& s
   const RandomTree& tree = rules.random_tree;
   std::optional<Candidate> best;
   double best_score = std::numeric_limits<double>::infinity();
+  std::size_t best_attempt = 0;
   Candidate trial;
   const int enough =
       rules.prefer.has_proximity ? tree.trials_min : 1;  // without a preference any good one will do
@@ -54,20 +55,23 @@ std::optional<Candidate> bestTrial(const sim::SiteView& view, const sim::Site& s
         i < tree.trials_min ? 1.0 : 1.0 + (i - tree.trials_min + 1.0) / (tree.trials_max - tree.trials_min);
     const sim::Vec3 direction = flattened(
         trialDirection(rules, around, senses, site.number != 0, widening, slots), view.world.frame().size);
-    if (direction == sim::Vec3(0.0)) continue;
     const double length = valueOf(tree.length.value, senses.circumstance, slots, TrialSlot::length);
     trial.to_vx = around.at_vx + direction * (tree.length.metres ? length / voxel_m : length);
-    const Outcome outcome = judge(view, rules, around, trial);
+    // Bent all the way to an axis that the world has not: out of it.
+    const Outcome outcome =
+        direction == sim::Vec3(0.0) ? Outcome::out_of_world : judge(view, rules, around, trial);
     ++proposal.trials[static_cast<std::size_t>(outcome)];
     if (view.record_attempts) proposal.attempts.push_back({around.at_vx, trial.to_vx, outcome, false});
     if (outcome != Outcome::grown) continue;
     const double score =
-        rules.prefer.has_proximity ? std::abs(trial.proximity_vx - rules.prefer.proximity_vx) : i;
+        rules.prefer.has_proximity ? std::abs(trial.proximity_vx - rules.prefer.proximity_vx) : 0.0;
     if (score < best_score) {
       best_score = score;
       best = trial;
+      best_attempt = proposal.attempts.size() - 1;
     }
   }
+  if (best && view.record_attempts) proposal.attempts[best_attempt].taken = true;
   return best;
 }
 

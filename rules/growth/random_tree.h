@@ -8,10 +8,9 @@
 /// Greene's tree-structured random walk (1989, sections 3 and 4): a site makes randomly perturbed trials of a
 /// segment, rejects those that do not meet `require`, and takes the one that `prefer` ranks first.
 ///
-/// Where Greene's text leaves it open:
-/// - trials beyond trials.min, made where none was good yet, wander farther and farther, up to twice the
-/// angle;
-/// - a trial that would take no free voxel is blocked: it folds back into its own limb, and could for ever.
+/// Where Greene's text leaves it open: trials beyond trials.min, made where none was good yet, wander farther
+/// and farther, up to twice the angle. A trial that would take no free voxel is blocked: it folds back into
+/// its own limb, and could for ever.
 namespace espalier::rules {
 
 /// A trial that met the rules.
@@ -23,8 +22,8 @@ struct Candidate {
 };
 
 /// The best of a site's trials under one rule set, if there is a good one; counts them all in `proposal`, and
-/// records them if the view says so. `set` numbers the rule sets that one site tries, from 0; `voxel_m` turns
-/// lengths in metres into voxel widths.
+/// records each once if the view says so. `set` numbers the rule sets that one site tries, from 0; `voxel_m`
+/// turns lengths in metres into voxel widths.
 std::optional<Candidate> bestTrial(const sim::SiteView& view, const sim::Site& site, const RuleSet& rules,
                                    const Surroundings& around, const Senses& senses,
                                    const sim::RandomKey& key, unsigned set, double voxel_m,

@@ -23,7 +23,8 @@ class RuleBook {
  public:
   explicit RuleBook(std::shared_ptr<const RuleSet> rules);
 
-  /// The set that holds first in a voxel: the one of the region that is nearest; null where nothing may grow.
+  /// The set that a site in this voxel tries first: the nearest region's, or the book's own where it says
+  /// nothing of that one; null where nothing may grow.
   const RuleSet* first(const sim::World& world, sim::Voxel v) const;
   /// The set to try where this one has failed; null where there is none, or nothing may grow.
   const RuleSet* next(const RuleSet& failed, const sim::World& world, sim::Voxel v) const;

@@ -26,6 +26,11 @@ void addSiblings(const sim::SiteView& view, sim::NodeId node, Surroundings& arou
   });
 }
 
+/// As a rule set asks: the sun's and the sky's weights made to sum to 1.
+double blended(const Light& light, double sun_exposure, double sky_exposure) {
+  return (light.sun * sun_exposure + light.sky * sky_exposure) / (light.sun + light.sky);
+}
+
 /// Growth rate over that at the least exposure: linear from 1 at the minimum to boost at the maximum.
 double vigourAt(const RuleSet& rules, double exposure) {
   const double span = rules.require.exposure_max - rules.require.exposure_min;
@@ -34,11 +39,6 @@ double vigourAt(const RuleSet& rules, double exposure) {
 }
 
 }  // namespace
-
-double blended(const Light& light, double sun_exposure, double sky_exposure) {
-  const double sum = light.sun + light.sky;
-  return (light.sun * sun_exposure + light.sky * sky_exposure) / sum;
-}
 
 Surroundings lookAround(const sim::SiteView& view, const sim::Site& site) {
   const sim::Skeleton& skeleton = view.plant.skeleton;

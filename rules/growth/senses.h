@@ -14,22 +14,20 @@ struct Surroundings {
   sim::Vec3 away{0.0};     ///< unit, from the nearest scene object; zero where none is near
   double sky_exposure = 0.0;
   double sun_exposure = 0.0;
-  std::vector<sim::Voxel>
-      attachment;  ///< voxels of the limb that ends here, and the first ones of those that leave
+  /// Voxels of the limb that ends here, and the first ones of those that leave: no obstacle.
+  std::vector<sim::Voxel> attachment;
 };
 
-/// How one rule set takes it.
+/// What one rule set makes of them.
 struct Senses {
   sim::Vec3 light{0.0};  ///< unit, towards the brightest part of the sky; zero where none is seen
-  sim::Vec3 twist{
-      0.0};  ///< unit normal of the plane through the heading and the local centre of mass, or zero
-  double exposure = 0.0;  ///< blended
-  double vigour = 1.0;    ///< growth rate over that at the least exposure: 1 .. boost
-  Circumstance circumstance;
+  /// Unit, normal to the plane through the heading and the local centre of mass; zero without a twist, at a
+  /// seed, and where nothing stands near.
+  sim::Vec3 twist{0.0};
+  double exposure = 0.0;      ///< blended
+  double vigour = 1.0;        ///< growth rate over that at the least exposure: 1 .. boost
+  Circumstance circumstance;  ///< what the rule set's values may depend on
 };
-
-/// Exposure, blended as a rule set asks: the sun's and the sky's weights made to sum to 1.
-double blended(const Light& light, double sun_exposure, double sky_exposure);
 
 Surroundings lookAround(const sim::SiteView& view, const sim::Site& site);
 Senses sense(const sim::SiteView& view, const Surroundings& around, const RuleSet& rules);

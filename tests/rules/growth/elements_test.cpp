@@ -1,0 +1,108 @@
+#include "rules/growth/elements.h"
+
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <set>
+#include <tuple>
+
+#include "sim/tile/tiling.h"
+#include "tests/support/lively.h"
+#include "tests/support/plots.h"
+
+namespace espalier::rules {
+namespace {
+
+using sim::Vec3;
+
+/// A segment from [10, 10, 10] to [12, 10, 10] in a world, asked for its elements.
+std::vector<sim::ProposedElement> elementsOf(const sim::World& world, const RuleSet& rules,
+                                             double vigour = 1.0) {
+  const sim::Plant plant;
+  const sim::Kin kin;
+  const sim::Columns memory;
+  const sim::Commons commons;
+  const sim::SiteView view{world, plant, kin, memory, commons};
+  Surroundings around;
+  around.at_vx = Vec3(10, 10, 10);
+  around.voxel = {10, 10, 10};
+  around.heading = Vec3(1, 0, 0);
+  Senses senses;
+  senses.vigour = vigour;
+  const Vec3 to(12, 10, 10);
+  std::vector<sim::Voxel> segment;
+  sim::tileSegment(around.at_vx, to, segment);
+  return proposeElements(view, rules, around, senses, to, segment, 0, {sim::streamOf(1, "vine", 2), 3, 0, 4});
+}
+
+sim::World emptyWorld(sim::Voxel size) {
+  return sim::World({Vec3(0.0), 0.04, size});
+}
+
+RuleSet with(Element element) {
+  RuleSet rules;
+  rules.elements = {std::move(element)};
+  return rules;
+}
+
+Element square(double side) {
+  Element element;
+  element.polygons = {{{0, 0, 0}, {side, 0, 0}, {side, side, 0}, {0, side, 0}}};
+  element.per_segment = 1.0;
+  return element;
+}
+
+// At 10,000 trials of 9 numbers each, trials once ran into each other's numbers.
+TEST(Elements, MayBeTriedTenThousandTimesInVain) {
+  sim::World world = emptyWorld({22, 21, 21});
+  for (const int y : {8, 12}) tests::addBox(world, "slab", {0, y, 0}, {21, y, 20});
+  for (const int z : {8, 12}) tests::addBox(world, "slab", {0, 9, z}, {21, 11, z});
+  for (const int x : {8, 14}) tests::addBox(world, "slab", {x, 9, 9}, {x, 11, 11});
+  Element element = square(6.5);  // the chamber is 5 x 3 x 3
+  element.trials = 10'000;
+  EXPECT_EQ(elementsOf(world, with(element)).size(), 0u);
+  element.polygons = square(0.5).polygons;
+  EXPECT_EQ(elementsOf(world, with(element)).size(), 1u);
+}
+
+TEST(Elements, FarLargerThanTheWorldCostNoTimeOrMemory) {
+  const sim::World world = emptyWorld({55, 55, 30});
+  Element element = square(1000.0);
+  element.trials = 10'000;
+  element.size = 100.0;
+  const auto start = std::chrono::steady_clock::now();
+  EXPECT_EQ(elementsOf(world, with(element), 10.0).size(), 0u);
+  EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(10));  // a small part of one
+}
+
+TEST(Elements, AsManyAsTheRuleLanguageAllowsAllDrawTheirOwnNumbers) {
+  const sim::World world = emptyWorld({22, 21, 21});
+  RuleSet rules;
+  Element speck = square(1e-3);
+  speck.per_segment = 100.0;
+  rules.elements.assign(64, speck);
+  const auto placed = elementsOf(world, rules, 10.0);
+  EXPECT_GT(placed.size(), 63'000u);  // those that reach over a voxel's side are in each other's way
+  EXPECT_LE(placed.size(), 64'000u);
+  std::set<std::tuple<double, double, double>> attitudes;
+  for (const auto& p : placed) attitudes.insert({p.element.position_vx.x, p.element.z.x, p.element.y.x});
+  EXPECT_EQ(attitudes.size(), placed.size());
+  EXPECT_EQ(placed.back().element.shape, 63);
+}
+
+TEST(Elements, TakeEachVoxelOnceAndNoneOfTheirSegment) {
+  const sim::World world = emptyWorld({22, 21, 21});
+  Element element = square(2.0);
+  element.per_segment = 12.0;
+  element.trials = 100;
+  const auto placed = elementsOf(world, with(element));
+  EXPECT_GT(placed.size(), 2u);
+  std::set<std::tuple<int, int, int>> taken = {{10, 10, 10}, {11, 10, 10}, {12, 10, 10}};
+  for (const auto& p : placed) {
+    EXPECT_FALSE(p.takes.empty());
+    for (const sim::Voxel v : p.takes) EXPECT_TRUE(taken.insert({v.x, v.y, v.z}).second);
+  }
+}
+
+}  // namespace
+}  // namespace espalier::rules

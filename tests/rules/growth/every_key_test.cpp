@@ -1,0 +1,254 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <functional>
+#include <map>
+#include <set>
+#include <string>
+
+#include "rules/language/registry.h"
+#include "sim/grow/grow.h"
+#include "tests/support/lively.h"
+#include "tests/support/plots.h"
+
+/// Every key of the rule language holds wherever a rule set stands: a new key fails here until somebody says
+/// below what it changes.
+namespace espalier::rules {
+namespace {
+
+using tests::failing;
+using tests::lively;
+
+Value range(double low, double high) {
+  Value value(low);
+  value.kind = Value::Kind::range;
+  value.high = high;
+  return value;
+}
+
+std::vector<std::vector<sim::Vec3>> square() {
+  return {{{-0.5, 0, 0}, {0.5, 0, 0}, {0.5, 1.5, 0}, {-0.5, 1.5, 0}}};
+}
+
+/// Another value than that of lively(), by the key's path.
+const std::map<std::string, Datum>& otherValues() {
+  static const std::map<std::string, Datum> values = {
+      {"random_tree.length", Length{3.1}},
+      {"random_tree.branch_age_range", WholeRange{2, 2}},
+      {"random_tree.branch_angle", Value(35.0)},
+      {"random_tree.wander", range(5.0, 60.0)},
+      {"random_tree.trials.min", std::int64_t{3}},
+      {"random_tree.trials.max", std::int64_t{60}},
+      {"bias.up", Value(0.3)},
+      {"bias.gravity", Value(0.2)},
+      {"bias.light.amount", Value(0.4)},
+      {"bias.light.brightest", std::string("table")},
+      {"bias.away", Value(0.3)},
+      {"bias.toward", Value(0.3)},
+      {"bias.twist.amount", Value(-0.5)},
+      {"bias.twist.radius", 2.0},
+      {"require.clear", false},
+      {"require.proximity.min", 1.6},
+      {"require.proximity.max", 2.2},
+      {"require.exposure.min", 0.3},
+      {"require.exposure.max", 0.6},
+      {"prefer.proximity", 3.0},
+      {"light.blend.sun", 0.05},
+      {"light.blend.sky", 0.05},
+      {"light.boost", 4.0},
+      {"elements[].trials", std::int64_t{1}},
+      {"elements[].per_segment", Value(0.4)},
+      {"elements[].size", Value(0.6)},
+      {"elements[].face", Value(0.1)},
+      {"elements[].polygons", square()},
+      // These change how the plant looks, and not how it grows.
+      {"elements[].name", std::string("thorn")},
+      {"elements[].colour", sim::Colour(0.9f, 0.1f, 0.1f)},
+  };
+  return values;
+}
+
+/// Keys that a set of a region or an otherwise has for nothing, and why.
+const std::map<std::string, std::string> kWithoutEffect = {
+    {"espalier", "the kind of the file"},
+    {"name", "for people, and for what is said of mistakes"},
+    {"base", "read with the file: growth sees what came of it"},
+    {"propagate", "has one choice yet"},
+    {"stem.colour", "a plant has one stem: that of the top rule set"},
+    {"stem.radius", "the same"},
+    {"otherwise", "has tests of its own below"},
+    {"regions", "the same"},
+};
+
+/// Sets a key of a rule set by its path, as the registry says; false if it had that value already.
+bool set(RuleSet& rules, const std::string& path, const Datum& datum) {
+  const Table* table = &ruleTable();
+  void* object = &rules;
+  std::string rest = path;
+  while (true) {
+    const std::size_t dot = rest.find('.');
+    std::string name = rest.substr(0, dot);
+    const bool entry = name.ends_with("[]");
+    if (entry) name.resize(name.size() - 2);
+    const Key* const key = find(*table, name);
+    if (dot == std::string::npos) {
+      if (key->get(object) == datum) return false;
+      key->set(object, datum);
+      return true;
+    }
+    // The registry shows entries to those who read only; ours may be written to.
+    object = entry ? const_cast<void*>(key->items(object).at(0).object) : key->open(object);
+    table = key->child.get();
+    rest = rest.substr(dot + 1);
+  }
+}
+
+void forEachKey(const Table& table, const std::string& prefix,
+                const std::function<void(const std::string&)>& visit) {
+  for (const Key& key : table.keys) {
+    if (key.child) {
+      forEachKey(*key.child, prefix + key.name + (key.kind == Kind::entries ? "[]." : "."), visit);
+    } else {
+      visit(prefix + key.name);
+    }
+  }
+}
+
+/// What came of a book: how it grew, and how it looks.
+struct Result {
+  std::uint64_t state = 0;
+  std::vector<std::string> shapes;
+  std::vector<float> colours;  // of the shapes, and of each voxel
+  int segments = 0;
+  std::size_t elements = 0;
+};
+
+Result grown(const RuleSet& book) {
+  sim::World world = tests::wallPlot();
+  const auto growth = sim::grow(world, tests::planting(world, book, {tests::kOpenSeed, {30, 2, 23}}),
+                                tests::brightSettings(7));
+  Result result{sim::stateHash(world, growth), {}, {}, 0, 0};
+  const auto colour = [&](const sim::Colour& c) {
+    result.colours.insert(result.colours.end(), {c.r, c.g, c.b});
+  };
+  for (const auto& plant : growth.plants) {
+    for (const auto& shape : plant.shapes) {
+      result.shapes.push_back(shape.name);
+      colour(shape.colour);
+    }
+    result.segments += plant.skeleton.size() - 1;
+    result.elements += plant.elements.size();
+  }
+  for (const auto& tiled : world.surfaces()) colour(tiled.surface.colour);
+  return result;
+}
+
+/// A book in which one set does all the growing.
+using Around = std::function<RuleSet(const RuleSet& grows)>;
+
+std::shared_ptr<const RuleSet> shared(RuleSet rules) {
+  return std::make_shared<const RuleSet>(std::move(rules));
+}
+
+RuleSet inOtherwise(const RuleSet& grows) {
+  RuleSet top = failing();
+  top.otherwise = shared(grows);
+  return top;
+}
+RuleSet inRegions(const RuleSet& grows) {
+  RuleSet top = failing();
+  top.regions["brick"] = top.regions["soil"] = {false, shared(grows)};
+  return top;
+}
+RuleSet inOthers(const RuleSet& grows) {
+  RuleSet top = failing();
+  top.others = RegionRule{false, shared(grows)};
+  return top;
+}
+
+const std::vector<std::pair<std::string, Around>> kPlaces = {
+    {"the top", [](const RuleSet& grows) { return grows; }},
+    {"otherwise", inOtherwise},
+    {"regions", inRegions},
+    {"others", inOthers},
+    {"otherwise of a region", [](const RuleSet& grows) { return inRegions(inOtherwise(grows)); }},
+    {"regions of an otherwise", [](const RuleSet& grows) { return inOtherwise(inRegions(grows)); }},
+};
+
+class EveryKey : public testing::TestWithParam<std::pair<std::string, Around>> {
+ protected:
+  static RuleSet book(const RuleSet& grows) { return GetParam().second(grows); }
+};
+
+TEST_P(EveryKey, ChangesWhatGrows) {
+  const Result plain = grown(book(lively()));
+  ASSERT_GT(plain.segments, 15);
+  ASSERT_GT(plain.elements, 10u);
+  EXPECT_EQ(plain.state, grown(book(lively())).state);
+  std::set<std::string> unused;
+  for (const auto& [path, datum] : otherValues()) unused.insert(path);
+  for (const auto& [path, why] : kWithoutEffect) unused.insert(path);
+  std::set<std::uint64_t> states{plain.state};
+  forEachKey(ruleTable(), "", [&](const std::string& path) {
+    EXPECT_EQ(unused.erase(path), 1u) << path << " is new: say what it changes";
+    const auto other = otherValues().find(path);
+    if (other == otherValues().end()) return;
+    RuleSet changed = lively();
+    ASSERT_TRUE(set(changed, path, other->second)) << path;
+    const Result result = grown(book(changed));
+    if (path == "elements[].name") {
+      EXPECT_NE(result.shapes, plain.shapes);
+      EXPECT_EQ(result.state, plain.state);
+    } else if (path == "elements[].colour") {
+      EXPECT_NE(result.colours, plain.colours);
+      EXPECT_EQ(result.state, plain.state);
+    } else {
+      EXPECT_TRUE(states.insert(result.state).second) << path << " changes nothing";
+    }
+  });
+  EXPECT_TRUE(unused.empty()) << *unused.begin() << " is no key";
+}
+
+TEST_P(EveryKey, OtherwiseAndRegionsTooChangeWhatGrows) {
+  const std::uint64_t plain = grown(book(lively())).state;
+  RuleSet backed = lively();
+  backed.otherwise = shared([] {
+    RuleSet rules = lively();
+    rules.require = {};
+    rules.require.clear = false;
+    return rules;
+  }());
+  EXPECT_NE(grown(book(backed)).state, plain);
+  RuleSet forbids = lively();
+  forbids.regions["brick"] = {true, nullptr};
+  EXPECT_NE(grown(book(forbids)).state, plain);
+  RuleSet others = lively();
+  others.regions["soil"] = {false, nullptr};
+  others.others = RegionRule{false, shared([] {
+                               RuleSet rules = lively();
+                               rules.bias.up = 0.5;
+                               return rules;
+                             }())};
+  EXPECT_NE(grown(book(others)).state, plain);
+}
+
+INSTANTIATE_TEST_SUITE_P(Place, EveryKey, testing::ValuesIn(kPlaces), [](const auto& place) {
+  std::string name = place.param.first;
+  std::replace(name.begin(), name.end(), ' ', '_');
+  return name;
+});
+
+TEST(Stem, IsThatOfTheTopSet) {
+  RuleSet top = failing();
+  RuleSet second = lively();
+  second.stem_colour = sim::Colour(1.0f, 0.0f, 0.0f);
+  second.stem_radius_vx = 0.4;
+  top.stem_radius_vx = 0.2;
+  top.otherwise = shared(second);
+  const sim::Plant plant = makeProcess(shared(top), 0.04)->seedling();
+  EXPECT_EQ(plant.stem_colour, top.stem_colour);
+  EXPECT_EQ(plant.stem_radius_vx, 0.2);
+}
+
+}  // namespace
+}  // namespace espalier::rules

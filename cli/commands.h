@@ -8,6 +8,7 @@ inline constexpr int kStopped = 130;   ///< exit status: Ctrl-C
 
 /// Each adds its subcommand; the status that its callback leaves in `exit_status` is the program's.
 void addGrow(CLI::App& app, int& exit_status);
+void addRender(CLI::App& app, int& exit_status);
 void addExpose(CLI::App& app, int& exit_status);
 void addCheck(CLI::App& app, int& exit_status);
 void addCertify(CLI::App& app, int& exit_status);

@@ -9,19 +9,40 @@
 #include "scenes/job/run.h"
 
 namespace espalier::cli {
+namespace {
+
+struct GrowArguments {
+  JobOptions job;
+  std::optional<std::uint64_t> seed;
+  std::optional<int> iterations;
+  scenes::Keeping keeping;
+  bool no_state = false;
+};
+
+}  // namespace
 
 void addGrow(CLI::App& app, int& exit_status) {
   auto* const command =
       app.add_subcommand("grow", "Grow a scene's plants; write the model, the world and the pictures");
-  const auto options = std::make_shared<JobOptions>();
-  const auto seed = std::make_shared<std::optional<std::uint64_t>>();
-  addJobOptions(*command, *options);
-  addStrict(*command, *options);
-  command->add_option("--seed", *seed, "Random seed instead of the scene's own");
-  command->callback([options, seed, &exit_status] {
-    exit_status = runJob(*options, [&](scenes::Scene scene, const scenes::RunOptions& run) {
-      if (*seed) scene.seed = **seed;
-      const scenes::Report report = scenes::runScene(scene, run);
+  const auto arguments = std::make_shared<GrowArguments>();
+  addJobOptions(*command, arguments->job);
+  addStrict(*command, arguments->job);
+  command->add_option("--seed", arguments->seed, "Random seed instead of the scene's own");
+  command->add_option("--iterations", arguments->iterations, "Iterations instead of the scene's own")
+      ->check(CLI::Range(0, 100'000));
+  command
+      ->add_option("--save-every", arguments->keeping.every,
+                   "Keep the state of growth in the output folder after every so many iterations")
+      ->check(CLI::Range(1, 100'000));
+  command->add_flag("--resume", arguments->keeping.resume,
+                    "Go on from the state in the output folder, or begin if there is none");
+  command->add_flag("--no-state", arguments->no_state, "Leave no state of growth behind at the end");
+  command->callback([arguments, &exit_status] {
+    arguments->keeping.keep = !arguments->no_state;
+    exit_status = runJob(arguments->job, [&](scenes::Scene scene, const scenes::RunOptions& run) {
+      if (arguments->seed) scene.seed = *arguments->seed;
+      if (arguments->iterations) scene.iterations = *arguments->iterations;
+      const scenes::Report report = scenes::runScene(scene, run, arguments->keeping);
       return JobOutcome{scenes::toJson(report), scenes::summary(report, run.folder)};
     });
   });

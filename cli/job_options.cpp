@@ -15,17 +15,21 @@
 
 namespace espalier::cli {
 
-void addJobOptions(CLI::App& command, JobOptions& options) {
+void addSceneOptions(CLI::App& command, JobOptions& options, const std::string& default_folder) {
   options.threads = sim::threadCount();
   command.add_option("scene", options.scene, "Scene file")->required();
-  command.add_option("-o,--output", options.folder, "Folder to write to (default: out/<scene's file name>)");
+  command.add_option("-o,--output", options.folder, "Folder to write to (default: " + default_folder + ")");
   command
       .add_option("--threads", options.threads,
                   "Threads to use; the result does not depend on it (default: all)")
       ->check(CLI::Range(1, 1024));
-  command.add_flag("--no-pictures", options.no_pictures, "Write everything but the pictures");
   command.add_flag("--quiet", options.quiet, "Say nothing but errors");
   command.add_flag("--json", options.json, "Print the report as JSON on standard output, and no progress");
+}
+
+void addJobOptions(CLI::App& command, JobOptions& options) {
+  addSceneOptions(command, options, "out/<scene's file name>");
+  command.add_flag("--no-pictures", options.no_pictures, "Write everything but the pictures");
 }
 
 void addStrict(CLI::App& command, JobOptions& options) {

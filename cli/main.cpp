@@ -23,6 +23,7 @@ int main(int argc, char** argv) {
     app.require_subcommand(1);
     app.set_version_flag("--version", "espalier " ESPALIER_VERSION);
     cli::addGrow(app, exit_status);
+    cli::addRender(app, exit_status);
     cli::addExpose(app, exit_status);
     cli::addCheck(app, exit_status);
     cli::addCertify(app, exit_status);

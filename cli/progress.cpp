@@ -54,7 +54,7 @@ void Progress::growth(const sim::GrowthProgress& growth) {
       now - last_line_ < (terminal_ ? Clock::duration(std::chrono::milliseconds(50)) : kBetweenLines))
     return;
   const double spent = std::chrono::duration<double>(now - stage_began_).count();
-  const double left = spent / growth.iteration * (growth.iterations - growth.iteration);
+  const double left = spent / (growth.iteration - growth.first) * (growth.iterations - growth.iteration);
   const std::string state = fmt::format("iteration {}/{}, {} segments, {} live buds", growth.iteration,
                                         growth.iterations, growth.segments, growth.sites);
   if (!terminal_) return line("  " + state);

@@ -34,7 +34,7 @@ const std::map<std::string, Setting>& settings() {
         {0.890f, 0.920f, 0.950f},
         {0.27f, 0.42f, 0.60f}}},
       {"scenes",
-       {{{"job", "accuracy", "prepare", "import"}, {"job", "show", "write"}, {"read", "yaml"}},
+       {{{"job", "accuracy", "prepare", "import"}, {"job", "show", "write"}, {"job", "read", "yaml"}},
         {0.955f, 0.905f, 0.885f},
         {0.64f, 0.36f, 0.26f}}},
       {"cli", {{}, {0.925f, 0.920f, 0.915f}, {0.42f, 0.42f, 0.44f}}}};
@@ -121,10 +121,9 @@ class RoomPlan {
     text(image, head, name_, 20, render::Align::left, render::Font::bold, setting_.line);
     const float after = render::textWidth(name_, 20, render::Font::bold) + 14;
     text(image, head + vec2(after, 0), room_.title, 15, render::Align::left, render::Font::regular, kInk);
-    if (rows() == 0) {
-      text(image, head + vec2(wide_ - 2 * kPad, 0), fmt::format("{}", fmt::join(room_.headers, "  ")), kSmall,
-           render::Align::right, render::Font::regular, kSoft);
-    }
+    const Names& in_no_wing = room_.wings.empty() ? room_.headers : room_.flat;
+    text(image, head + vec2(wide_ - 2 * kPad, 0), fmt::format("{}", fmt::join(in_no_wing, "  ")), kSmall,
+         render::Align::right, render::Font::regular, kSoft);
     for (const auto& [wing, place] : places_) drawWing(image, low, wing, place);
     for (int row = 0; row < rows(); ++row) {
       const Names& chain = setting_.rows[static_cast<std::size_t>(row)];
@@ -134,7 +133,6 @@ class RoomPlan {
               {low.x + left(places_.at(chain[i + 1]).left) - 2, y}, setting_.line);
       }
     }
-    if (!room_.flat.empty()) drawFlat(image, low);
   }
 
  private:
@@ -197,16 +195,6 @@ class RoomPlan {
       text(image, at, line, kSmall, render::Align::left, render::Font::regular, kSoft);
       at.y += kLine;
     }
-  }
-
-  /// The files without a wing, where the last row begins.
-  void drawFlat(render::Image& image, vec2 low) const {
-    const vec2 at = low + vec2(left(columns_ - 1) + 9, top(rows() - 1) + 21);
-    const auto line = [&](float below, const std::string& words) {
-      text(image, at + vec2(0, below), words, kSmall, render::Align::left, render::Font::regular, kSoft);
-    };
-    line(0, fmt::format("{}", fmt::join(room_.flat, "  ")));
-    line(kLine, "in no wing, for all of them");
   }
 
   std::string name_;

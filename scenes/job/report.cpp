@@ -82,14 +82,22 @@ std::string toJson(const Report& report) {
                  {"total_s", report.run.total_s},
                  {"peak_memory_bytes", report.run.peak_memory_bytes},
                  {"threads", report.run.threads}};
+  if (report.growth) {
+    json["run"]["proposals"] = report.run.proposals;
+    json["run"]["went_on_from"] = report.run.went_on_from ? Json(*report.run.went_on_from) : Json();
+  }
   return json.dump(2) + "\n";
 }
 
-void writeReport(const std::filesystem::path& folder, const std::vector<OutputFile>& files, Report& report) {
+void finishReport(const std::vector<OutputFile>& files, Report& report) {
   for (const OutputFile& file : files) report.files.push_back(file.name);
-  report.files.emplace_back("report.json");
   report.run.peak_memory_bytes = peakMemoryBytes();
   report.run.threads = sim::threadCount();
+}
+
+void writeReport(const std::filesystem::path& folder, const std::vector<OutputFile>& files, Report& report) {
+  finishReport(files, report);
+  report.files.emplace_back("report.json");
   sim::writeWhole(folder / "report.json", toJson(report));
 }
 

@@ -49,6 +49,8 @@ struct Report {
     double total_s = 0.0;
     std::uint64_t peak_memory_bytes = 0;
     int threads = 1;
+    std::optional<int> went_on_from;  ///< the iteration of the saved state
+    std::size_t proposals = 0;        ///< that sites made in this run
   } run;
 };
 
@@ -58,8 +60,10 @@ std::string toJson(const Report& report);
 /// Fills in what there is to say of a world before anything grows in it.
 void describeWorld(Report& report, const Scene& scene, const Site& site);
 
-/// Completes the report of a run that wrote these files, and writes it as report.json, the last of them.
-/// Throws sim::InputError.
+/// Completes the report of a run that wrote these files.
+void finishReport(const std::vector<OutputFile>& files, Report& report);
+
+/// The same, and writes it as report.json, the last of them. Throws sim::InputError.
 void writeReport(const std::filesystem::path& folder, const std::vector<OutputFile>& files, Report& report);
 
 /// The end of a summary: how long the run took, and where its files lie.

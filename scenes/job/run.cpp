@@ -7,6 +7,7 @@
 #include "render/files/gltf.h"
 #include "render/files/vdb.h"
 #include "render/model/plant_model.h"
+#include "scenes/job/saved_growth.h"
 #include "scenes/job/stages.h"
 #include "scenes/job/warnings.h"
 #include "scenes/prepare/in_scene.h"
@@ -57,52 +58,110 @@ sim::VoxelSet openLayers(const sim::BitVolume& scene, const sim::World& grown) {
   return sim::VoxelSet(sim::freeBand(grown, scene, grown.layers()));
 }
 
-bool drawsVines(const Scene& scene) {
-  return std::any_of(scene.images.begin(), scene.images.end(),
+bool drawsVines(const std::vector<ImageSpec>& images) {
+  return std::any_of(images.begin(), images.end(),
                      [](const ImageSpec& image) { return image.kind == ImageKind::vines; });
+}
+
+/// `layers`: free space where light is wanted too, beside all of it for images of vines, whose leaves are lit
+/// by what is around them.
+sim::Lighting lightFor(const Scene& scene, const Site& site, bool vines,
+                       std::shared_ptr<const sim::VoxelSet> layers) {
+  sim::LightWanted wanted;
+  wanted.space = std::move(layers);
+  wanted.dense = vines;
+  if (vines) inScene(scene, [&] { sim::requireFits(site.world.frame(), {site.world.layers(), 2 * 2.0}); });
+  wanted.random_sky = site.random_sky;
+  return sim::lightOf(site.world, site.sky, site.sun, wanted);
+}
+
+/// A scene's site, and what shall grow on it or has grown there.
+struct Prepared {
+  Site site;
+  std::vector<sim::Planting> plantings;
+};
+
+Prepared prepare(const Scene& scene, const RunOptions& options, Report& report, Stages& stages) {
+  Prepared prepared = stages.run("tiling", [&] {
+    Site site = makeSite(scene);
+    auto plantings = makePlantings(scene, site);
+    requireCamerasInTheOpen(scene, site.world);
+    return Prepared{std::move(site), std::move(plantings)};
+  });
+  describeWorld(report, scene, prepared.site);
+  warn(unknownRegions(scene, prepared.site.world), scene.file, options, report);
+  return prepared;
+}
+
+/// Grows from the beginning or from what was kept, and keeps every so many iterations what has grown.
+sim::Growth growOn(const Scene& scene, Prepared& prepared, std::optional<sim::Growth> kept,
+                   const sim::BitVolume& bare, const RunOptions& options, const Keeping& keeping,
+                   Report& report) {
+  auto& [site, plantings] = prepared;
+  sim::GrowthSettings settings = growthSettings(scene, site);
+  settings.stop = options.stop;
+  settings.progress = [&](const sim::GrowthProgress& progress) {
+    report.run.proposals = progress.proposals;
+    if (options.on_growth) options.on_growth(progress);
+  };
+  if (kept) {
+    report.run.went_on_from = kept->iterations;
+    if (kept->iterations > scene.iterations) {
+      throw sim::InputError(
+          fmt::format("{}: it has grown for {} iterations; expected at most the {} that are asked for",
+                      (options.folder / kStateFile).string(), kept->iterations, scene.iterations));
+    }
+  }
+  const sim::Inputs inputs = keeping.every > 0 ? inputsOf(scene, site) : sim::Inputs();
+  std::unique_ptr<sim::Growing> growing =
+      kept ? std::make_unique<sim::Growing>(site.world, plantings, settings, std::move(*kept))
+           : std::make_unique<sim::Growing>(site.world, plantings, settings);
+  while (growing->step()) {
+    const sim::Growth& now = growing->growth();
+    if (keeping.every > 0 && now.iterations % keeping.every == 0)
+      writeAll(options.folder,
+               {{kStateFile, [&] { return sim::stateBytes(inputs, site.world, bare, now); }}});
+  }
+  return growing->take();
 }
 
 }  // namespace
 
-Report runScene(const Scene& scene, const RunOptions& options) {
+Report runScene(const Scene& scene, const RunOptions& options, const Keeping& keeping) {
   Report report;
   Stages stages(options, report);
-  std::vector<sim::Planting> plantings;
-  Site site = stages.run("tiling", [&] {
-    Site made = makeSite(scene);
-    plantings = makePlantings(scene, made);
-    requireCamerasInTheOpen(scene, made.world);
-    return made;
-  });
-  describeWorld(report, scene, site);
-  warn(unknownRegions(scene, site.world), scene.file, options, report);
-  const sim::BitVolume before = site.world.occupied();
+  Prepared prepared = prepare(scene, options, report, stages);
+  Site& site = prepared.site;
+  const sim::BitVolume bare = site.world.occupied();
   // Plants grow in the site's own world: a run grows once, and a second world would take as much memory.
   sim::World& world = site.world;
 
-  sim::GrowthSettings settings = growthSettings(scene, site);
-  settings.stop = options.stop;
-  settings.progress = options.on_growth;
-  const sim::Growth growth = stages.run(
-      "growing", [&] { return inScene(scene, [&] { return sim::grow(world, plantings, settings); }); });
+  std::optional<sim::Growth> kept;
+  if (keeping.resume) {
+    kept = stages.run(
+        "reading", [&] { return takeUp(options.folder, scene, site, prepared.plantings, Same::everything); });
+  }
+  const sim::Growth growth = stages.run("growing", [&] {
+    return inScene(scene,
+                   [&] { return growOn(scene, prepared, std::move(kept), bare, options, keeping, report); });
+  });
   report.growth = countPlants(world, growth);
   report.occupied_voxels = world.occupied().count();
 
   std::shared_ptr<const sim::VoxelSet> layers;
   const sim::Lighting light = stages.run("lighting", [&] {
-    layers = std::make_shared<const sim::VoxelSet>(openLayers(before, world));
-    sim::LightWanted wanted;
-    wanted.space = layers;
-    wanted.dense = options.pictures && drawsVines(scene);  // leaves are lit by what is around them
-    if (wanted.dense) sim::requireFits(world.frame(), {world.layers(), 2 * 2.0});
-    wanted.random_sky = site.random_sky;
-    return sim::lightOf(world, site.sky, site.sun, wanted);
+    layers = std::make_shared<const sim::VoxelSet>(openLayers(bare, world));
+    return lightFor(scene, site, options.pictures && drawsVines(scene.images), layers);
   });
   report.light = light.about;
   const auto models = stages.run("modelling", [&] { return modelPlants(world.frame(), growth.plants); });
   std::vector<OutputFile> files;
   files.push_back({"plant.glb", [&] { return glb(site, models); }});
   files.push_back({"world.vdb", [&] { return render::vdbBytes(world, worldFields(light, *layers)); }});
+  if (keeping.keep) {
+    files.push_back(
+        {kStateFile, [&] { return sim::stateBytes(inputsOf(scene, site), world, bare, growth); }});
+  }
   if (options.pictures) {
     stages.run("drawing", [&] {
       const Finished finished{site.meshes, world, growth.attempts, light, models};
@@ -110,8 +169,38 @@ Report runScene(const Scene& scene, const RunOptions& options) {
       for (OutputFile& file : pictures) files.push_back(std::move(file));
     });
   }
-  stages.run("writing", [&] { writeAll(options.folder, files); });
+  stages.run("writing", [&] {
+    writeAll(options.folder, files);
+    if (!keeping.keep) std::filesystem::remove(options.folder / kStateFile);
+  });
   writeReport(options.folder, files, report);
+  return report;
+}
+
+Report renderScene(const Scene& scene, const std::filesystem::path& from, const RunOptions& options) {
+  Report report;
+  Stages stages(options, report);
+  Prepared prepared = prepare(scene, options, report, stages);
+  auto& [site, plantings] = prepared;
+  const auto growth =
+      stages.run("reading", [&] { return takeUp(from, scene, site, plantings, Same::plants); });
+  if (!growth) {
+    throw sim::InputError(fmt::format("{}: there is no {}; expected the output folder of espalier grow",
+                                      from.string(), kStateFile));
+  }
+  report.growth = countPlants(site.world, *growth);
+  report.occupied_voxels = site.world.occupied().count();
+  const sim::Lighting light =
+      stages.run("lighting", [&] { return lightFor(scene, site, drawsVines(scene.images), nullptr); });
+  report.light = light.about;
+  const auto models =
+      stages.run("modelling", [&] { return modelPlants(site.world.frame(), growth->plants); });
+  std::vector<OutputFile> files = stages.run("drawing", [&] {
+    const Finished finished{site.meshes, site.world, growth->attempts, light, models};
+    return inScene(scene, [&] { return drawPictures(picturesOf(scene), finished, options.stop); });
+  });
+  stages.run("writing", [&] { writeAll(options.folder, files); });
+  finishReport(files, report);
   return report;
 }
 

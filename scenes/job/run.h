@@ -19,11 +19,24 @@ struct RunOptions {
   std::function<void(const std::string& warning)> on_warning;  ///< once each, before anything grows
 };
 
+/// What a run does with the state of growth, the file growth.state in its folder.
+struct Keeping {
+  int every = 0;        ///< keep it after every so many iterations; 0: only at the end
+  bool resume = false;  ///< go on from the one that the folder has, if it has one
+  bool keep = true;     ///< leave the last one there
+};
+
 /// The main job: reads a scene's meshes, tiles them, grows its plants, and writes the model (plant.glb), the
 /// world (world.vdb), the pictures that the scene asks for and report.json into the folder, every file whole
-/// or not at all, the report last. Nothing is written before the growth is done. Throws sim::InputError;
+/// or not at all, the report last. But for states nothing is written before the growth is done. A run that
+/// goes on from a state ends with the bytes of one that was never interrupted. Throws sim::InputError;
 /// MeshMissing; sim::Stopped when stopped, and then nothing more is written.
-Report runScene(const Scene& scene, const RunOptions& options);
+Report runScene(const Scene& scene, const RunOptions& options, const Keeping& keeping = {});
+
+/// Draws a scene's images of what was grown before, from the state in the folder `from`: with other cameras,
+/// suns, skies, sizes and kinds if the scene says so, but on the same meshes in the same world, with the same
+/// plants. Writes pictures and nothing else. Throws as runScene does.
+Report renderScene(const Scene& scene, const std::filesystem::path& from, const RunOptions& options);
 
 /// What a person wants to know of a run: a few lines that end with the files.
 std::string summary(const Report& report, const std::filesystem::path& folder);

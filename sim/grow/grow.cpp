@@ -87,6 +87,7 @@ Growing::Growing(World& world, std::vector<Planting> plantings, GrowthSettings s
     wants.light = wants.light || planting.process->wants().light;
     wants.sky_table = wants.sky_table || planting.process->wants().sky_table;
   }
+  first_ = growth_.iterations;
   if (wants.light) sensor_.emplace(world.opaque(), settings_.light);
   if (wants.sky_table) sky_table_ = settings_.sky_table();
   for (std::size_t i = 0; i < plantings_.size(); ++i) {
@@ -317,7 +318,8 @@ bool Growing::step() {
   settleAll(asked);
   ++growth_.iterations;
   if (settings_.progress) {
-    settings_.progress({growth_.iterations, settings_.iterations, segments_, elements_, alive(), proposals_});
+    settings_.progress(
+        {growth_.iterations, settings_.iterations, first_, segments_, elements_, alive(), proposals_});
   }
   return true;
 }

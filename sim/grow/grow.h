@@ -16,6 +16,7 @@ class Claims;
 struct GrowthProgress {
   int iteration = 0;  ///< that were done
   int iterations = 0;
+  int first = 0;  ///< that were done before this run went on
   std::size_t segments = 0, elements = 0;
   std::size_t sites = 0;      ///< that may still grow
   std::size_t proposals = 0;  ///< made since this run began, or went on
@@ -87,6 +88,7 @@ class Growing {
   std::optional<LightSensor> sensor_;   // if a process wants light
   std::optional<SkyTable> sky_table_;   // if a process wants it
   std::unique_ptr<Claims> claims_;
+  int first_ = 0;
   std::size_t segments_ = 0, elements_ = 0, proposals_ = 0;
 };
 

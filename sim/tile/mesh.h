@@ -26,4 +26,7 @@ struct Mesh {
   std::size_t degenerate_dropped = 0;  ///< zero-area triangles that the importer left out
 };
 
+/// A hash of all that a world could be made of: not the names of the mesh and its materials.
+std::uint64_t contentHash(const Mesh& mesh);
+
 }  // namespace espalier::sim

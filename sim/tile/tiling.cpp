@@ -8,9 +8,8 @@
 namespace espalier::sim {
 namespace {
 
-constexpr std::int64_t kReach = std::int64_t{1} << 26;
-
 std::int64_t rounded(double voxels) {
+  [[maybe_unused]] constexpr std::int64_t kReach = std::int64_t{1} << 26;  // a release build asserts nothing
   const double scaled = voxels * static_cast<double>(kFixedOne) + 0.5;
   assert(scaled > -static_cast<double>(kReach) && scaled < static_cast<double>(kReach));
   const auto towards_zero = static_cast<std::int64_t>(scaled);

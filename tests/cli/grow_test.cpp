@@ -11,102 +11,14 @@
 #include <string>
 #include <thread>
 
-#include "tests/support/process.h"
-#include "tests/support/scratch.h"
+#include "tests/cli/plot.h"
 
 namespace espalier {
 namespace {
 
 namespace fs = std::filesystem;
 using nlohmann::json;
-using tests::Scratch;
-
-constexpr const char* kMesh = R"(
-v -1 0 -1
-v 1 0 -1
-v 1 0 1
-v -1 0 1
-v -1 0 0
-v 1 0 0
-v 1 1 0
-v -1 1 0
-g ground
-f 1 4 3 2
-g wall
-f 5 6 7 8
-)";
-
-constexpr const char* kScene = R"(espalier: scene
-name: plot
-meshes:
-  - file: plot.obj
-world:
-  voxel: 5 cm
-  bounds: {min: [-1.1, -0.1, -1.1], max: [1.1, 1.5, 1.1]}
-plants:
-  - name: vine
-    rules: vine.yaml
-    seeds:
-      - [-0.4, 0.1, 0.1]
-      - [0.3, 0.1, 0.1]
-iterations: 14
-seed: 5
-image: {width: 160, height: 120}
-cameras:
-  main: {eye: [2.2, 1.6, 3.2], target: [0, 0.5, 0]}
-images:
-  - sun_exposure
-  - sky_exposure
-  - threshold
-  - shadow_matte
-  - surface_colour
-  - first_pass
-  - vines
-  - {kind: section, axis: y, at: 0.5}
-  - {kind: contact_sheet, of: [sun_exposure, sky_exposure, threshold, shadow_matte, surface_colour, first_pass]}
-)";
-
-/// A scene with its files in a folder of its own.
-class Plot : public testing::Test {
- protected:
-  void SetUp() override {
-    scratch_.write("plot.obj", kMesh);
-    scratch_.write("vine.yaml", tests::fileText(tests::sourceFolder() / "rules/library/courtyard_vine.yaml"));
-    scratch_.write("vine.yaml", withoutRegions(tests::fileText(scratch_.path("vine.yaml"))));
-    scratch_.write("scene.yaml", kScene);
-  }
-
-  tests::Ran grow(const std::string& more = "", const std::string& folder = "out") {
-    return tests::espalier("grow " + scratch_.path("scene.yaml").string() + " -o " +
-                           scratch_.path(folder).string() + " " + more);
-  }
-  json report(const std::string& folder = "out") {
-    return json::parse(tests::fileText(scratch_.path(folder) / "report.json"));
-  }
-  static std::map<std::string, std::string> files(const fs::path& folder) {
-    std::map<std::string, std::string> all;
-    for (const auto& entry : fs::directory_iterator(folder)) {
-      all[entry.path().filename().string()] = tests::fileText(entry.path());
-    }
-    return all;
-  }
-
-  Scratch scratch_;
-
- private:
-  /// The plot has other regions than the courtyard.
-  static std::string withoutRegions(std::string text) {
-    const auto at = text.find("\nregions:");
-    if (at == std::string::npos) return text;
-    const auto end = text.find("\n", text.find("\n", at + 1));
-    auto next = end;
-    while (next != std::string::npos && next + 1 < text.size() &&
-           (text[next + 1] == ' ' || text[next + 1] == '#')) {
-      next = text.find('\n', next + 1);
-    }
-    return text.substr(0, at) + (next == std::string::npos ? "\n" : text.substr(next));
-  }
-};
+using tests::Plot;
 
 TEST_F(Plot, WritesTheModelTheWorldThePicturesAndTheReport) {
   const auto ran = grow();
@@ -178,7 +90,7 @@ TEST_F(Plot, QuietSaysNothing) {
 }
 
 TEST_F(Plot, BadInputIsNamedWithItsPlaceAndNothingIsWritten) {
-  std::string scene = kScene;
+  std::string scene = tests::kPlotScene;
   scene.replace(scene.find("iterations: 14"), 14, "iteratons: 14");
   scene.replace(scene.find("voxel: 5 cm"), 11, "voxel: -5 cm");
   scratch_.write("scene.yaml", scene);
@@ -192,7 +104,7 @@ TEST_F(Plot, BadInputIsNamedWithItsPlaceAndNothingIsWritten) {
 
 TEST_F(Plot, WhatOnlyShowsInTheWorldIsNamedToo) {
   const auto with = [&](const std::string& from, const std::string& to) {
-    std::string scene = kScene;
+    std::string scene = tests::kPlotScene;
     scene.replace(scene.find(from), from.size(), to);
     scratch_.write("scene.yaml", scene);
     const auto ran = grow();
@@ -287,7 +199,7 @@ TEST_F(Plot, KilledAtAnyMomentNoFileIsHalf) {
 }
 
 TEST_F(Plot, CtrlCEndsCleanly) {
-  std::string scene = kScene;
+  std::string scene = tests::kPlotScene;
   scene.replace(scene.find("iterations: 14"), 14, "iterations: 100000");
   scene.replace(scene.find("voxel: 5 cm"), 11, "voxel: 1 cm");
   scratch_.write("scene.yaml", scene);
@@ -314,7 +226,7 @@ TEST(CommandLine, CheckIsSilentWhenAllIsWell) {
 }
 
 TEST(CommandLine, CheckNamesEveryErrorOfEveryFile) {
-  const Scratch scratch;
+  const tests::Scratch scratch;
   const auto a = scratch.write("a.yaml", "espalier: rules\nnam: x\nlight: {boost: -1}\n");
   const auto b = scratch.write("b.yaml", "espalier: scene\nmeshes: 3\n");
   const auto ran = tests::espalier("check " + a.string() + " " + b.string());

@@ -3,7 +3,9 @@
 // and then clipped to each cube in rational arithmetic; a voxel is tiled when something is left.
 
 // GCC 12 takes the small-number union of Boost's integers for uninitialized memory.
+#ifndef __clang__  // which calls itself GCC and has no such warning
 #pragma GCC diagnostic ignored "-Wmaybe-uninitialized"
+#endif
 #include <boost/multiprecision/cpp_int.hpp>
 #include <vector>
 

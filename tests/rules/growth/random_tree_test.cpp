@@ -174,7 +174,7 @@ TEST(RandomTree, GrowsAlikeUnderGreenesRandomRays) {
 
 TEST(RandomTree, AnotherSeedIsAnotherPlant) {
   std::set<std::uint64_t> hashes;
-  for (const std::uint64_t seed : {1, 2, 3}) {
+  for (const std::uint64_t seed : {1u, 2u, 3u}) {
     sim::World world = tests::wallPlot();
     auto s = settings(8);
     s.seed = seed;

@@ -1,0 +1,110 @@
+#include "scenes/job/saved_growth.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <fstream>
+#include <iterator>
+#include <map>
+
+#include "scenes/problem.h"
+#include "scenes/read/settings.h"
+#include "sim/base/error.h"
+
+namespace espalier::scenes {
+namespace {
+
+bool startsWith(std::string_view path, std::initializer_list<std::string_view> keys) {
+  return std::any_of(keys.begin(), keys.end(), [&](std::string_view key) {
+    return path.starts_with(key) &&
+           (path.size() == key.size() || path[key.size()] == '.' || path[key.size()] == '[');
+  });
+}
+
+/// Where a mesh lies does not matter, what it holds does.
+bool namesAFile(std::string_view path) {
+  return path.starts_with("meshes[") && (path.ends_with("].file") || path.ends_with("].optional"));
+}
+
+std::string difference(const std::string& path, const std::string* was, const std::string* is) {
+  const auto shown = [](const std::string* value) { return value != nullptr ? inQuotes(*value) : "nothing"; };
+  if (path.ends_with("].contents")) return fmt::format("{} are others", path);
+  return fmt::format("{} is {}, was {}", path, shown(is), shown(was));
+}
+
+/// What differs between what a state was grown from and what there is now.
+std::vector<std::string> differences(const sim::Inputs& was, const sim::Inputs& is, Same same) {
+  std::map<std::string, std::pair<const std::string*, const std::string*>> both;
+  std::vector<std::string> order;
+  const auto note = [&](const sim::Inputs& inputs, auto pick) {
+    for (const auto& [path, value] : inputs) {
+      if (same == Same::plants && !startsWith(path, {"meshes", "world", "plants"})) continue;
+      const auto [at, fresh] = both.try_emplace(path, nullptr, nullptr);
+      if (fresh) order.push_back(path);
+      pick(at->second) = &value;
+    }
+  };
+  note(
+      is, [](auto& pair) -> auto& { return pair.second; });
+  note(
+      was, [](auto& pair) -> auto& { return pair.first; });
+  std::vector<std::string> found;
+  for (const std::string& path : order) {
+    const auto [old_value, new_value] = both.at(path);
+    if (old_value == nullptr || new_value == nullptr || *old_value != *new_value)
+      found.push_back(difference(path, old_value, new_value));
+  }
+  return found;
+}
+
+std::string told(const std::vector<std::string>& differences) {
+  constexpr std::size_t kMost = 4;
+  std::string text;
+  for (std::size_t i = 0; i < std::min(kMost, differences.size()); ++i) text += "\n  " + differences[i];
+  if (differences.size() > kMost) text += fmt::format("\n  and {} more", differences.size() - kMost);
+  return text;
+}
+
+}  // namespace
+
+sim::Inputs inputsOf(const Scene& scene, const Site& site) {
+  sim::Inputs inputs = {{"espalier", ESPALIER_VERSION}};
+  for (auto& [path, value] : settings(scene)) {
+    if (startsWith(path, {"name", "iterations", "image", "images", "cameras", "exposure"}) ||
+        namesAFile(path))
+      continue;
+    inputs.emplace_back(path, value);
+  }
+  for (std::size_t i = 0; i < site.meshes.size(); ++i) {
+    inputs.emplace_back(fmt::format("meshes[{}].contents", i),
+                        fmt::format("{:016x}", sim::contentHash(site.meshes[i].mesh)));
+  }
+  return inputs;
+}
+
+std::optional<sim::Growth> takeUp(const std::filesystem::path& folder, const Scene& scene, Site& site,
+                                  const std::vector<sim::Planting>& plantings, Same same) {
+  const std::filesystem::path path = folder / kStateFile;
+  std::error_code error;
+  if (!std::filesystem::exists(path, error)) return std::nullopt;
+  std::ifstream stream(path, std::ios::binary);
+  const std::string bytes{std::istreambuf_iterator<char>(stream), {}};
+  if (!stream) throw sim::InputError(fmt::format("{}: cannot be read", path.string()));
+  sim::State state = sim::readState(bytes, path.string());
+  const auto different = differences(state.inputs, inputsOf(scene, site), same);
+  if (!different.empty()) {
+    throw sim::InputError(fmt::format("{}: it was grown from something else than {} says now:{}",
+                                      path.string(), scene.file.string(), told(different)));
+  }
+  const bool trials_wanted =
+      std::any_of(scene.images.begin(), scene.images.end(),
+                  [](const ImageSpec& image) { return image.kind == ImageKind::attempts; });
+  if (trials_wanted && !state.growth.recorded) {
+    throw sim::InputError(fmt::format(
+        "{}: it keeps no record of trials, which an image of attempts shows; grow it anew with that image",
+        path.string()));
+  }
+  return sim::restore(std::move(state), site.world, plantings, path.string());
+}
+
+}  // namespace espalier::scenes

@@ -1,0 +1,33 @@
+#pragma once
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "scenes/prepare/site.h"
+#include "scenes/scene.h"
+#include "sim/grow/state.h"
+
+/// Growth kept in the output folder, and what it was grown from.
+namespace espalier::scenes {
+
+/// The file's name in the output folder.
+inline constexpr const char* kStateFile = "growth.state";
+
+/// What a scene's growth follows from: its keys but the name, iterations, images and cameras, and what its
+/// meshes hold.
+sim::Inputs inputsOf(const Scene& scene, const Site& site);
+
+/// What must be the same.
+enum class Same {
+  everything,  ///< for growth to go on
+  plants       ///< for the plants to be shown: meshes, world and plants, under whatever light
+};
+
+/// Reads a folder's state and puts its plants into the site: the world is then as it was when the state was
+/// kept. Nothing if the folder has none. Throws sim::InputError for a damaged state, and for one that was
+/// grown from something else, with what differs.
+std::optional<sim::Growth> takeUp(const std::filesystem::path& folder, const Scene& scene, Site& site,
+                                  const std::vector<sim::Planting>& plantings, Same same);
+
+}  // namespace espalier::scenes

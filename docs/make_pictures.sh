@@ -60,8 +60,9 @@ grow scenes/library/ruin.yaml
 if [ -f $work/ruin/vines.png ]; then small $work/ruin/vines.png ruin 720; else echo "  no ruin: its mesh is missing"; fi
 
 [ -x build/release/tests/figures ] || ./run build
-build/release/tests/figures $work/lattice_sweep.png
+build/release/tests/figures $work
 small $work/lattice_sweep.png lattice_sweep 1040
+small $work/house.png house 1100
 
 expose scenes/library/street.yaml
 small $work/street/sun_hours.png street_sun_hours 800

@@ -1,32 +1,26 @@
-// Draws the figure of docs/lattice-sweep.md from the program's own directions and its own sweep.
-//   figures PICTURE.png
+// The figure of docs/lattice-sweep.md, from the program's own directions and its own sweep.
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
-#include <cstdio>
-#include <exception>
 #include <functional>
 #include <string>
 
-#include "render/image/drawing.h"
-#include "render/image/image_io.h"
-#include "sim/base/whole_file.h"
+#include "docs/figures/figures.h"
 #include "sim/sweep/sweep.h"
 #include "sim/world/field.h"
 
+namespace espalier::figures {
 namespace {
 
-using namespace espalier;
 using glm::vec2;
 using render::Ink;
 using sim::Colour;
 using sim::Voxel;
 
-constexpr Colour kPaper(0.985f, 0.98f, 0.97f), kInk(0.13f, 0.14f, 0.16f), kOccupied(0.25f, 0.27f, 0.31f),
-    kBlocked(0.55f, 0.68f, 0.83f), kOpen(0.99f, 0.97f, 0.86f), kUnknown(0.925f, 0.92f, 0.91f),
-    kNow(0.90f, 0.62f, 0.10f), kRay(0.76f, 0.22f, 0.17f), kCrossed(0.96f, 0.79f, 0.66f),
-    kAgain(0.985f, 0.91f, 0.85f);
+constexpr Colour kOccupied(0.25f, 0.27f, 0.31f), kBlocked(0.55f, 0.68f, 0.83f), kOpen(0.99f, 0.97f, 0.86f),
+    kUnknown(0.925f, 0.92f, 0.91f), kNow(0.90f, 0.62f, 0.10f), kRay(0.76f, 0.22f, 0.17f),
+    kCrossed(0.96f, 0.79f, 0.66f), kAgain(0.985f, 0.91f, 0.85f);
 
 /// Voxels x and y of a picture's part; `low` is the lower left corner of voxel (0, 0).
 class Grid {
@@ -63,12 +57,6 @@ class Grid {
   vec2 low_;
   float cell_;
 };
-
-void text(render::Image& image, vec2 at, const std::string& words, float size,
-          render::Align align = render::Align::left, render::Font font = render::Font::regular,
-          Colour colour = kInk) {
-  render::drawText(image, at, words, {size, {colour}, align, font});
-}
 
 void heading(render::Image& image, vec2 at, const std::string& letter, const std::string& words) {
   text(image, at, letter, 19, render::Align::left, render::Font::bold);
@@ -229,7 +217,9 @@ void swatch(render::Image& image, vec2 at, Colour colour, const std::string& nam
   text(image, at + vec2(21, 12), name, 14);
 }
 
-render::Image draw() {
+}  // namespace
+
+render::Image latticeSweep() {
   constexpr int kWide = 1040, kHigh = 830;
   render::Image image(kWide, kHigh, 3);
   render::fillBox(image, {0, 0}, {kWide, kHigh}, {kPaper});
@@ -254,18 +244,4 @@ render::Image draw() {
   return image;
 }
 
-}  // namespace
-
-int main(int argc, char** argv) {
-  if (argc != 2) {
-    fmt::print(stderr, "usage: figures PICTURE.png\n");
-    return 2;
-  }
-  try {
-    sim::writeWhole(argv[1], render::encodePng(draw()));
-  } catch (const std::exception& error) {
-    fmt::print(stderr, "figures: {}\n", error.what());
-    return 1;
-  }
-  return 0;
-}
+}  // namespace espalier::figures

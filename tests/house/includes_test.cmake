@@ -2,46 +2,26 @@ cmake_minimum_required(VERSION 3.25)
 # The house's one direction: cli -> scenes -> {rules, render} -> sim, and within a room from wing to wing. A room may
 # include only what it may see, and so may a wing; the heavy headers stay out of the public ones; tests mirror the wings.
 # cmake -DSOURCE=<project folder> -P includes_test.cmake
-set(rooms sim rules render scenes cli)
-set(sees_sim sim)
-set(sees_rules rules sim)
-set(sees_render render sim)
-set(sees_scenes scenes rules render sim)
-set(sees_cli cli scenes rules render sim)
-
-# The wings that a wing may include beside itself.
-set(wings_sim base world tile sweep sense light grow)
-set(sim_base "")
-set(sim_world base)
-set(sim_tile world base)
-set(sim_sweep tile world base)
-set(sim_sense world base)
-set(sim_light sweep tile world base)
-set(sim_grow light sweep tile sense world base)
-
-set(wings_rules language growth)
-set(rules_language "")
-set(rules_growth language)
-
-set(wings_render image voxels model files finish)
-set(render_image "")
-set(render_voxels image)
-set(render_model "")
-set(render_files model)
-set(render_finish files model image)
-
-set(wings_scenes yaml read import prepare accuracy write show job)
-set(scenes_yaml "")
-set(scenes_read yaml)
-set(scenes_import "")
-set(scenes_prepare import)
-set(scenes_accuracy prepare)
-set(scenes_write "")
-set(scenes_show write)
-set(scenes_job show write accuracy prepare read)
-
-# Files without a wing: all wings of their room see them, and they see no wing.
-set(flat_scenes scene lights problem clean_text)
+# The house as wings.txt says: rooms, sees_<room>, wings_<room>, <room>_<wing>, flat_<room>.
+set(rooms "")
+file(STRINGS ${CMAKE_CURRENT_LIST_DIR}/wings.txt lines REGEX "^[^#]")
+foreach(line ${lines})
+  if(NOT line MATCHES "^([a-z]+)(/([a-z]+|[*]))?:(.*)$")
+    message(FATAL_ERROR "wings.txt: '${line}'; expected 'room: rooms', 'room/wing: wings' or 'room/*: files'")
+  endif()
+  set(room ${CMAKE_MATCH_1})
+  set(wing "${CMAKE_MATCH_3}")
+  separate_arguments(seen UNIX_COMMAND "${CMAKE_MATCH_4}")
+  if(wing STREQUAL "*")
+    set(flat_${room} ${seen})
+  elseif(wing)
+    list(APPEND wings_${room} ${wing})
+    set(${room}_${wing} ${seen})
+  else()
+    list(APPEND rooms ${room})
+    set(sees_${room} ${room} ${seen})
+  endif()
+endforeach()
 
 set(announced sim/world/world_grids.h scenes/import/mesh_folder_io.h) # they say themselves that they are heavy
 set(faults "")

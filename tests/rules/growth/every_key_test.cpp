@@ -239,8 +239,16 @@ INSTANTIATE_TEST_SUITE_P(Place, EveryKey, testing::ValuesIn(kPlaces), [](const a
 });
 
 TEST(Stem, IsThatOfTheTopSet) {
-  RuleSet top = failing();
-  RuleSet second = lively();
+  const Result plain = grown(lively());
+  RuleSet red = lively();
+  red.stem_colour = sim::Colour(1.0f, 0.0f, 0.0f);
+  EXPECT_EQ(grown(red).state, plain.state);
+  EXPECT_NE(grown(red).colours, plain.colours);
+  RuleSet thick = lively();
+  thick.stem_radius_vx = 0.4;
+  EXPECT_NE(grown(thick).state, plain.state);  // it takes more light
+
+  RuleSet top = failing(), second = lively();
   second.stem_colour = sim::Colour(1.0f, 0.0f, 0.0f);
   second.stem_radius_vx = 0.4;
   top.stem_radius_vx = 0.2;

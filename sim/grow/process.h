@@ -70,7 +70,8 @@ struct ProposedElement {
   float coverage = 0.0f;  ///< of each voxel that it takes
 };
 
-/// A site that a new node brings with it; the process itself takes it up in settle().
+/// A site that a new node brings with it. The house does nothing with it: the process finds it in the verdict
+/// and takes it up in settle().
 struct Sprout {
   std::uint16_t number = 0;
   int wait = 1;  ///< iterations from now
@@ -79,9 +80,11 @@ struct Sprout {
 /// What a site would place, or why it would not.
 struct Proposal {
   Outcome outcome = Outcome::no_trial;
-  bool retire = true;  ///< if it does not grow: never try again
+  bool retire = true;  ///< if it does not grow: never try again; for settle(), as sprouts are
   std::optional<ProposedSegment> segment;
-  std::vector<ProposedElement> elements;  ///< on the segment, or on the site's node where there is none
+  /// On the segment, or on the site's node where there is none. Those that an earlier claim hinders are left
+  /// out.
+  std::vector<ProposedElement> elements;
   std::vector<Sprout> sprouts;
   OutcomeCounts trials{};         ///< trials by what became of them
   std::vector<Attempt> attempts;  ///< if they are recorded
@@ -91,11 +94,12 @@ struct Proposal {
 struct Verdict {
   Site site;
   const Proposal* proposal = nullptr;
-  Outcome outcome = Outcome::no_trial;  ///< the proposal's own, or claimed
+  Outcome outcome = Outcome::no_trial;  ///< the proposal's own, or claimed if nothing of it could be placed
   NodeId node = kNoNode;                ///< the new one, if a segment grew
 };
 
 /// What plantings share: attractors, fields, by the names that the scene gives them. They belong to none.
+/// begin, due and settle of each planting see what those of the plantings before it left.
 using Commons = std::map<std::string, Columns, std::less<>>;
 
 /// All that a process may read of its planting when it is asked or told something serially.
@@ -103,7 +107,7 @@ struct StandView {
   const World& world;
   std::span<const Plant> plants;  ///< its own, one a seed
   std::span<const Kin> kin;       ///< of each of them
-  int iteration = 0;
+  int iteration = 0;              ///< this one, from 0
 };
 
 /// What a process may read while it proposes: frozen for the iteration.
@@ -126,7 +130,8 @@ struct Wants {
 };
 
 /// A growth process, with all its parameters: const, and one for a planting. What it knows from one iteration
-/// to the next is in `memory`, which is its own, and in `commons`; both it finds empty at the beginning.
+/// to the next is in `memory`, which is its own and empty before begin(), and in `commons`; nowhere else, as
+/// nothing else is hashed, saved and gone on with.
 ///
 /// In each iteration (design: the tick) the house calls
 ///   due        serially, planting by planting; may be parallel inside;
@@ -140,18 +145,21 @@ class Process {
   virtual Wants wants() const = 0;
   /// A plant without nodes: its shapes, its colours, and its columns, empty. The seed's own row of them is 0.
   virtual Plant seedling() const = 0;
-  /// Plants have been seeded, and nothing has grown: the beginning of memory.
+  /// Plants have been seeded, and nothing has grown: the beginning of memory. Not called for growth that goes
+  /// on from a state.
   virtual void begin(const StandView& stand, Columns& memory, Commons& commons) const = 0;
   /// The sites that propose in this iteration, in ascending order of (plant, node, number), each once.
   virtual std::vector<Site> due(const StandView& stand, Columns& memory, Commons& commons) const = 0;
-  /// Random numbers must follow from the key alone.
+  /// What one of them would place. Random numbers must follow from the key alone. The voxels of a piece are
+  /// those that sim::fit gave, in the world as it is frozen.
   virtual Proposal propose(const SiteView& view, const Site& site, const RandomKey& key) const = 0;
   /// Whether a proposal may stand beside those of its planting that were accepted before it in the same
   /// iteration, `accepted`, when their voxels do not clash: for what voxels are too coarse to tell.
   virtual bool agrees(const Proposal& proposal, std::span<const Proposal* const> accepted) const {
     return static_cast<void>(proposal), static_cast<void>(accepted), true;
   }
-  /// What became of each proposal, in the sites' order. The stand has already grown.
+  /// What became of each proposal, in the sites' order. The stand has already grown, new nodes and elements
+  /// of a plant in this order too; its iteration is still the one in which they were proposed.
   virtual void settle(const StandView& stand, std::span<const Verdict> verdicts, Columns& memory,
                       Commons& commons) const = 0;
   /// Sites that may still grow, now or later. Growth ends when no process has any.

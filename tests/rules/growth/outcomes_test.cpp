@@ -196,7 +196,7 @@ TEST(Buds, OfAForeignMemoryAreRefused) {
   EXPECT_THROW(dueBuds(chain.at(0), memory), sim::BrokenContract);
   sim::column<std::int32_t>(memory, "bud_node") = {1};
   EXPECT_NO_THROW(dueBuds(chain.at(0), memory));
-  sim::column<std::int32_t>(memory, "bud_number") = {65'536};
+  sim::column<std::int32_t>(memory, "bud_number") = {-1};
   EXPECT_THROW(dueBuds(chain.at(0), memory), sim::BrokenContract);
   sim::column<std::int32_t>(memory, "bud_number") = {};
   EXPECT_THROW(dueBuds(chain.at(0), memory), sim::BrokenContract);

@@ -8,7 +8,7 @@ namespace {
 using namespace sim;
 
 constexpr std::int32_t kTries = 25;    // iterations in which a cushion looks for a place beside it
-constexpr std::size_t kMost = 65'536;  // sites that one node can number
+constexpr std::size_t kMost = Slots::kNumbers;  // sites that one node can have
 
 class Moss final : public Process {
  public:
@@ -32,7 +32,7 @@ class Moss final : public Process {
       const std::vector<std::int32_t>& tries = triesOf(memory, i);
       for (std::size_t k = 0; k < tries.size(); ++k) {
         const Vec3 at = k == 0 ? plant.skeleton.position_vx[0] : plant.elements[k - 1].position_vx;
-        if (tries[k] > 0) sites.push_back({static_cast<int>(i), 0, static_cast<std::uint16_t>(k), at});
+        if (tries[k] > 0) sites.push_back({static_cast<int>(i), 0, static_cast<std::uint32_t>(k), at});
       }
     }
     return sites;

@@ -62,7 +62,7 @@ float smoothed(const FaceValue& value, const sim::BitVolume& occupied, const Fra
 float relief(const sim::BitVolume& occupied, const Fragment& f) {
   const auto [u, v] = inPlane(f.face);
   const Voxel front = f.voxel + kFaceNormals[f.face];
-  const auto open = [&](int su, int sv) {
+  const auto open = [&, u = u, v = v](int su, int sv) {  // clang 14 captures no names of a structured binding
     const bool side_u = occupied.at(front + su * u), side_v = occupied.at(front + sv * v);
     const bool corner = occupied.at(front + su * u + sv * v);
     return side_u && side_v ? 0.0f : 1.0f - static_cast<float>(side_u + side_v + corner) / 3.0f;

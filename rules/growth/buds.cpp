@@ -1,7 +1,6 @@
 #include "rules/growth/buds.h"
 
 #include <algorithm>
-#include <limits>
 #include <tuple>
 
 #include "sim/base/error.h"
@@ -62,10 +61,9 @@ std::vector<sim::Site> dueBuds(const sim::StandView& stand, const sim::Columns& 
     if (bud.plant < 0 || static_cast<std::size_t>(bud.plant) >= stand.plants.size() || bud.node < 0 ||
         bud.node >= stand.plants[static_cast<std::size_t>(bud.plant)].skeleton.size())
       throw sim::BrokenContract("a bud on a node that is not there");
-    if (bud.number < 0 || bud.number > std::numeric_limits<std::uint16_t>::max())
-      throw sim::BrokenContract("a bud with a number that no site has");
+    if (bud.number < 0) throw sim::BrokenContract("a bud with a number that no site has");
     const sim::Skeleton& skeleton = stand.plants[static_cast<std::size_t>(bud.plant)].skeleton;
-    sites.push_back({bud.plant, bud.node, static_cast<std::uint16_t>(bud.number),
+    sites.push_back({bud.plant, bud.node, static_cast<std::uint32_t>(bud.number),
                      skeleton.position_vx[static_cast<std::size_t>(bud.node)]});
   }
   return sites;
@@ -77,9 +75,9 @@ void settleBuds(const sim::StandView& stand, std::span<const sim::Verdict> verdi
   for (const auto& [site, proposal, outcome, node] : verdicts) {
     if (outcome == sim::Outcome::grown) {
       for (const sim::Sprout& sprout : proposal->sprouts)
-        buds.push_back({site.plant, node, sprout.number, stand.iteration + sprout.wait});
+        buds.push_back({site.plant, node, static_cast<std::int32_t>(sprout.number), stand.iteration + sprout.wait});
     } else if (outcome == sim::Outcome::claimed || !proposal->retire) {
-      buds.push_back({site.plant, site.node, site.number, stand.iteration + 1});
+      buds.push_back({site.plant, site.node, static_cast<std::int32_t>(site.number), stand.iteration + 1});
     }
   }
   keep(buds, memory);

@@ -86,7 +86,7 @@ Outcome BookProcess::tryToGrow(const sim::SiteView& view, const sim::Site& site,
       proposeElements(view, rules, around, senses, best->to_vx, best->passes, book_.firstShape(rules), key);
   proposal.segment = {best->to_vx,
                       std::move(best->takes),
-                      rules.require.clear ? sim::Passage::around : sim::Passage::through,
+                      best->passage,
                       // exposure, proximity_vx, sky_exposure, sun_exposure: in the order of their names
                       {static_cast<float>(senses.exposure), static_cast<float>(best->proximity_vx),
                        static_cast<float>(around.sky_exposure), static_cast<float>(around.sun_exposure)}};

@@ -14,7 +14,7 @@ namespace espalier::rules {
 /// Where Greene's text leaves it open: a bud at exposure e grows in an iteration with probability
 /// vigour(e) / boost, so that buds in full light grow in every iteration and dim ones `boost` times more
 /// rarely; segments keep their length. A bud for which every set has failed retires, as around it the world
-/// only gets fuller; a seed that found no way tries again.
+/// only gets fuller; a seed tries again, unless it was too dark or too bright for every set.
 ///
 /// The plant's one stem looks as the top rule set says.
 ///

@@ -17,8 +17,8 @@ using sim::Outcome;
 Outcome judge(const sim::SiteView& view, const RuleSet& rules, const Surroundings& around, Candidate& trial) {
   trial.passes.clear();
   sim::tileSegment(around.at_vx, trial.to_vx, trial.passes);
-  const auto passage = rules.require.clear ? sim::Passage::around : sim::Passage::through;
-  switch (sim::fit(view.world, trial.passes, around.attachment, passage, trial.takes)) {
+  trial.passage = rules.require.clear ? sim::Passage::around : sim::Passage::through;
+  switch (sim::fit(view.world, trial.passes, around.attachment, trial.passage, trial.takes)) {
     case sim::Fit::outside:
       return Outcome::out_of_world;
     case sim::Fit::blocked:

@@ -16,9 +16,10 @@ namespace espalier::rules {
 /// A trial that met the rules.
 struct Candidate {
   sim::Vec3 to_vx{0.0};
-  std::vector<sim::Voxel> passes;  ///< that the segment crosses
-  std::vector<sim::Voxel> takes;   ///< the free ones of them
-  double proximity_vx = 0.0;       ///< mean distance from the scene along it
+  std::vector<sim::Voxel> passes;               ///< that the segment crosses
+  std::vector<sim::Voxel> takes;                ///< the free ones of them
+  sim::Passage passage = sim::Passage::around;  ///< as `require.clear` says
+  double proximity_vx = 0.0;                    ///< mean distance from the scene along it
 };
 
 /// The best of a site's trials under one rule set, if there is a good one; counts them all in `proposal`, and

@@ -226,7 +226,9 @@ Table makeTable() {
                {.meaning = "Rejects the trials that do not meet these."})
       .section("prefer", &RuleSet::prefer, preferKeys(), {.meaning = "Ranks the trials that are left."})
       .section("light", &RuleSet::light, lightKeys(), {.meaning = "What light is, and what it does."})
-      .section("stem", std::identity{}, stemKeys(), {.meaning = "How stems look; growth does not ask."})
+      .section("stem", std::identity{}, stemKeys(),
+               {.meaning =
+                    "What all of a plant's stems are like; sets of regions and otherwise have no say in it."})
       .list<Element>(
           "elements", Kind::entries, &RuleSet::elements, elementKeys(),
           {.meaning =

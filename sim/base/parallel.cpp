@@ -14,6 +14,8 @@
 #include <random>
 #include <thread>
 
+#include "sim/base/parallel_order.h"
+
 namespace espalier::sim {
 namespace {
 
@@ -66,13 +68,18 @@ using Body = std::function<void(std::size_t, std::size_t)>;
 template <typename... Partitioner>
 void loop(const tbb::blocked_range<std::size_t>& all, const Body& body, const Partitioner&... partitioner) {
   Failures failures;
+  LoopOrder order;
+  order.before();
   tbb::parallel_for(
       all,
-      [&](const tbb::blocked_range<std::size_t>& range) {
+      [&](const tbb::blocked_range<std::size_t>& range) ESPALIER_UNORDERED {
+        order.bodyBegins();
         if (shaken.load(std::memory_order_relaxed) > 0) giveWay();
         failures.guard(range.begin(), [&] { body(range.begin(), range.end()); });
+        order.bodyEnds();
       },
       partitioner...);
+  order.after();
   failures.rethrow();
 }
 
@@ -94,7 +101,15 @@ void parallelForEach(std::size_t count, const std::function<void(std::size_t)>& 
 
 void parallelInvoke(const std::function<void()>& a, const std::function<void()>& b) {
   Failures failures;
-  tbb::parallel_invoke([&] { failures.guard(0, a); }, [&] { failures.guard(1, b); });
+  LoopOrder order;
+  const auto run = [&](std::size_t place, const std::function<void()>& work) ESPALIER_UNORDERED {
+    order.bodyBegins();
+    failures.guard(place, work);
+    order.bodyEnds();
+  };
+  order.before();
+  tbb::parallel_invoke([&]() ESPALIER_UNORDERED { run(0, a); }, [&]() ESPALIER_UNORDERED { run(1, b); });
+  order.after();
   failures.rethrow();
 }
 

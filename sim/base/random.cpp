@@ -11,15 +11,17 @@
 
 namespace espalier::sim {
 
-// Counter words: node; iteration; the site's number (16 bits) and the item (16); the purpose (8), the trial
-// (16) and the block of four numbers (8). Every field has a place of its own, so no stream runs into another.
+// Counter words: node; iteration (24 bits) and the high bits of the site's number (8); its low bits (16) and the
+// item (16); the purpose (8), the trial (16) and the block of four numbers (8). Every field has a place of its own,
+// so no stream runs into another.
 Slots::Slots(const RandomKey& key, Purpose purpose, unsigned item, unsigned trial)
-    : counter_{key.node, key.iteration, (static_cast<std::uint32_t>(key.number) << 16) | item,
+    : counter_{key.node, key.iteration | (key.number >> 16 << 24), (key.number << 16) | item,
                (static_cast<std::uint32_t>(purpose) << 24) | (trial << 8)},
       key_{static_cast<std::uint32_t>(key.stream), static_cast<std::uint32_t>(key.stream >> 32)} {
-  if (item >= kItems || trial >= kTrials) {
-    throw BrokenContract(fmt::format("random numbers for item {} and trial {}; there are {} and {}", item,
-                                     trial, kItems, kTrials));
+  if (item >= kItems || trial >= kTrials || key.number >= kNumbers || key.iteration >= kNumbers) {
+    throw BrokenContract(fmt::format(
+        "random numbers for site {}, iteration {}, item {} and trial {}; they are told apart below {}, {}, {} and {}",
+        key.number, key.iteration, item, trial, kNumbers, kNumbers, kItems, kTrials));
   }
 }
 

@@ -10,11 +10,11 @@
 /// asks for one quantity more moves no other, and parallel equals serial.
 namespace espalier::sim {
 
-/// Who draws.
+/// Who draws. Numbers and iterations are told apart below 2^24.
 struct RandomKey {
   std::uint64_t stream = 0;     ///< streamOf the run and the plant
   std::uint32_t node = 0;       ///< the plant's node, or the number of the place
-  std::uint16_t number = 0;     ///< which of the node's sites
+  std::uint32_t number = 0;     ///< which of the node's sites
   std::uint32_t iteration = 0;  ///< of growth
 };
 
@@ -48,8 +48,9 @@ class Slots {
   static constexpr unsigned kSlots = 1024;   ///< of one trial
   static constexpr unsigned kItems = 65536;  ///< of a purpose: rule sets, elements
   static constexpr unsigned kTrials = 65536;
+  static constexpr unsigned kNumbers = 1u << 24;  ///< sites of a node, and iterations
 
-  /// Throws BrokenContract for an item or a trial beyond what can be told apart.
+  /// Throws BrokenContract for a number, an iteration, an item or a trial beyond what can be told apart.
   Slots(const RandomKey& key, Purpose purpose, unsigned item = 0, unsigned trial = 0);
 
   /// Throws BrokenContract for a slot from kSlots on: it would be another trial's.

@@ -63,6 +63,7 @@ void requireSites(const World& world, const Planting& planting, std::span<const 
     if (site.plant < 0 || static_cast<std::size_t>(site.plant) >= plants.size() || site.node < 0 ||
         site.node >= plants[static_cast<std::size_t>(site.plant)].skeleton.size())
       broken(planting, "named a site on a node that is not there");
+    if (site.number >= Slots::kNumbers) broken(planting, "numbered a site beyond what can be told apart");
     if (!contains(world.frame().size, voxelAt(site.at_vx)))
       broken(planting, "named a site outside the world");
   }

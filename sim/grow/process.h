@@ -43,7 +43,7 @@ using OutcomeCounts = std::array<std::uint64_t, kOutcomes>;
 struct Site {
   std::int32_t plant = 0;    ///< within its planting
   NodeId node = 0;           ///< to which a segment would be joined, and on which an element would stand
-  std::uint16_t number = 0;  ///< which of the node's sites: as many as the process likes
+  std::uint32_t number = 0;  ///< below 2^24: which of the node's sites: as many as the process likes
   Vec3 at_vx{0.0};           ///< where light is sensed and segments begin; inside the world
 
   friend bool operator==(const Site&, const Site&) = default;
@@ -73,7 +73,7 @@ struct ProposedElement {
 /// A site that a new node brings with it. The house does nothing with it: the process finds it in the verdict
 /// and takes it up in settle().
 struct Sprout {
-  std::uint16_t number = 0;
+  std::uint32_t number = 0;
   int wait = 1;  ///< iterations from now
 };
 

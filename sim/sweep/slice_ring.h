@@ -2,6 +2,7 @@
 // Internal to the room: the last few slices of a sweep, laid out for vectors (sim/sweep/lanes.h).
 #include <hwy/aligned_allocator.h>
 
+#include <atomic>
 #include <cstddef>
 #include <utility>
 #include <vector>
@@ -42,12 +43,17 @@ class BlockFlags {
   lanes::Blocks get(int number, std::size_t w, std::size_t first, std::size_t count) const {
     const auto [word, bit] = from(number, static_cast<std::ptrdiff_t>(first));
     const lanes::Blocks* const at = word + w * layout_.flagLine();
-    return ((at[0] >> bit) | (at[1] << 1 << (63 - bit))) & ((lanes::Blocks{1} << count) - 1);
+    return ((read(at[0]) >> bit) | (read(at[1]) << 1 << (63 - bit))) & ((lanes::Blocks{1} << count) - 1);
   }
   /// Changes the flags of the blocks first, first + 1 .. Threads may do so at once for different blocks.
   void flip(int number, std::size_t w, std::size_t first, lanes::Blocks flipped);
 
  private:
+  /// Another thread may be changing other blocks of the word. (C++20 has no atomic_ref to what is const.)
+  static lanes::Blocks read(const lanes::Blocks& blocks) {
+    return std::atomic_ref(const_cast<lanes::Blocks&>(blocks)).load(std::memory_order_relaxed);
+  }
+
   SliceLayout layout_;
   int slots_;
   std::vector<lanes::Blocks> flags_;

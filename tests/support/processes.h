@@ -96,7 +96,7 @@ class Creeper : public sim::Process {
   static sim::Site siteAt(const sim::Columns& memory, std::size_t i) {
     return {sim::column<std::int32_t>(memory, "plant")[i],
             sim::column<std::int32_t>(memory, "node")[i],
-            static_cast<std::uint16_t>(sim::column<std::int32_t>(memory, "number")[i]),
+            static_cast<std::uint32_t>(sim::column<std::int32_t>(memory, "number")[i]),
             {}};
   }
   static void remember(sim::Columns& memory, const sim::Site& site, int due) {
@@ -133,7 +133,7 @@ class Tiler : public sim::Process {
   std::vector<sim::Site> due(const sim::StandView& stand, sim::Columns& memory,
                              sim::Commons&) const override {
     std::vector<sim::Site> sites;
-    std::vector<std::uint16_t> numbers(stand.plants.size(), 0);
+    std::vector<std::uint32_t> numbers(stand.plants.size(), 0);
     const auto& plants = sim::column<std::int32_t>(memory, "plant");
     const auto& middles = sim::column<sim::Vec3>(memory, "middle");
     for (std::size_t i = 0; i < plants.size(); ++i) {

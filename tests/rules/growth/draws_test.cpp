@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <functional>
+#include <memory>
 #include <set>
 #include <string>
+#include <utility>
 
 #include "rules/growth/bend.h"
 #include "rules/language/registry.h"
@@ -164,6 +166,19 @@ TEST(Draws, ARangeOfOneNumberIsThatNumber) {
     key.set(object, datum);
   });
   EXPECT_GE(values, 13);
+}
+
+TEST(Draws, TenThousandTrialsAreAllDifferent) {
+  RuleSet rules = tests::failing();
+  rules.random_tree.trials_min = rules.random_tree.trials_max = 10'000;
+  rules.otherwise = std::make_shared<RuleSet>(rules);
+  sim::World world = tests::wallPlot();
+  auto settings = tests::brightSettings(1);
+  settings.record_attempts = true;
+  const auto growth = sim::grow(world, tests::planting(world, rules, {tests::kOpenSeed}), settings);
+  std::set<std::pair<double, double>> ends;
+  for (const auto& attempt : growth.attempts) ends.insert({attempt.to_vx.x, attempt.to_vx.z});
+  EXPECT_EQ(ends.size(), 20'000u);
 }
 
 TEST(Draws, EveryQuantityOfATrialHasItsOwnNumber) {

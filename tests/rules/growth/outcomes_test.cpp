@@ -104,6 +104,17 @@ TEST(Outcomes, ASecondSetMayRestInThePlaceOfTheFirst) {
   EXPECT_GT(result.alive, 0u);
 }
 
+TEST(Outcomes, ElementsAreThoseOfTheSetThatGrew) {
+  RuleSet first = failing(), second = lively();
+  first.elements.assign(2, second.elements[0]);
+  sim::World world = tests::wallPlot();
+  const auto growth =
+      sim::grow(world, tests::planting(world, withOtherwise(first, second), {tests::kOpenSeed}),
+                tests::brightSettings(5));
+  ASSERT_GT(growth.plants[0].elements.size(), 3u);
+  for (const auto& element : growth.plants[0].elements) EXPECT_EQ(element.shape, 2);
+}
+
 TEST(Outcomes, ASeedThatFoundNoWayTriesAgainAndNoOther) {
   const Result failed = grown(failing(), 5);
   EXPECT_EQ(failed.of(Outcome::no_trial), 5u);
@@ -185,7 +196,7 @@ TEST(Buds, OfAForeignMemoryAreRefused) {
   EXPECT_THROW(dueBuds(chain.at(0), memory), sim::BrokenContract);
   sim::column<std::int32_t>(memory, "bud_node") = {1};
   EXPECT_NO_THROW(dueBuds(chain.at(0), memory));
-  sim::column<std::int32_t>(memory, "bud_number") = {65'536};
+  sim::column<std::int32_t>(memory, "bud_number") = {-1};
   EXPECT_THROW(dueBuds(chain.at(0), memory), sim::BrokenContract);
   sim::column<std::int32_t>(memory, "bud_number") = {};
   EXPECT_THROW(dueBuds(chain.at(0), memory), sim::BrokenContract);

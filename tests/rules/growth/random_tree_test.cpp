@@ -11,10 +11,9 @@
 #include "sim/base/error.h"
 #include "sim/base/parallel.h"
 #include "sim/grow/grow.h"
-#include "sim/light/sky.h"
-#include "sim/light/sun.h"
 #include "sim/sense/proximity.h"
 #include "sim/tile/tiling.h"
+#include "tests/support/lively.h"
 #include "tests/support/plots.h"
 
 namespace espalier {
@@ -44,18 +43,11 @@ RuleSet vine() {
   return rules;
 }
 
-sim::GrowthSettings settings(int iterations) {
-  sim::GrowthSettings s;
-  s.iterations = iterations;
-  s.light.sky = sim::makeSky({.directions = 64}).directions;
-  s.light.sun = sim::makeSun({20.0, 180.0, 24}).directions;
-  return s;
-}
+using tests::brightSettings;
 
 sim::Growth growIn(sim::World& world, const RuleSet& rules, const std::vector<Vec3>& seeds,
                    sim::GrowthSettings s) {
-  const auto rule = rules::makeProcess(std::make_shared<RuleSet>(rules), world.frame().voxel_m);
-  return sim::grow(world, {{"vine", rule, sim::seedsAt(world.frame(), seeds)}}, s);
+  return sim::grow(world, tests::planting(world, rules, seeds), s);
 }
 
 std::size_t segments(const sim::Growth& growth) {
@@ -78,7 +70,7 @@ const std::vector<Vec3> kBothSides = {{12, 2, 23}, {30, 2, 23}, {20, 2, 16}};
 
 TEST(RandomTree, GrowsAlongTheWall) {
   sim::World world = tests::wallPlot();
-  const auto growth = growIn(world, vine(), kBothSides, settings(20));
+  const auto growth = growIn(world, vine(), kBothSides, brightSettings(20));
   EXPECT_GT(segments(growth), 150u);
   EXPECT_GT(leaves(growth), 100u);
   for (const auto& plant : growth.plants) {
@@ -97,7 +89,7 @@ TEST(RandomTree, PrefersTheProximityThatItIsTold) {
     RuleSet rules = vine();
     rules.prefer.proximity_vx = wanted;
     rules.elements.clear();
-    const auto growth = growIn(world, rules, kBothSides, settings(10));
+    const auto growth = growIn(world, rules, kBothSides, brightSettings(10));
     for (const auto& plant : growth.plants) {
       for (std::size_t i = 1; i < plant.skeleton.parent.size(); ++i) {
         mean[wanted] += plant.skeleton.columns.at("proximity_vx")[i] / static_cast<double>(segments(growth));
@@ -113,7 +105,7 @@ TEST(RandomTree, PrefersTheProximityThatItIsTold) {
 TEST(RandomTree, NothingIntersectsButAtItsAttachment) {
   sim::World world = tests::wallPlot();
   const sim::BitVolume before = world.occupied();
-  const auto growth = growIn(world, vine(), kBothSides, settings(18));
+  const auto growth = growIn(world, vine(), kBothSides, brightSettings(18));
   for (const auto& plant : growth.plants) {
     std::vector<Voxel> voxels;
     for (std::size_t i = 1; i < plant.skeleton.parent.size(); ++i) {
@@ -147,7 +139,7 @@ TEST(RandomTree, TheSameBytesOnAnyNumberOfThreads) {
   for (const int threads : {1, 2, 5}) {
     sim::onThreads(threads, [&] {
       sim::World world = tests::wallPlot();
-      const auto growth = growIn(world, vine(), kBothSides, settings(20));
+      const auto growth = growIn(world, vine(), kBothSides, brightSettings(20));
       hashes.insert(sim::stateHash(world, growth));
     });
   }
@@ -159,7 +151,7 @@ TEST(RandomTree, TheSameBytesOnAnyNumberOfThreads) {
 
 TEST(RandomTree, GrowsAlikeUnderGreenesRandomRays) {
   sim::World even_world = tests::wallPlot(), random_world = tests::wallPlot();
-  auto s = settings(20);
+  auto s = brightSettings(20);
   const auto even = growIn(even_world, vine(), kBothSides, s);
   s.light.random_sky = sim::RandomSky{};
   const auto random = growIn(random_world, vine(), kBothSides, s);
@@ -176,7 +168,7 @@ TEST(RandomTree, AnotherSeedIsAnotherPlant) {
   std::set<std::uint64_t> hashes;
   for (const std::uint64_t seed : {1u, 2u, 3u}) {
     sim::World world = tests::wallPlot();
-    auto s = settings(8);
+    auto s = brightSettings(8);
     s.seed = seed;
     const auto growth = growIn(world, vine(), kBothSides, s);
     hashes.insert(sim::stateHash(world, growth));
@@ -184,7 +176,6 @@ TEST(RandomTree, AnotherSeedIsAnotherPlant) {
   EXPECT_EQ(hashes.size(), 3u);
 }
 
-// The sun's arc leans to +z: behind the wall, at -z, there is less than 30 per cent.
 TEST(RandomTree, PassingThroughEndsAtTheWorldsRim) {
   for (std::uint64_t seed = 1; seed <= 4; ++seed) {
     sim::World world({Vec3(0.0), 0.04, {20, 20, 20}});
@@ -195,7 +186,7 @@ TEST(RandomTree, PassingThroughEndsAtTheWorldsRim) {
     rules.random_tree.trials_min = 15;
     rules.random_tree.trials_max = 30;
     rules.require.clear = false;
-    sim::GrowthSettings s = settings(60);
+    sim::GrowthSettings s = brightSettings(60);
     s.seed = seed;
     const auto growth = growIn(world, rules, {{10, 1, 10}}, s);  // voxels beyond the rim would throw
     EXPECT_GT(segments(growth), 1000u);
@@ -211,12 +202,13 @@ TEST(RandomTree, PassingThroughEndsAtTheWorldsRim) {
   }
 }
 
+// The sun's arc leans to +z: behind the wall, at -z, there is less than 30 per cent.
 TEST(RandomTree, StopsInTheDark) {
   RuleSet rules = vine();
   rules.require.exposure_min = 0.5;
   rules.elements.clear();  // so that nothing but the wall makes it dark
   sim::World world = tests::wallPlot();
-  const auto growth = growIn(world, rules, {{12, 2, 23}, {20, 2, 16}}, settings(15));
+  const auto growth = growIn(world, rules, {{12, 2, 23}, {20, 2, 16}}, brightSettings(15));
   EXPECT_GT(growth.plants[0].skeleton.size(), 40);
   EXPECT_LT(growth.plants[1].skeleton.size(), 10);
   EXPECT_GT(of(sim::total(growth).sites, Outcome::too_dark), 0u);
@@ -233,7 +225,7 @@ TEST(RandomTree, LightMakesLeavesMoreAndLarger) {
     rules.light.boost = boost;
     rules.elements[0].trials = 200;
     sim::World world = tests::wallPlot();
-    const auto growth = growIn(world, rules, {{12, 2, 23}}, settings(9));
+    const auto growth = growIn(world, rules, {{12, 2, 23}}, brightSettings(9));
     double scale = 0.0;
     for (const auto& e : growth.plants[0].elements) scale += e.scale;
     mean_scale[boost] = scale / static_cast<double>(leaves(growth));
@@ -248,7 +240,7 @@ TEST(RandomTree, DimTipsRest) {
   RuleSet rules = vine();
   rules.light = {0.0, 1.0, 4.0};
   sim::World world = tests::wallPlot();
-  const auto growth = growIn(world, rules, {{12, 2, 23}}, settings(12));
+  const auto growth = growIn(world, rules, {{12, 2, 23}}, brightSettings(12));
   EXPECT_GT(of(sim::total(growth).sites, Outcome::resting), of(sim::total(growth).sites, Outcome::grown) / 4);
 }
 
@@ -257,7 +249,7 @@ TEST(RandomTree, RegionsForbidOrRuleForThemselves) {
     RuleSet rules = vine();
     rules.regions["brick"] = {true, nullptr};
     sim::World world = tests::wallPlot();
-    const auto growth = growIn(world, rules, {{12, 2, 26}}, settings(25));
+    const auto growth = growIn(world, rules, {{12, 2, 26}}, brightSettings(25));
     EXPECT_GT(of(sim::total(growth).sites, Outcome::forbidden), 0u);
     for (const Vec3 p : growth.plants[0].skeleton.position_vx) EXPECT_LT(p.y, 8.0);
   }
@@ -267,7 +259,7 @@ TEST(RandomTree, RegionsForbidOrRuleForThemselves) {
     RuleSet rules = vine();
     rules.regions["brick"] = {false, std::make_shared<RuleSet>(bare)};
     sim::World world = tests::wallPlot();
-    const auto growth = growIn(world, rules, {{12, 2, 23}}, settings(15));
+    const auto growth = growIn(world, rules, {{12, 2, 23}}, brightSettings(15));
     for (const auto& e : growth.plants[0].elements) {
       const auto from = growth.plants[0].skeleton.parent[static_cast<std::size_t>(e.node)];
       const auto nearness = world.nearnessAt(
@@ -276,19 +268,6 @@ TEST(RandomTree, RegionsForbidOrRuleForThemselves) {
       EXPECT_EQ(world.part(nearness->part).region, "soil");
     }
   }
-}
-
-TEST(RandomTree, TheSecondSetIsTriedWhereTheFirstFails) {
-  RuleSet second = vine();
-  RuleSet first = vine();
-  first.require.proximity_max_vx = 0.5;  // nothing is that near and yet free
-  {
-    sim::World world = tests::wallPlot();
-    EXPECT_EQ(segments(growIn(world, first, kBothSides, settings(6))), 0u);
-  }
-  first.otherwise = std::make_shared<RuleSet>(second);
-  sim::World world = tests::wallPlot();
-  EXPECT_GT(segments(growIn(world, first, kBothSides, settings(6))), 10u);
 }
 
 TEST(RandomTree, BranchesLeaveAtTheirAngleAndAge) {
@@ -300,7 +279,7 @@ TEST(RandomTree, BranchesLeaveAtTheirAngleAndAge) {
   rules.require.proximity_max_vx = rules::kNoLimit;
   rules.prefer.has_proximity = false;
   sim::World world({Vec3(0.0), 0.04, {120, 120, 120}});
-  auto s = settings(7);
+  auto s = brightSettings(7);
   const auto growth = growIn(world, rules, {{60, 60, 60}}, s);
   const auto& skeleton = growth.plants[0].skeleton;
   std::set<int> ages;
@@ -334,7 +313,7 @@ TEST(RandomTree, UpBiasOfOneGrowsStraightUp) {
   rules.require.proximity_max_vx = rules::kNoLimit;
   rules.random_tree.branch_age_min = rules.random_tree.branch_age_max = 100;
   sim::World world({Vec3(0.0), 0.04, {20, 60, 20}});
-  const auto growth = growIn(world, rules, {{10, 2, 10}}, settings(10));
+  const auto growth = growIn(world, rules, {{10, 2, 10}}, brightSettings(10));
   ASSERT_EQ(growth.plants[0].skeleton.size(), 11);
   EXPECT_NEAR(growth.plants[0].skeleton.position_vx.back().y, 2.0 + 10 * 2.4, 1e-9);
 }
@@ -349,7 +328,7 @@ TEST(RandomTree, TwistWindsAboutTheCentreOfMass) {
     sim::World world({Vec3(0.0), 0.04, {40, 90, 40}});
     tests::addBox(world, "column", {17, 0, 17}, {23, 89, 23});
     world.setLayers(4);
-    const auto growth = growIn(world, rules, {{20, 2, 25}}, settings(45));
+    const auto growth = growIn(world, rules, {{20, 2, 25}}, brightSettings(45));
     double turned = 0.0;
     const auto& p = growth.plants[0].skeleton.position_vx;
     for (std::size_t i = 1; i < p.size(); ++i) {
@@ -368,7 +347,7 @@ TEST(RandomTree, AFlatWorldStaysFlat) {
   rules.require.proximity_max_vx = rules::kNoLimit;
   rules.prefer.has_proximity = false;
   sim::World world({Vec3(0.0), 0.04, {60, 60, 1}});
-  auto s = settings(10);
+  auto s = brightSettings(10);
   s.record_attempts = true;
   const auto growth = growIn(world, rules, {{30, 30, 0}}, s);
   EXPECT_GT(segments(growth), 20u);
@@ -382,7 +361,7 @@ TEST(RandomTree, LengthsInMetresFollowTheVoxel) {
   RuleSet rules = vine();
   rules.random_tree.length = {0.12, true};
   sim::World world = tests::wallPlot();
-  const auto growth = growIn(world, rules, {{12, 2, 23}}, settings(3));
+  const auto growth = growIn(world, rules, {{12, 2, 23}}, brightSettings(3));
   EXPECT_NEAR(
       glm::distance(growth.plants[0].skeleton.position_vx[0], growth.plants[0].skeleton.position_vx[1]), 3.0,
       1e-9);
@@ -392,14 +371,14 @@ TEST(RandomTree, LengthsInMetresFollowTheVoxel) {
 
 TEST(RandomTree, SeedsInsideSomethingOrOutsideAreRefused) {
   sim::World world = tests::wallPlot();
-  EXPECT_THROW(growIn(world, vine(), {{5, 0, 5}}, settings(1)), sim::InputError);
-  EXPECT_THROW(growIn(world, vine(), {{5, 500, 5}}, settings(1)), sim::InputError);
+  EXPECT_THROW(growIn(world, vine(), {{5, 0, 5}}, brightSettings(1)), sim::InputError);
+  EXPECT_THROW(growIn(world, vine(), {{5, 500, 5}}, brightSettings(1)), sim::InputError);
 }
 
 TEST(RandomTree, StopsWhenAsked) {
   sim::World world = tests::wallPlot();
   std::stop_source source;
-  auto s = settings(50);
+  auto s = brightSettings(50);
   s.stop = source.get_token();
   int iterations = 0;
   s.progress = [&](const sim::GrowthProgress&) {

@@ -36,13 +36,15 @@ TEST(Random, EveryPartOfTheKeyCounts) {
   add({1, 1, 0, 0}, Purpose::trial, 0, 0);
   add({1, 1u << 31, 0, 0}, Purpose::trial, 0, 0);
   add({1, 0, 1, 0}, Purpose::trial, 0, 0);
+  add({1, 0, 65'536, 0}, Purpose::trial, 0, 0);
+  add({1, 0, (1u << 24) - 1, (1u << 24) - 1}, Purpose::trial, 0, 0);
   add({1, 0, 0, 1}, Purpose::trial, 0, 0);
   add({1, 0, 0, 0}, Purpose::element, 0, 0);
   add({1, 0, 0, 0}, Purpose::trial, 1, 0);
   add({1, 0, 0, 0}, Purpose::trial, 65'535, 0);
   add({1, 0, 0, 0}, Purpose::trial, 0, 1);
   add({1, 0, 0, 0}, Purpose::trial, 0, 65'535);
-  EXPECT_EQ(first.size(), 11u);
+  EXPECT_EQ(first.size(), 13u);
 }
 
 TEST(Random, NoStreamRunsIntoAnother) {
@@ -63,6 +65,8 @@ TEST(Random, NoStreamRunsIntoAnother) {
   EXPECT_THROW(draws.bits(), sim::BrokenContract);
   EXPECT_THROW(Slots({}, Purpose::trial, 0, 65'536), sim::BrokenContract);
   EXPECT_THROW(Slots({}, Purpose::trial, 65'536, 0), sim::BrokenContract);
+  EXPECT_THROW(Slots({0, 0, 1u << 24, 0}, Purpose::trial), sim::BrokenContract);
+  EXPECT_THROW(Slots({0, 0, 0, 1u << 24}, Purpose::trial), sim::BrokenContract);
 }
 
 TEST(Random, ASlotHoldsTheSameNumberInAnyOrder) {

@@ -63,6 +63,7 @@ if [ -f $work/ruin/vines.png ]; then small $work/ruin/vines.png ruin 720; else e
 build/release/tests/figures $work
 small $work/lattice_sweep.png lattice_sweep 1040
 small $work/house.png house 1100
+small $work/moss.png moss 960
 
 expose scenes/library/street.yaml
 small $work/street/sun_hours.png street_sun_hours 800

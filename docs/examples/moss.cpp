@@ -17,7 +17,7 @@ class Moss final : public Process {
   Wants wants() const override { return {.light = true}; }
   Plant seedling() const override {
     Plant plant;
-    plant.shapes = {{"cushion", {{}}, {0.13f, 0.24f, 0.04f}}};
+    plant.shapes = {{"cushion", {{}}, {0.09f, 0.17f, 0.03f}}};
     for (int i = 0; i < 8; ++i) plant.shapes[0].polygons[0].emplace_back(unitCircle(i / 8.0), 0.0);
     return plant;
   }

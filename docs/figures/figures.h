@@ -18,5 +18,7 @@ inline void text(render::Image& image, glm::vec2 at, const std::string& words, f
 render::Image house();
 /// Of docs/lattice-sweep.md.
 render::Image latticeSweep();
+/// Of docs/house.md: its example.
+render::Image moss();
 
 }  // namespace espalier::figures

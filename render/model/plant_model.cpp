@@ -145,11 +145,12 @@ PlantModel modelPlant(const sim::Plant& plant, const sim::Frame& frame, const Mo
     const float young = youth.of(element.born);
     appendElement(mesh, element, shape, frame, young, piece);
 
+    const bool on_stem = element.node >= 0 && element.node < plant.skeleton.size() &&
+                         at(plant.skeleton.parent, element.node) != sim::kNoNode;
+    if (!on_stem) continue;
     const Vec3 base = sim::placed(element, bladeBase(shape));
-    const bool on_plant = element.node >= 0 && element.node < plant.skeleton.size();
-    const Vec3 stem =
-        on_plant ? curves.onStem(plant.skeleton, element.node, element.position_vx) : element.position_vx;
-    const double stem_radius = on_plant ? static_cast<double>(at(radii, element.node)) : 0.0;
+    const Vec3 stem = curves.onStem(plant.skeleton, element.node, element.position_vx);
+    const auto stem_radius = static_cast<double>(at(radii, element.node));
     const double stalk_radius = 0.55 * static_cast<double>(options.pipe.tip_radius_vx);
     if (glm::distance(stem, base) > stem_radius + stalk_radius) {
       appendStalk(mesh, element, stem, base, stalk_radius, frame, young, piece);

@@ -42,7 +42,7 @@ struct ElementShape {
 };
 
 struct PlacedElement {
-  NodeId node = kNoNode;   ///< stands on the segment between this node and its parent
+  NodeId node = kNoNode;   ///< stands on the segment between this node and its parent; of a seed: by itself
   std::int32_t shape = 0;  ///< index into Plant::shapes
   Vec3 position_vx{0.0};
   Vec3 x{1, 0, 0}, y{0, 1, 0}, z{0, 0, 1};  ///< orthonormal, right-handed: local axes in voxel space

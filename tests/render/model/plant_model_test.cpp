@@ -176,5 +176,16 @@ TEST(Leaves, StalksReachFromTheStemToTheBlade) {
   EXPECT_EQ(modelPlant(plant, kUnit).elements[0].triangles.size(), 1u);
 }
 
+TEST(Leaves, WhereThereIsNoStemThereIsNoStalk) {
+  sim::Plant paving;  // elements placed without segments, far from the seed
+  tests::addNode(paving.skeleton, sim::kNoNode, {5, 0, 5});
+  paving.shapes = {{"tile", {{{-1, 0, -1}, {1, 0, -1}, {1, 0, 1}}}, {}}};
+  sim::PlacedElement element;
+  element.node = 0;
+  element.position_vx = {25, 0, 5};
+  paving.elements = {element};
+  EXPECT_EQ(modelPlant(paving, kUnit).elements[0].triangles.size(), 1u);
+}
+
 }  // namespace
 }  // namespace espalier

@@ -43,6 +43,16 @@ void assign(Field& field, const Stored& stored) {
   }
 }
 
+/// The name of a list's entry; null where its struct has none.
+template <class Entry>
+auto nameIn(Entry& entry) {
+  if constexpr (requires { entry.name; }) {
+    return &entry.name;
+  } else {
+    return static_cast<std::string*>(nullptr);
+  }
+}
+
 }  // namespace detail
 
 /// Writes down a Table for the struct T. A field is reached through a member pointer, or through a callable
@@ -205,18 +215,14 @@ class TableOf {
     key.clear = [member](void* t) { (static_cast<T*>(t)->*member).clear(); };
     key.append = [member, kind](void* t, const std::string& item_name) -> void* {
       auto& item = (static_cast<T*>(t)->*member).emplace_back();
-      if constexpr (requires { item.name; }) {
-        if (kind == Kind::named) item.name = item_name;
-      }
+      if (auto* const own = detail::nameIn(item); own && kind == Kind::named) *own = item_name;
       return &item;
     };
     key.items = [member, kind](const void* t) {
       std::vector<Item> all;
       for (const auto& entry : static_cast<const T*>(t)->*member) {
         Item item{"", &entry};
-        if constexpr (requires { entry.name; }) {
-          if (kind == Kind::named) item.name = entry.name;
-        }
+        if (const auto* own = detail::nameIn(entry); own && kind == Kind::named) item.name = *own;
         all.push_back(std::move(item));
       }
       return all;

@@ -97,7 +97,8 @@ Prepared prepare(const Scene& scene, const RunOptions& options, Report& report, 
 sim::Growth growOn(const Scene& scene, Prepared& prepared, std::optional<sim::Growth> kept,
                    const sim::BitVolume& bare, const RunOptions& options, const Keeping& keeping,
                    Report& report) {
-  auto& [site, plantings] = prepared;
+  Site& site = prepared.site;
+  std::vector<sim::Planting>& plantings = prepared.plantings;
   sim::GrowthSettings settings = growthSettings(scene, site);
   settings.stop = options.stop;
   settings.progress = [&](const sim::GrowthProgress& progress) {
@@ -181,7 +182,8 @@ Report renderScene(const Scene& scene, const std::filesystem::path& from, const 
   Report report;
   Stages stages(options, report);
   Prepared prepared = prepare(scene, options, report, stages);
-  auto& [site, plantings] = prepared;
+  Site& site = prepared.site;
+  std::vector<sim::Planting>& plantings = prepared.plantings;
   const auto growth =
       stages.run("reading", [&] { return takeUp(from, scene, site, plantings, Same::plants); });
   if (!growth) {

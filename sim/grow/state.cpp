@@ -45,7 +45,7 @@ std::vector<T> unpacked(const json& node) {
 json packed(const Columns& columns) {
   json all = json::object();
   for (const auto& [name, column] : columns)
-    std::visit([&](const auto& values) { all[name] = {column.index(), packed(values)}; }, column);
+    all[name] = {column.index(), std::visit([](const auto& values) { return packed(values); }, column)};
   return all;
 }
 

@@ -102,7 +102,7 @@ class Creeper : public sim::Process {
   static void remember(sim::Columns& memory, const sim::Site& site, int due) {
     sim::column<std::int32_t>(memory, "plant").push_back(site.plant);
     sim::column<std::int32_t>(memory, "node").push_back(site.node);
-    sim::column<std::int32_t>(memory, "number").push_back(site.number);
+    sim::column<std::int32_t>(memory, "number").push_back(static_cast<std::int32_t>(site.number));
     sim::column<std::int32_t>(memory, "due").push_back(due);
   }
 };

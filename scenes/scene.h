@@ -55,12 +55,15 @@ struct SkySpec {
   int rays = 100;  ///< from each place, of random sampling
 };
 
+/// Where on earth a real sun shines. (Not inside SunSpec: an optional of a struct that the struct around it
+/// still has to finish cannot be made by clang.)
+struct SunPlace {
+  double latitude_deg = 0.0, longitude_deg = 0.0;  ///< north and east are positive
+  double utc_offset_h = 0.0;                       ///< of the local clock
+};
+
 /// The sun: an inclined arc, or with a place the real one.
 struct SunSpec {
-  struct Place {
-    double latitude_deg = 0.0, longitude_deg = 0.0;  ///< north and east are positive
-    double utc_offset_h = 0.0;                       ///< of the local clock
-  };
   struct Dates {
     std::chrono::year_month_day from, to;  ///< both included
   };
@@ -74,7 +77,7 @@ struct SunSpec {
   int samples = 48;
 
   // The real sun.
-  std::optional<Place> place;
+  std::optional<SunPlace> place;
   std::optional<std::chrono::year_month_day> date;  ///< either this
   std::optional<Dates> dates;                       ///< or these
   Hours hours;

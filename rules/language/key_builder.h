@@ -177,10 +177,7 @@ class TableOf {
     key.shorthand = std::move(shorthand);
     key.open = [access](void* t) -> void* {
       auto& field = std::invoke(access, *static_cast<T*>(t));
-      if constexpr (requires {
-                      field.emplace();
-                      field.has_value();
-                    }) {
+      if constexpr (requires { field.has_value(); }) {
         if (!field) field.emplace();
         return &*field;
       } else {

@@ -22,7 +22,7 @@ const char* const kDegrees = "degrees";
 const char* const kHours = "hours";
 
 std::shared_ptr<const Table> placeKeys() {
-  using Place = SunSpec::Place;
+  using Place = SunPlace;
   return TableOf<Place>()
       .number("latitude", &Place::latitude_deg,
               {.unit = kDegrees, .limits = {-90.0, 90.0}, .meaning = "North is positive.", .required = true})

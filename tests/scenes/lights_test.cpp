@@ -9,7 +9,7 @@ using namespace std::chrono_literals;
 
 SunSpec sydney() {
   SunSpec spec;
-  spec.place = SunSpec::Place{-33.87, 151.22, 10.0};
+  spec.place = SunPlace{-33.87, 151.22, 10.0};
   spec.date = 2019y / 6 / 21;
   spec.shadow_hour = 9.0;
   return spec;

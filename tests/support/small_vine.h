@@ -47,7 +47,9 @@ inline sim::Plant smallVine() {
     std::vector<std::pair<sim::NodeId, sim::Vec3>> next;
     for (const auto& [tip, heading] : tips) {
       for (int child = 0; child < (iteration % 3 == 0 ? 2 : 1); ++child) {
-        const sim::Vec3 wish(uniform(-0.8, 0.8), uniform(0.1, 0.6), uniform(-0.1, 0.1));
+        // One after the other: compilers draw arguments in orders of their own.
+        const double out = uniform(-0.1, 0.1), up = uniform(0.1, 0.6), along = uniform(-0.8, 0.8);
+        const sim::Vec3 wish(along, up, out);
         const sim::Vec3 way = glm::normalize(heading + wish);
         const sim::Vec3 from = plant.skeleton.position_vx[static_cast<std::size_t>(tip)];
         const sim::NodeId node =

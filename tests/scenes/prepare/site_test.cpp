@@ -26,7 +26,7 @@ Scene emptyScene() {
 
 TEST(Site, KnowsItsSkyItsSunAndItsRandomRays) {
   Scene scene = emptyScene();
-  scene.sun.place = SunSpec::Place{-33.87, 151.22, 10.0};
+  scene.sun.place = SunPlace{-33.87, 151.22, 10.0};
   scene.sun.date = 2019y / 6 / 21;
   {
     const Site site = makeSite(scene);

@@ -72,11 +72,14 @@ std::vector<sim::Site> dueBuds(const sim::StandView& stand, const sim::Columns& 
 void settleBuds(const sim::StandView& stand, std::span<const sim::Verdict> verdicts, sim::Columns& memory) {
   std::vector<Bud> buds = budsOf(memory);
   std::erase_if(buds, [&](const Bud& bud) { return bud.due <= stand.iteration; });
-  for (const auto& [site, proposal, outcome, node] : verdicts) {
-    if (outcome == sim::Outcome::grown) {
-      for (const sim::Sprout& sprout : proposal->sprouts)
-        buds.push_back({site.plant, node, static_cast<std::int32_t>(sprout.number), stand.iteration + sprout.wait});
-    } else if (outcome == sim::Outcome::claimed || !proposal->retire) {
+  for (const sim::Verdict& verdict : verdicts) {
+    const sim::Site& site = verdict.site;
+    if (verdict.outcome == sim::Outcome::grown) {
+      for (const sim::Sprout& sprout : verdict.proposal->sprouts) {
+        buds.push_back({site.plant, verdict.node, static_cast<std::int32_t>(sprout.number),
+                        stand.iteration + sprout.wait});
+      }
+    } else if (verdict.outcome == sim::Outcome::claimed || !verdict.proposal->retire) {
       buds.push_back({site.plant, site.node, static_cast<std::int32_t>(site.number), stand.iteration + 1});
     }
   }

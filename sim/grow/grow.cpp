@@ -20,7 +20,8 @@ struct Growing::Asked {
   std::size_t plant = 0;  // of all plants
   Site site;
   Proposal proposal = {};
-  NodeId node = kNoNode;  // that grew
+  NodeId node = kNoNode;                        // that grew
+  std::size_t first_element = 0, elements = 0;  // of the plant's: those that were placed
 };
 
 namespace {
@@ -154,23 +155,24 @@ std::vector<Site> Growing::dueOf(std::size_t planting, Columns& memory, Commons&
   return sites;
 }
 
-std::vector<std::vector<Site>> Growing::due() const {
-  Commons commons = growth_.commons;
-  std::vector<std::vector<Site>> all;
+Due Growing::due() const {
+  Due due;
+  due.commons = growth_.commons;
   for (std::size_t i = 0; i < plantings_.size(); ++i) {
-    Columns memory = growth_.stands[i].memory;
-    all.push_back(dueOf(i, memory, commons));
+    due.memories.push_back(growth_.stands[i].memory);
+    due.sites.push_back(dueOf(i, due.memories.back(), due.commons));
   }
-  return all;
+  return due;
 }
 
-Proposal Growing::proposeAt(std::size_t planting, const Site& site, const Light* light, bool record) const {
+Proposal Growing::proposeAt(std::size_t planting, const Site& site, const Light* light, const Columns& memory,
+                            const Commons& commons, bool record) const {
   const std::size_t plant = growth_.stands[planting].first + static_cast<std::size_t>(site.plant);
   const SiteView view{world_,
                       growth_.plants[plant],
                       kin_[plant],
-                      growth_.stands[planting].memory,
-                      growth_.commons,
+                      memory,
+                      commons,
                       light,
                       sky_table_ ? &*sky_table_ : nullptr,
                       growth_.iterations,
@@ -180,7 +182,7 @@ Proposal Growing::proposeAt(std::size_t planting, const Site& site, const Light*
   return plantings_[planting].process->propose(view, site, key);
 }
 
-Proposal Growing::propose(std::size_t planting, const Site& site) const {
+Proposal Growing::propose(const Due& due, std::size_t planting, const Site& site) const {
   if (planting >= plantings_.size()) throw InputError(fmt::format("there is no planting {}", planting));
   requireSites(world_, plantings_[planting], view(planting).plants, {site});
   std::optional<Light> light;
@@ -188,7 +190,7 @@ Proposal Growing::propose(std::size_t planting, const Site& site) const {
     const Voxel place = voxelAt(site.at_vx);
     light = sensor_->at(world_.opaque(), {&place, 1}).front();
   }
-  return proposeAt(planting, site, light ? &*light : nullptr, true);
+  return proposeAt(planting, site, light ? &*light : nullptr, due.memories.at(planting), due.commons, true);
 }
 
 void Growing::proposeAll(std::vector<Asked>& asked) const {
@@ -202,8 +204,9 @@ void Growing::proposeAll(std::vector<Asked>& asked) const {
   const std::vector<Light> lights = sensor_ ? sensor_->at(world_.opaque(), places) : std::vector<Light>();
   parallelFor(asked.size(), 4, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end && !settings_.stop.stop_requested(); ++i) {
-      asked[i].proposal = proposeAt(asked[i].planting, asked[i].site,
-                                    lit[i] > 0 ? &lights[lit[i] - 1] : nullptr, growth_.recorded);
+      const Asked& a = asked[i];
+      asked[i].proposal = proposeAt(a.planting, a.site, lit[i] > 0 ? &lights[lit[i] - 1] : nullptr,
+                                    growth_.stands[a.planting].memory, growth_.commons, growth_.recorded);
     }
   });
 }
@@ -238,6 +241,7 @@ void Growing::place(Asked& asked, std::vector<TiledVoxel>& edit) {
     addNode(asked.plant, asked.site.node, segment->to_vx, segment->quantities);
     ++segments_;
   }
+  asked.first_element = plant.elements.size();
   for (ProposedElement& proposed : asked.proposal.elements) {
     if (proposed.element.shape < 0 || static_cast<std::size_t>(proposed.element.shape) >= plant.shapes.size())
       broken(planting, "proposed an element of a shape that its plant has not");
@@ -251,8 +255,9 @@ void Growing::place(Asked& asked, std::vector<TiledVoxel>& edit) {
                {plant.element_parts[shape], plant.shapes[shape].colour, proposed.coverage,
                 Vec3f(proposed.element.z)});
     plant.elements.push_back(proposed.element);
-    ++elements_;
   }
+  asked.elements = plant.elements.size() - asked.first_element;
+  elements_ += asked.elements;
 }
 
 void Growing::acceptAll(std::vector<Asked>& asked) {
@@ -266,9 +271,8 @@ void Growing::acceptAll(std::vector<Asked>& asked) {
       const auto& segment = proposal.segment;
       const bool hindered = segment && segment->passage == Passage::around &&
                             !claims_->allow(segment->takes, {a.plant, a.site.node}, voxelAt(a.site.at_vx));
-      const std::size_t before = elements_;
       if (!hindered && plantings_[a.planting].process->agrees(proposal, accepted)) place(a, edit);
-      const bool placed = a.node != kNoNode || elements_ > before;
+      const bool placed = a.node != kNoNode || a.elements > 0;
       if (!placed && (segment || !proposal.elements.empty())) {
         proposal.outcome = Outcome::claimed;
         for (Attempt& attempt : proposal.attempts) attempt.taken = false;
@@ -287,7 +291,8 @@ void Growing::acceptAll(std::vector<Asked>& asked) {
 
 void Growing::settleAll(const std::vector<Asked>& asked) {
   std::vector<Verdict> verdicts;
-  for (const Asked& a : asked) verdicts.push_back({a.site, &a.proposal, a.proposal.outcome, a.node});
+  for (const Asked& a : asked)
+    verdicts.push_back({a.site, &a.proposal, a.proposal.outcome, a.node, a.first_element, a.elements});
   std::size_t first = 0;
   for (std::size_t i = 0; i < plantings_.size(); ++i) {
     std::size_t last = first;

@@ -32,6 +32,13 @@ struct GrowthSettings {
   std::function<void(const GrowthProgress&)> progress;  ///< after each iteration
 };
 
+/// What the next step would ask.
+struct Due {
+  std::vector<std::vector<Site>> sites;  ///< by planting
+  std::vector<Columns> memories;         ///< by planting, as they are once sites are due
+  Commons commons;                       ///< likewise
+};
+
 /// Growth, step by step.
 ///
 /// In each iteration (Greene's term; the design's tick) the world and the plants are frozen; every site that
@@ -62,10 +69,11 @@ class Growing {
   const Growth& growth() const { return growth_; }
   Growth take() { return std::move(growth_); }
 
-  /// The sites that the next step asks, by planting.
-  std::vector<std::vector<Site>> due() const;
-  /// What a site of due() will propose, with all its trials and why each was rejected. Changes nothing.
-  Proposal propose(std::size_t planting, const Site& site) const;
+  /// The sites that the next step asks. Changes nothing.
+  Due due() const;
+  /// What a site will propose, with all its trials and why each was rejected. Changes nothing. Throws
+  /// InputError for a planting that is not there, BrokenContract for a site that is none.
+  Proposal propose(const Due& due, std::size_t planting, const Site& site) const;
 
  private:
   struct Asked;
@@ -73,7 +81,8 @@ class Growing {
   void addNode(std::size_t plant, NodeId parent, Vec3 at_vx, std::span<const float> quantities);
   StandView view(std::size_t planting) const;
   std::vector<Site> dueOf(std::size_t planting, Columns& memory, Commons& commons) const;
-  Proposal proposeAt(std::size_t planting, const Site& site, const Light* light, bool record) const;
+  Proposal proposeAt(std::size_t planting, const Site& site, const Light* light, const Columns& memory,
+                     const Commons& commons, bool record) const;
   void proposeAll(std::vector<Asked>& asked) const;
   void acceptAll(std::vector<Asked>& asked);
   void place(Asked& asked, std::vector<TiledVoxel>& edit);

@@ -81,13 +81,13 @@ struct Sprout {
 struct Proposal {
   Outcome outcome = Outcome::no_trial;
   bool retire = true;  ///< if it does not grow: never try again; for settle(), as sprouts are
-  std::optional<ProposedSegment> segment;
+  std::optional<ProposedSegment> segment = std::nullopt;
   /// On the segment, or on the site's node where there is none. Those that an earlier claim hinders are left
   /// out.
-  std::vector<ProposedElement> elements;
-  std::vector<Sprout> sprouts;
-  OutcomeCounts trials{};         ///< trials by what became of them
-  std::vector<Attempt> attempts;  ///< if they are recorded
+  std::vector<ProposedElement> elements = {};
+  std::vector<Sprout> sprouts = {};
+  OutcomeCounts trials{};              ///< trials by what became of them
+  std::vector<Attempt> attempts = {};  ///< if they are recorded
 };
 
 /// What became of a proposal.
@@ -96,6 +96,8 @@ struct Verdict {
   const Proposal* proposal = nullptr;
   Outcome outcome = Outcome::no_trial;  ///< the proposal's own, or claimed if nothing of it could be placed
   NodeId node = kNoNode;                ///< the new one, if a segment grew
+  std::size_t first_element = 0;        ///< in Plant::elements: the first of those that were placed
+  std::size_t elements = 0;             ///< how many were
 };
 
 /// What plantings share: attractors, fields, by the names that the scene gives them. They belong to none.

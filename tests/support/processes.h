@@ -132,6 +132,7 @@ class Tiler : public sim::Process {
   /// One site a side of each tile that lies; some lie beside each other, and want the same place.
   std::vector<sim::Site> due(const sim::StandView& stand, sim::Columns& memory,
                              sim::Commons&) const override {
+    sim::column<std::int32_t>(memory, "asked_in") = {stand.iteration};
     std::vector<sim::Site> sites;
     std::vector<std::uint32_t> numbers(stand.plants.size(), 0);
     const auto& plants = sim::column<std::int32_t>(memory, "plant");
@@ -152,6 +153,9 @@ class Tiler : public sim::Process {
                         const sim::RandomKey& key) const override {
     sim::Proposal proposal;
     proposal.retire = false;
+    // What due() has left in memory is there.
+    if (sim::column<std::int32_t>(view.memory, "asked_in") != std::vector<std::int32_t>{view.iteration})
+      return proposal;
     proposal.outcome = sim::Outcome::blocked;
     const auto& left = sim::column<std::int64_t>(view.commons.at("tiles"), "left");
     if (left[0] <= 0 || clashes(site.at_vx, sim::column<sim::Vec3>(view.memory, "middle"))) return proposal;
@@ -184,7 +188,7 @@ class Tiler : public sim::Process {
   void settle(const sim::StandView&, std::span<const sim::Verdict> verdicts, sim::Columns& memory,
               sim::Commons& commons) const override {
     for (const sim::Verdict& v : verdicts) {
-      if (v.outcome != sim::Outcome::grown) continue;
+      if (v.outcome != sim::Outcome::grown || v.elements != 1) continue;
       sim::column<std::int32_t>(memory, "plant").push_back(v.site.plant);
       sim::column<sim::Vec3>(memory, "middle").push_back(v.site.at_vx);
       ++sim::column<std::int64_t>(memory, "used")[0];

@@ -49,11 +49,12 @@ TEST(Why, EverySiteOfASavedStateTellsItsTrialsAndGrowsAsItSays) {
   const auto planted = plantings(world.frame());
   sim::Growing growing(world, planted, settings(13),
                        sim::restore(sim::readState(bytes, "f"), world, planted, "f"));
-  const auto sites = growing.due().front();
+  const sim::Due due = growing.due();
+  const auto& sites = due.sites.front();
   ASSERT_GT(sites.size(), 20u);
   std::map<Outcome, std::size_t> met;
   for (const sim::Site& s : sites) {
-    const sim::Proposal proposal = growing.propose(0, s);
+    const sim::Proposal proposal = growing.propose(due, 0, s);
     sim::OutcomeCounts told{};
     std::size_t taken = 0;
     for (const sim::Attempt& attempt : proposal.attempts) {

@@ -130,14 +130,17 @@ TEST(Growing, ASiteCanBeAskedAgain) {
   sim::World world = tests::wallPlot();
   sim::Growing growing(world, plantings(world.frame()), settings());
   for (int i = 0; i < 6; ++i) growing.step();
-  const auto sites = growing.due();
+  const sim::Due due = growing.due();
+  const auto& sites = due.sites;
   ASSERT_EQ(sites.size(), 3u);
   std::vector<std::vector<sim::Proposal>> foreseen(3);
   const std::uint64_t before = sim::stateHash(world, growing.growth());
   for (std::size_t p = 0; p < 3; ++p) {
-    for (const sim::Site& site : sites[p]) foreseen[p].push_back(growing.propose(p, site));
+    for (const sim::Site& site : sites[p]) foreseen[p].push_back(growing.propose(due, p, site));
   }
   EXPECT_EQ(sim::stateHash(world, growing.growth()), before);
+  for (const sim::Proposal& p : foreseen[0])
+    EXPECT_NE(p.outcome, Outcome::no_trial);  // it knows what due() left
   const std::vector<sim::Plant> old = growing.growth().plants;
   growing.step();
   std::set<std::pair<std::int32_t, double>> wanted;
@@ -158,8 +161,8 @@ TEST(Growing, ASiteCanBeAskedAgain) {
     }
   }
   EXPECT_GT(grown, 3u);
-  EXPECT_THROW(growing.propose(7, sites[0][0]), sim::InputError);
-  EXPECT_THROW(growing.propose(1, {0, 1'000'000, 0, {}}), sim::BrokenContract);
+  EXPECT_THROW(growing.propose(due, 7, sites[0][0]), sim::InputError);
+  EXPECT_THROW(growing.propose(due, 1, {0, 1'000'000, 0, {}}), sim::BrokenContract);
 }
 
 TEST(Growing, PlantsThatDoNotMeetDoNotKnowOfEachOther) {

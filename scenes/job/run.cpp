@@ -113,9 +113,10 @@ sim::Growth growOn(const Scene& scene, Prepared& prepared, std::optional<sim::Gr
     }
   }
   const sim::Inputs inputs = keeping.every > 0 ? inputsOf(scene, site) : sim::Inputs();
-  std::unique_ptr<sim::Growing> growing =
-      kept ? std::make_unique<sim::Growing>(site.world, plantings, settings, std::move(*kept))
-           : std::make_unique<sim::Growing>(site.world, plantings, settings);
+  const std::unique_ptr<sim::Growing> growing = inScene(scene, [&] {
+    return kept ? std::make_unique<sim::Growing>(site.world, plantings, settings, std::move(*kept))
+                : std::make_unique<sim::Growing>(site.world, plantings, settings);
+  });
   while (growing->step()) {
     const sim::Growth& now = growing->growth();
     if (keeping.every > 0 && now.iterations % keeping.every == 0)
@@ -141,10 +142,8 @@ Report runScene(const Scene& scene, const RunOptions& options, const Keeping& ke
     kept = stages.run(
         "reading", [&] { return takeUp(options.folder, scene, site, prepared.plantings, Same::everything); });
   }
-  const sim::Growth growth = stages.run("growing", [&] {
-    return inScene(scene,
-                   [&] { return growOn(scene, prepared, std::move(kept), bare, options, keeping, report); });
-  });
+  const sim::Growth growth = stages.run(
+      "growing", [&] { return growOn(scene, prepared, std::move(kept), bare, options, keeping, report); });
   report.growth = countPlants(world, growth);
   report.occupied_voxels = world.occupied().count();
 
@@ -171,13 +170,17 @@ Report runScene(const Scene& scene, const RunOptions& options, const Keeping& ke
   }
   stages.run("writing", [&] {
     writeAll(options.folder, files);
-    if (!keeping.keep) std::filesystem::remove(options.folder / kStateFile);
+    if (!keeping.keep) dropState(options.folder);
   });
   writeReport(options.folder, files, report);
   return report;
 }
 
 Report renderScene(const Scene& scene, const std::filesystem::path& from, const RunOptions& options) {
+  if (scene.images.empty()) {
+    throw sim::InputError(
+        fmt::format("{}: it has no images to draw; expected at least one", scene.file.string()));
+  }
   Report report;
   Stages stages(options, report);
   Prepared prepared = prepare(scene, options, report, stages);

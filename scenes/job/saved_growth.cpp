@@ -38,7 +38,7 @@ std::vector<std::string> differences(const sim::Inputs& was, const sim::Inputs& 
   std::vector<std::string> order;
   const auto note = [&](const sim::Inputs& inputs, auto pick) {
     for (const auto& [path, value] : inputs) {
-      if (same == Same::plants && !startsWith(path, {"meshes", "world", "plants"})) continue;
+      if (same == Same::plants && !startsWith(path, {"meshes", "world", "plants", "seed"})) continue;
       const auto [at, fresh] = both.try_emplace(path, nullptr, nullptr);
       if (fresh) order.push_back(path);
       pick(at->second) = &value;
@@ -82,11 +82,23 @@ sim::Inputs inputsOf(const Scene& scene, const Site& site) {
   return inputs;
 }
 
+void dropState(const std::filesystem::path& folder) {
+  const std::filesystem::path path = folder / kStateFile;
+  std::error_code error;
+  std::filesystem::remove(path, error);
+  if (error) throw sim::InputError(fmt::format("{}: cannot be removed: {}", path.string(), error.message()));
+}
+
 std::optional<sim::Growth> takeUp(const std::filesystem::path& folder, const Scene& scene, Site& site,
                                   const std::vector<sim::Planting>& plantings, Same same) {
   const std::filesystem::path path = folder / kStateFile;
   std::error_code error;
-  if (!std::filesystem::exists(path, error)) return std::nullopt;
+  const std::filesystem::file_status status = std::filesystem::status(path, error);
+  if (status.type() == std::filesystem::file_type::not_found) return std::nullopt;
+  if (status.type() == std::filesystem::file_type::none)
+    throw sim::InputError(fmt::format("{}: cannot be read: {}", path.string(), error.message()));
+  if (!std::filesystem::is_regular_file(status))
+    throw sim::InputError(fmt::format("{}: is no file; expected a saved state", path.string()));
   std::ifstream stream(path, std::ios::binary);
   const std::string bytes{std::istreambuf_iterator<char>(stream), {}};
   if (!stream) throw sim::InputError(fmt::format("{}: cannot be read", path.string()));
@@ -103,6 +115,10 @@ std::optional<sim::Growth> takeUp(const std::filesystem::path& folder, const Sce
     throw sim::InputError(fmt::format(
         "{}: it keeps no record of trials, which an image of attempts shows; grow it anew with that image",
         path.string()));
+  }
+  if (!trials_wanted) {  // as a run of this scene keeps none
+    state.growth.recorded = false;
+    state.growth.attempts.clear();
   }
   return sim::restore(std::move(state), site.world, plantings, path.string());
 }

@@ -21,13 +21,17 @@ sim::Inputs inputsOf(const Scene& scene, const Site& site);
 /// What must be the same.
 enum class Same {
   everything,  ///< for growth to go on
-  plants       ///< for the plants to be shown: meshes, world and plants, under whatever light
+  plants       ///< for the plants to be shown: meshes, world, plants and seed, under whatever light
 };
 
 /// Reads a folder's state and puts its plants into the site: the world is then as it was when the state was
-/// kept. Nothing if the folder has none. Throws sim::InputError for a damaged state, and for one that was
-/// grown from something else, with what differs.
+/// kept. Trials come back only where the scene has an image of them. Nothing if the folder has no state.
+/// Throws sim::InputError for a damaged state, and for one that was grown from something else, with what
+/// differs.
 std::optional<sim::Growth> takeUp(const std::filesystem::path& folder, const Scene& scene, Site& site,
                                   const std::vector<sim::Planting>& plantings, Same same);
+
+/// Removes a folder's state, if it has one. Throws sim::InputError where that cannot be done.
+void dropState(const std::filesystem::path& folder);
 
 }  // namespace espalier::scenes

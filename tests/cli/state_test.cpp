@@ -163,6 +163,29 @@ TEST_F(Kept, ADamagedOrForeignStateIsAnErrorThatSaysWhatIsWrong) {
   EXPECT_NE(damaged.output.find("damaged"), std::string::npos) << damaged.output;
 }
 
+TEST_F(Kept, AFolderInItsPlaceIsAnError) {
+  fs::create_directories(scratch_.path("out/growth.state/inner"));
+  const auto expectError = [&](const tests::Ran& ran, const std::string& what) {
+    EXPECT_EQ(ran.status, 2);
+    EXPECT_EQ(ran.output.find(scratch_.path("out/growth.state").string() + ": " + what), 0u) << ran.output;
+  };
+  expectError(grow("--quiet --no-pictures --resume"), "is no file");
+  expectError(render("scene.yaml", "out", "--quiet"), "is no file");
+  expectError(grow("--quiet --no-pictures --save-every 2"), "cannot put the file in its place");
+  expectError(grow("--quiet --no-pictures --no-state"), "cannot be removed");
+}
+
+TEST_F(Kept, TrialsThatTheSceneNoLongerShowsAreNotKept) {
+  writeScene("shown.yaml", "  - vines\n", "  - attempts\n");
+  ASSERT_EQ(grow("--no-pictures", "whole").status, 0);
+  ASSERT_EQ(tests::espalier("grow " + scratch_.path("shown.yaml").string() + " -o " +
+                            scratch_.path("part").string() + " --no-pictures --iterations 6")
+                .status,
+            0);
+  ASSERT_EQ(grow("--no-pictures --resume", "part").status, 0);
+  expectSame("whole", "part");
+}
+
 TEST_F(Kept, IsDrawnAgainWithOtherCamerasAndSuns) {
   ASSERT_EQ(grow("", "grown").status, 0);
   const auto grown = files(scratch_.path("grown"));
@@ -198,10 +221,15 @@ TEST_F(Kept, IsNotDrawnOnAnotherWorldOrWithOtherPlants) {
   expectError(render("voxel.yaml", "grown"), "world.voxel is ");
   writeScene("seeds.yaml", "- [0.3, 0.1, 0.1]", "- [0.35, 0.1, 0.1]");
   expectError(render("seeds.yaml", "grown"), "plants[0].seeds[1].at is ");
+  writeScene("seed.yaml", "seed: 5", "seed: 6");
+  expectError(render("seed.yaml", "grown"), "seed is '6', was '5'");
   writeScene("kinds.yaml", "  - vines\n", "  - attempts\n");
   expectError(render("kinds.yaml", "grown", "--images attempts"), "no record of trials");
   expectError(render("scene.yaml", "grown", "--images vine"), "did you mean 'vines'?");
   expectError(render("scene.yaml", "nowhere"), "there is no growth.state");
+  const std::string scene = tests::kPlotScene;
+  scratch_.write("none.yaml", scene.substr(0, scene.find("images:")));
+  expectError(render("none.yaml", "grown"), "none.yaml: it has no images to draw");
 }
 
 }  // namespace

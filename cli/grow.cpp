@@ -27,7 +27,8 @@ void addGrow(CLI::App& app, int& exit_status) {
   const auto arguments = std::make_shared<GrowArguments>();
   addJobOptions(*command, arguments->job);
   addStrict(*command, arguments->job);
-  command->add_option("--seed", arguments->seed, "Random seed instead of the scene's own");
+  command->add_option("--seed", arguments->seed, "Random seed instead of the scene's own")
+      ->check(CLI::Range(std::uint64_t{0}, std::uint64_t{9'007'199'254'740'991}));  // as in scene files
   command->add_option("--iterations", arguments->iterations, "Iterations instead of the scene's own")
       ->check(CLI::Range(0, 100'000));
   command

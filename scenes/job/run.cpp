@@ -116,9 +116,10 @@ sim::Growth growOn(const Scene& scene, Prepared& prepared, std::optional<sim::Gr
     }
   }
   const sim::Inputs inputs = keeping.every > 0 ? inputsOf(scene, site) : sim::Inputs();
-  std::unique_ptr<sim::Growing> growing =
-      kept ? std::make_unique<sim::Growing>(site.world, plantings, settings, std::move(*kept))
-           : std::make_unique<sim::Growing>(site.world, plantings, settings);
+  const std::unique_ptr<sim::Growing> growing = inScene(scene, [&] {
+    return kept ? std::make_unique<sim::Growing>(site.world, plantings, settings, std::move(*kept))
+                : std::make_unique<sim::Growing>(site.world, plantings, settings);
+  });
   while (growing->step()) {
     const sim::Growth& now = growing->growth();
     if (keeping.every > 0 && now.iterations % keeping.every == 0)
@@ -141,13 +142,14 @@ Report runScene(const Scene& scene, const RunOptions& options, const Keeping& ke
 
   std::optional<sim::Growth> kept;
   if (keeping.resume) {
-    kept = stages.run(
-        "reading", [&] { return takeUp(options.folder, scene, site, prepared.plantings, Same::everything); });
+    stages.run("reading", [&] {
+      if (auto state = readKept(options.folder)) {
+        kept = takeUp(std::move(*state), options.folder, scene, site, prepared.plantings, Same::everything);
+      }
+    });
   }
-  const sim::Growth growth = stages.run("growing", [&] {
-    return inScene(scene,
-                   [&] { return growOn(scene, prepared, std::move(kept), bare, options, keeping, report); });
-  });
+  const sim::Growth growth = stages.run(
+      "growing", [&] { return growOn(scene, prepared, std::move(kept), bare, options, keeping, report); });
   report.growth = countPlants(world, growth);
   report.occupied_voxels = world.occupied().count();
 
@@ -174,33 +176,37 @@ Report runScene(const Scene& scene, const RunOptions& options, const Keeping& ke
   }
   stages.run("writing", [&] {
     writeAll(options.folder, files);
-    if (!keeping.keep) std::filesystem::remove(options.folder / kStateFile);
+    if (!keeping.keep) dropState(options.folder);
   });
   writeReport(options.folder, files, report);
   return report;
 }
 
-Report renderScene(const Scene& scene, const std::filesystem::path& from, const RunOptions& options) {
+Report renderScene(Scene scene, const std::filesystem::path& from, const RunOptions& options) {
+  if (scene.images.empty()) {
+    throw sim::InputError(
+        fmt::format("{}: it has no images to draw; expected at least one", scene.file.string()));
+  }
   Report report;
   Stages stages(options, report);
-  Prepared prepared = prepare(scene, options, report, stages);
-  Site& site = prepared.site;
-  std::vector<sim::Planting>& plantings = prepared.plantings;
-  const auto growth =
-      stages.run("reading", [&] { return takeUp(from, scene, site, plantings, Same::plants); });
-  if (!growth) {
+  std::optional<sim::State> state = stages.run("reading", [&] { return readKept(from); });
+  if (!state) {
     throw sim::InputError(fmt::format("{}: there is no {}; expected the output folder of espalier grow",
                                       from.string(), kStateFile));
   }
-  report.growth = countPlants(site.world, *growth);
+  // Strewn seeds and random rays lie where they lay.
+  scene.seed = seedOf(*state).value_or(scene.seed);
+  Prepared prepared = prepare(scene, options, report, stages);
+  Site& site = prepared.site;
+  const sim::Growth growth = takeUp(std::move(*state), from, scene, site, prepared.plantings, Same::plants);
+  report.growth = countPlants(site.world, growth);
   report.occupied_voxels = site.world.occupied().count();
   const sim::Lighting light =
       stages.run("lighting", [&] { return lightFor(scene, site, drawsVines(scene.images), nullptr); });
   report.light = light.about;
-  const auto models =
-      stages.run("modelling", [&] { return modelPlants(site.world.frame(), growth->plants); });
+  const auto models = stages.run("modelling", [&] { return modelPlants(site.world.frame(), growth.plants); });
   std::vector<OutputFile> files = stages.run("drawing", [&] {
-    const Finished finished{site.meshes, site.world, growth->attempts, light, models};
+    const Finished finished{site.meshes, site.world, growth.attempts, light, models};
     return inScene(scene, [&] { return drawPictures(picturesOf(scene), finished, options.stop); });
   });
   stages.run("writing", [&] { writeAll(options.folder, files); });

@@ -35,8 +35,9 @@ Report runScene(const Scene& scene, const RunOptions& options, const Keeping& ke
 
 /// Draws a scene's images of what was grown before, from the state in the folder `from`: with other cameras,
 /// suns, skies, sizes and kinds if the scene says so, but on the same meshes in the same world, with the same
-/// plants. Writes pictures and nothing else. Throws as runScene does.
-Report renderScene(const Scene& scene, const std::filesystem::path& from, const RunOptions& options);
+/// plants, and with the seed that they grew with. Writes pictures and nothing else. Throws as runScene does,
+/// and for a scene without images.
+Report renderScene(Scene scene, const std::filesystem::path& from, const RunOptions& options);
 
 /// What a person wants to know of a run: a few lines that end with the files.
 std::string summary(const Report& report, const std::filesystem::path& folder);

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <charconv>
 #include <fstream>
 #include <iterator>
 #include <map>
@@ -82,15 +83,42 @@ sim::Inputs inputsOf(const Scene& scene, const Site& site) {
   return inputs;
 }
 
-std::optional<sim::Growth> takeUp(const std::filesystem::path& folder, const Scene& scene, Site& site,
-                                  const std::vector<sim::Planting>& plantings, Same same) {
+void dropState(const std::filesystem::path& folder) {
   const std::filesystem::path path = folder / kStateFile;
   std::error_code error;
-  if (!std::filesystem::exists(path, error)) return std::nullopt;
+  std::filesystem::remove(path, error);
+  if (error) throw sim::InputError(fmt::format("{}: cannot be removed: {}", path.string(), error.message()));
+}
+
+std::optional<sim::State> readKept(const std::filesystem::path& folder) {
+  const std::filesystem::path path = folder / kStateFile;
+  std::error_code error;
+  const std::filesystem::file_status status = std::filesystem::status(path, error);
+  if (status.type() == std::filesystem::file_type::not_found) return std::nullopt;
+  if (status.type() == std::filesystem::file_type::none)
+    throw sim::InputError(fmt::format("{}: cannot be read: {}", path.string(), error.message()));
+  if (!std::filesystem::is_regular_file(status))
+    throw sim::InputError(fmt::format("{}: is no file; expected a saved state", path.string()));
   std::ifstream stream(path, std::ios::binary);
   const std::string bytes{std::istreambuf_iterator<char>(stream), {}};
   if (!stream) throw sim::InputError(fmt::format("{}: cannot be read", path.string()));
-  sim::State state = sim::readState(bytes, path.string());
+  return sim::readState(bytes, path.string());
+}
+
+std::optional<std::uint64_t> seedOf(const sim::State& state) {
+  const auto at = std::find_if(state.inputs.begin(), state.inputs.end(),
+                               [](const auto& input) { return input.first == "seed"; });
+  std::uint64_t seed = 0;
+  if (at == state.inputs.end()) return std::nullopt;
+  const std::string& text = at->second;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), seed);
+  if (error != std::errc() || end != text.data() + text.size()) return std::nullopt;
+  return seed;
+}
+
+sim::Growth takeUp(sim::State state, const std::filesystem::path& folder, const Scene& scene, Site& site,
+                   const std::vector<sim::Planting>& plantings, Same same) {
+  const std::filesystem::path path = folder / kStateFile;
   const auto different = differences(state.inputs, inputsOf(scene, site), same);
   if (!different.empty()) {
     throw sim::InputError(fmt::format("{}: it was grown from something else than {} says now:{}",
@@ -103,6 +131,10 @@ std::optional<sim::Growth> takeUp(const std::filesystem::path& folder, const Sce
     throw sim::InputError(fmt::format(
         "{}: it keeps no record of trials, which an image of attempts shows; grow it anew with that image",
         path.string()));
+  }
+  if (!trials_wanted) {  // as a run of this scene keeps none
+    state.growth.recorded = false;
+    state.growth.attempts.clear();
   }
   return sim::restore(std::move(state), site.world, plantings, path.string());
 }

@@ -1,4 +1,5 @@
 #pragma once
+#include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -24,10 +25,20 @@ enum class Same {
   plants       ///< for the plants to be shown: meshes, world and plants, under whatever light
 };
 
-/// Reads a folder's state and puts its plants into the site: the world is then as it was when the state was
-/// kept. Nothing if the folder has none. Throws sim::InputError for a damaged state, and for one that was
+/// A folder's state; nothing if it has none. Throws sim::InputError for one that is damaged or cannot be
+/// read.
+std::optional<sim::State> readKept(const std::filesystem::path& folder);
+
+/// The seed that a state was grown with: the scene's, or the command line's.
+std::optional<std::uint64_t> seedOf(const sim::State& state);
+
+/// Puts the plants of a folder's state into the site: the world is then as it was when the state was kept.
+/// Trials come back only where the scene has an image of them. Throws sim::InputError for a state that was
 /// grown from something else, with what differs.
-std::optional<sim::Growth> takeUp(const std::filesystem::path& folder, const Scene& scene, Site& site,
-                                  const std::vector<sim::Planting>& plantings, Same same);
+sim::Growth takeUp(sim::State state, const std::filesystem::path& folder, const Scene& scene, Site& site,
+                   const std::vector<sim::Planting>& plantings, Same same);
+
+/// Removes a folder's state, if it has one. Throws sim::InputError where that cannot be done.
+void dropState(const std::filesystem::path& folder);
 
 }  // namespace espalier::scenes

@@ -7,10 +7,10 @@ namespace espalier::scenes {
 void warn(const std::vector<Problem>& warnings, const std::filesystem::path& scene_file,
           const RunOptions& options, Report& report) {
   if (options.strict && !warnings.empty()) throw sim::InputError(format(warnings));
-  const auto folder = scene_file.parent_path().lexically_normal();
+  const auto folder = std::filesystem::absolute(scene_file).lexically_normal().parent_path();
   for (Problem warning : warnings) {
     if (options.on_warning) options.on_warning(formatWarning(warning));
-    const auto path = std::filesystem::path(warning.path).lexically_normal();
+    const auto path = std::filesystem::absolute(warning.path).lexically_normal();
     warning.path = path.lexically_proximate(folder).generic_string();
     report.warnings.push_back(format(warning));
   }

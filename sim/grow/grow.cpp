@@ -40,13 +40,17 @@ void requireFree(const World& world, const Planting& planting, Vec3 seed_vx) {
   }
 }
 
-void requireSeeds(const World& world, const Planting& planting) {
-  std::set<std::uint64_t> keys;
-  for (const Seed& seed : planting.seeds) {
-    requireFree(world, planting, seed.at_vx);
-    if (!keys.insert(seed.key).second)
-      throw InputError(
-          fmt::format("two seeds of '{}' have the same key; expected keys that differ", planting.name));
+void requireSeeds(const World& world, const std::vector<Planting>& plantings) {
+  std::set<std::pair<std::string, std::uint64_t>> keys;  // two of one name may be two plantings
+  for (const Planting& planting : plantings) {
+    for (const Seed& seed : planting.seeds) {
+      requireFree(world, planting, seed.at_vx);
+      if (!keys.emplace(planting.name, seed.key).second)
+        throw InputError(fmt::format(
+            "two seeds of '{}' have the same key, or stand in one place; expected keys that differ, "
+            "places, or names of the plants",
+            planting.name));
+    }
   }
 }
 
@@ -91,7 +95,11 @@ Growing::Growing(World& world, std::vector<Planting> plantings, GrowthSettings s
   }
   first_ = growth_.iterations;
   if (wants.light) sensor_.emplace(world.opaque(), settings_.light);
-  if (wants.sky_table) sky_table_ = settings_.sky_table();
+  if (wants.sky_table) {
+    if (!settings_.sky_table)
+      throw InputError("a growth process wants a table of the sky; expected one in the settings");
+    sky_table_ = settings_.sky_table();
+  }
   for (std::size_t i = 0; i < plantings_.size(); ++i) {
     for (std::size_t k = 0; k < growth_.stands[i].count; ++k) {
       const Plant& plant = growth_.plants[growth_.stands[i].first + k];
@@ -107,7 +115,7 @@ namespace {
 
 /// Plants as seeds: a node each, and parts in the world.
 Growth seeded(World& world, const std::vector<Planting>& plantings, bool record) {
-  for (const Planting& planting : plantings) requireSeeds(world, planting);
+  requireSeeds(world, plantings);
   Growth growth;
   growth.recorded = record;
   for (const Planting& planting : plantings) {

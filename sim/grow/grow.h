@@ -26,7 +26,7 @@ struct GrowthSettings {
   int iterations = 50;
   std::uint64_t seed = 1;
   LightSource light;
-  std::function<SkyTable()> sky_table;  ///< made once, if a process wants it
+  std::function<SkyTable()> sky_table;  ///< made once, if a process wants it, and then must be there
   bool record_attempts = false;
   std::stop_token stop;
   std::function<void(const GrowthProgress&)> progress;  ///< after each iteration
@@ -52,7 +52,8 @@ struct Due {
 class Growing {
  public:
   /// Seeds the plantings. The world is borrowed: it grows with every step. Throws InputError, and leaves the
-  /// world as it was, if a seed lies outside the world or inside something, or two have the same key.
+  /// world as it was, if a seed lies outside the world or inside something, or two of a name have the same
+  /// key.
   Growing(World& world, std::vector<Planting> plantings, GrowthSettings settings);
   /// Goes on from what was grown before in this world, which holds all of it, by the same plantings.
   Growing(World& world, std::vector<Planting> plantings, GrowthSettings settings, Growth grown);

@@ -12,7 +12,7 @@ namespace espalier::sim {
 /// Where a plant starts, and what its random numbers follow from.
 struct Seed {
   Vec3 at_vx{0.0};
-  std::uint64_t key = 0;  ///< another one, another plant; two of a planting must differ
+  std::uint64_t key = 0;  ///< another one, another plant; two of a planting's name must differ
 };
 
 /// Seeds at places in voxel space, keyed by where they stand in the world: in millionths of a metre, so that
@@ -26,8 +26,8 @@ std::uint64_t keyOfName(std::string_view name);
 /// name and its key.
 struct Planting {
   std::string name;
-  std::shared_ptr<const Process> process;
-  std::vector<Seed> seeds;  ///< inside the world, in free voxels
+  std::shared_ptr<const Process> process;  ///< never null
+  std::vector<Seed> seeds;                 ///< inside the world, in free voxels
 };
 
 /// What became of a plant's sites and trials.

@@ -79,6 +79,13 @@ TEST_F(Plot, TheSeedOfTheCommandLineWins) {
   EXPECT_EQ(report("a")["growth"]["state_hash"], report("c")["growth"]["state_hash"]);
 }
 
+TEST_F(Plot, ASeedBeyondTheScenesRangeIsAnError) {
+  EXPECT_EQ(grow("--no-pictures --seed 9007199254740991", "a").status, 0);
+  for (const char* seed : {"-1", "9007199254740992", "99999999999999999999", "1.5", "x"})
+    EXPECT_EQ(grow("--no-pictures --seed " + std::string(seed), "b").status, 2) << seed;
+  EXPECT_FALSE(fs::exists(scratch_.path("b")));
+}
+
 TEST_F(Plot, JsonPrintsTheReportAndNothingElse) {
   const auto ran = grow("--json --no-pictures");
   ASSERT_EQ(ran.status, 0);
@@ -154,6 +161,25 @@ TEST_F(Plot, AStemThatHasNoEffectIsAWarningWithItsPlace) {
   EXPECT_EQ(grow("--no-pictures --strict", "strict").status, 2);
 }
 
+TEST_F(Plot, AWarningInTheReportIsTheSameHoweverTheFilesAreNamed) {
+  scratch_.write("vine.yaml", tests::fileText(scratch_.path("vine.yaml")) + "\nregions: {wal: forbid}\n");
+  const std::string folder = scratch_.path("").string();
+  for (const std::string& rules :
+       {std::string("vine.yaml"), folder + "vine.yaml",
+        "../" + scratch_.path("").parent_path().filename().string() + "/vine.yaml"}) {
+    std::string scene = tests::kPlotScene;
+    scratch_.write("scene.yaml", scene.replace(scene.find("vine.yaml"), 9, rules));
+    for (const std::string& started : {std::string("/"), folder}) {
+      const std::string named = started == "/" ? folder + "scene.yaml" : "scene.yaml";
+      const auto ran = tests::run("cd " + started + " && " + ESPALIER_PROGRAM + " grow " + named + " -o " +
+                                  folder + "out --no-pictures --quiet");
+      ASSERT_EQ(ran.status, 0) << ran.output;
+      EXPECT_TRUE(report()["warnings"][0].get<std::string>().starts_with("vine.yaml:"))
+          << report()["warnings"] << " of " << rules << " from " << started;
+    }
+  }
+}
+
 TEST_F(Plot, StrictMindsNothingWhereAllIsWell) {
   const auto ran = grow("--no-pictures --strict");
   EXPECT_EQ(ran.status, 0) << ran.output;
@@ -175,6 +201,11 @@ TEST_F(Plot, AFullDiskIsAnErrorAndLeavesNoHalfFiles) {
                               scratch_.path("out").string());
   EXPECT_EQ(ran.status, 2) << ran.output;
   EXPECT_NE(ran.output.find("cannot write"), std::string::npos) << ran.output;
+  const auto kept = tests::run(
+      "ulimit -f 20; " + std::string(ESPALIER_PROGRAM) + " grow " + scratch_.path("scene.yaml").string() +
+      " --seed 9 --no-pictures --quiet --save-every 1 -o " + scratch_.path("out").string());
+  EXPECT_EQ(kept.status, 2);
+  EXPECT_EQ(kept.output.find((scratch_.path("out") / "growth.state").string()), 0u) << kept.output;
   EXPECT_EQ(files(scratch_.path("out")).at("world.vdb"), before.at("world.vdb"));
   EXPECT_EQ(files(scratch_.path("out")).size(), before.size());
 }

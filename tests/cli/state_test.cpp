@@ -163,6 +163,29 @@ TEST_F(Kept, ADamagedOrForeignStateIsAnErrorThatSaysWhatIsWrong) {
   EXPECT_NE(damaged.output.find("damaged"), std::string::npos) << damaged.output;
 }
 
+TEST_F(Kept, AFolderInItsPlaceIsAnError) {
+  fs::create_directories(scratch_.path("out/growth.state/inner"));
+  const auto expectError = [&](const tests::Ran& ran, const std::string& what) {
+    EXPECT_EQ(ran.status, 2);
+    EXPECT_EQ(ran.output.find(scratch_.path("out/growth.state").string() + ": " + what), 0u) << ran.output;
+  };
+  expectError(grow("--quiet --no-pictures --resume"), "is no file");
+  expectError(render("scene.yaml", "out", "--quiet"), "is no file");
+  expectError(grow("--quiet --no-pictures --save-every 2"), "cannot put the file in its place");
+  expectError(grow("--quiet --no-pictures --no-state"), "cannot be removed");
+}
+
+TEST_F(Kept, TrialsThatTheSceneNoLongerShowsAreNotKept) {
+  writeScene("shown.yaml", "  - vines\n", "  - attempts\n");
+  ASSERT_EQ(grow("--no-pictures", "whole").status, 0);
+  ASSERT_EQ(tests::espalier("grow " + scratch_.path("shown.yaml").string() + " -o " +
+                            scratch_.path("part").string() + " --no-pictures --iterations 6")
+                .status,
+            0);
+  ASSERT_EQ(grow("--no-pictures --resume", "part").status, 0);
+  expectSame("whole", "part");
+}
+
 TEST_F(Kept, IsDrawnAgainWithOtherCamerasAndSuns) {
   ASSERT_EQ(grow("", "grown").status, 0);
   const auto grown = files(scratch_.path("grown"));
@@ -187,6 +210,21 @@ TEST_F(Kept, IsDrawnAgainWithOtherCamerasAndSuns) {
   EXPECT_FALSE(sun.at("shadow_matte.png") == grown.at("shadow_matte.png"));
 }
 
+TEST_F(Kept, IsDrawnWithTheSeedThatItGrewWith) {
+  writeScene("strewn.yaml", "    seeds:\n      - [-0.4, 0.1, 0.1]\n      - [0.3, 0.1, 0.1]\n",
+             "    scatter: {region: ground, count: 3}\nsky: {sampling: random, rays: 20}\n");
+  const auto run = [&](const std::string& command) {
+    const auto ran = tests::espalier(command);
+    EXPECT_EQ(ran.status, 0) << ran.output;
+  };
+  const std::string scene = scratch_.path("strewn.yaml").string(), grown = scratch_.path("grown").string(),
+                    again = scratch_.path("again").string();
+  run("grow " + scene + " --seed 77 -o " + grown);
+  run("render " + scene + " --from " + grown + " -o " + again);
+  const auto first = files(grown);
+  for (const auto& [name, bytes] : files(again)) EXPECT_TRUE(first.at(name) == bytes) << name;
+}
+
 TEST_F(Kept, IsNotDrawnOnAnotherWorldOrWithOtherPlants) {
   ASSERT_EQ(grow("--no-pictures", "grown").status, 0);
   const auto expectError = [&](const tests::Ran& ran, const std::string& what) {
@@ -202,6 +240,9 @@ TEST_F(Kept, IsNotDrawnOnAnotherWorldOrWithOtherPlants) {
   expectError(render("kinds.yaml", "grown", "--images attempts"), "no record of trials");
   expectError(render("scene.yaml", "grown", "--images vine"), "did you mean 'vines'?");
   expectError(render("scene.yaml", "nowhere"), "there is no growth.state");
+  const std::string scene = tests::kPlotScene;
+  scratch_.write("none.yaml", scene.substr(0, scene.find("images:")));
+  expectError(render("none.yaml", "grown"), "none.yaml: it has no images to draw");
 }
 
 }  // namespace

@@ -206,9 +206,22 @@ TEST(Growing, SeedsAreCheckedBeforeTheWorldIsTouched) {
   EXPECT_THROW(grow(sim::seedsAt(world.frame(), {{10, 10, 20}})), sim::InputError);   // in the wall
   EXPECT_THROW(grow(sim::seedsAt(world.frame(), {{10, -10, 20}})), sim::InputError);  // below the world
   EXPECT_THROW(grow({{{5, 9, 5}, 1}, {{9, 9, 9}, 1}}), sim::InputError);              // one key for two
+  EXPECT_THROW(
+      sim::grow(world, {{"one", creeper, {{{5, 5, 5}, 1}}}, {"one", creeper, {{{9, 9, 9}, 1}}}}, settings(1)),
+      sim::InputError);  // one name and key for two
   EXPECT_EQ(world.parts().size(), parts);
   EXPECT_EQ(sim::seedsAt(world.frame(), {{5, 5, 5}, {5, 5, 5}, {5, 5, 5}}).size(), 3u);
   grow(sim::seedsAt(world.frame(), {{5, 9, 5}, {5, 9, 5}}));  // in one place, but told apart
+}
+
+TEST(Growing, AProcessThatWantsATableOfTheSkyMustBeGivenOne) {
+  class Gazer final : public Creeper {
+    sim::Wants wants() const override { return {.sky_table = true}; }
+  };
+  sim::World world = tests::wallPlot();
+  const std::vector<sim::Planting> gazer = {
+      {"gazer", std::make_shared<Gazer>(), sim::seedsAt(world.frame(), {{5, 5, 5}})}};
+  EXPECT_THROW(sim::grow(world, gazer, settings(1)), sim::InputError);
 }
 
 /// Breaks the contract in a way of choice.

@@ -170,6 +170,7 @@ struct Scene {
   ExposureSpec exposure;
   std::vector<PlantSpec> plants;
   std::vector<RegionMention> region_mentions;  ///< in the rules of its plants: each place once
+  std::vector<Problem> warnings;               ///< what its files say without effect
   int iterations = 50;
   std::uint64_t seed = 1;
   int image_width = 1280;

@@ -89,7 +89,9 @@ Prepared prepare(const Scene& scene, const RunOptions& options, Report& report, 
     return Prepared{std::move(site), std::move(plantings)};
   });
   describeWorld(report, scene, prepared.site);
-  warn(unknownRegions(scene, prepared.site.world), scene.file, options, report);
+  std::vector<Problem> warnings = unknownRegions(scene, prepared.site.world);
+  warnings.insert(warnings.begin(), scene.warnings.begin(), scene.warnings.end());
+  warn(warnings, scene.file, options, report);
   return prepared;
 }
 

@@ -79,6 +79,7 @@ Scene readRoot(const YamlNode& root, const fs::path& path, Problems& problems) {
       {{}, [&](const void*, const auto&, const auto& complain) { findMeshes(scene, root, complain); }});
   fillNames(scene);
   scene.region_mentions = loader.mentions();
+  scene.warnings = loader.warnings().sorted();
   for (std::size_t i = 0; i < scene.plants.size(); ++i) {
     auto& scatter = scene.plants[i].scatter;
     if (scatter) scatter->region_place = placeOf({&root}, fmt::format("plants[{}].scatter.region", i));

@@ -103,7 +103,7 @@ RulesPointer RuleLoader::build(const Layers& layers, RuleSet rules) {
   if (const auto* otherwise = lastGiven(layers, "otherwise")) {
     // A rule set in place changes this one as far as it has been read: without regions and without an
     // otherwise.
-    rules.otherwise = reference(*otherwise, "otherwise", rules);
+    rules.otherwise = within(*otherwise, "otherwise", rules);
   }
   addRegions(layers, rules);
   rules::finish(rules);
@@ -135,6 +135,16 @@ void RuleLoader::addRegions(const Layers& layers, RuleSet& rules) {
   }
 }
 
+RulesPointer RuleLoader::within(const YamlNode& node, const std::string& path, const RuleSet& enclosing) {
+  if (const auto* stem = node.entry("stem")) {
+    warnings_.add(stem->place,
+                  fmt::format("{}.stem has no effect: a plant has one stem, that of its outermost rule "
+                              "set; expected it there",
+                              path));
+  }
+  return reference(node, path, enclosing);
+}
+
 rules::RegionRule RuleLoader::region(const YamlNode& node, const std::string& path,
                                      const RuleSet& enclosing) {
   if (node.kind == YamlNode::Kind::scalar && node.text == "forbid") return {true, nullptr};
@@ -148,7 +158,7 @@ rules::RegionRule RuleLoader::region(const YamlNode& node, const std::string& pa
     return {};
   }
   const auto* whole = node.entry("rules");
-  if (!whole) return {false, reference(node, path, enclosing)};
+  if (!whole) return {false, within(node, path, enclosing)};
   for (const auto& entry : node.entries) {
     if (entry.key == "rules") continue;
     problems_.add(
@@ -158,7 +168,7 @@ rules::RegionRule RuleLoader::region(const YamlNode& node, const std::string& pa
             "'base' instead of 'rules'?",
             inQuotes(entry.key)));
   }
-  return {false, reference(whole->value, path + ".rules", enclosing)};
+  return {false, within(whole->value, path + ".rules", enclosing)};
 }
 
 void RuleLoader::mention(const YamlEntry& region) {

@@ -29,6 +29,8 @@ class RuleLoader {
                                                   const rules::RuleSet& enclosing);
   /// Every place so far that names a region, in the order of reading.
   const std::vector<RegionMention>& mentions() const { return mentions_; }
+  /// What was written so far and has no effect where it stands.
+  const Problems& warnings() const { return warnings_; }
 
  private:
   using Layers = std::vector<const YamlNode*>;
@@ -42,6 +44,9 @@ class RuleLoader {
   std::shared_ptr<const rules::RuleSet> inPlace(const YamlNode& map, const rules::RuleSet& enclosing);
   std::shared_ptr<const rules::RuleSet> build(const Layers& layers, rules::RuleSet rules);
   void addRegions(const Layers& layers, rules::RuleSet& rules);
+  /// A reference within a rule set, to one that holds in a region or stands by.
+  std::shared_ptr<const rules::RuleSet> within(const YamlNode& node, const std::string& path,
+                                               const rules::RuleSet& enclosing);
   rules::RegionRule region(const YamlNode& node, const std::string& path, const rules::RuleSet& enclosing);
   void mention(const YamlEntry& region);
   bool countOne(const Place& place);
@@ -50,6 +55,7 @@ class RuleLoader {
   std::map<std::string, File> files_;                      ///< by canonical path
   std::vector<std::pair<std::string, std::string>> open_;  ///< files being read: canonical and shown paths
   std::vector<RegionMention> mentions_;
+  Problems warnings_;
   std::set<std::tuple<const std::string*, int, int>>
       mentioned_;  ///< places: a base is read for each that has it
   int sets_ = 0;

@@ -2,9 +2,11 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <signal.h>
 #include <unistd.h>
 
 #include <cerrno>
+#include <charconv>
 #include <cstring>
 
 #include "sim/base/error.h"
@@ -43,6 +45,15 @@ class Descriptor {
   int fd_;
 };
 
+/// Whether the process that writes a temporary file still lives: its number is the end of the name.
+bool beingWritten(std::string_view name) {
+  const std::string_view number = name.substr(name.rfind('-') + 1);
+  pid_t writer = 0;
+  const auto [end, error] = std::from_chars(number.data(), number.data() + number.size(), writer);
+  if (error != std::errc() || end != number.data() + number.size() || writer <= 0) return false;
+  return ::kill(writer, 0) == 0 || errno == EPERM;
+}
+
 }  // namespace
 
 void writeWhole(const std::filesystem::path& path, std::string_view bytes) {
@@ -65,7 +76,8 @@ void writeWhole(const std::filesystem::path& path, std::string_view bytes) {
 void removeLeftovers(const std::filesystem::path& folder) {
   std::error_code ignored;
   for (const auto& entry : std::filesystem::directory_iterator(folder, ignored)) {
-    if (entry.path().filename().string().starts_with(kMark)) std::filesystem::remove(entry.path(), ignored);
+    const std::string name = entry.path().filename().string();
+    if (name.starts_with(kMark) && !beingWritten(name)) std::filesystem::remove(entry.path(), ignored);
   }
 }
 

@@ -224,12 +224,25 @@ std::string stateBytes(const Inputs& inputs, const World& world, const BitVolume
   return std::string(kHeader) + checksum(payload) + "\n" + payload;
 }
 
+namespace {
+
+/// The number in a state's first line; empty where the bytes do not begin with such a line.
+std::string_view versionOf(std::string_view bytes) {
+  if (!bytes.starts_with(kTitle)) return {};
+  bytes.remove_prefix(kTitle.size());
+  const auto end = bytes.find_first_not_of("0123456789");
+  return end != bytes.npos && bytes[end] == '\n' ? bytes.substr(0, end) : std::string_view();
+}
+
+}  // namespace
+
 State readState(std::string_view bytes, const std::string& file) {
   const auto fail = [&](const std::string& what) { return InputError(fmt::format("{}: {}", file, what)); };
-  if (!bytes.starts_with(kTitle)) throw fail("this is no saved state of espalier");
+  const std::string_view version = versionOf(bytes);
+  if (version.empty()) throw fail("this is no saved state of espalier");
   if (!bytes.starts_with(kHeader)) {
     throw fail(fmt::format("a state of version {}; expected version 1, the only one that this program knows",
-                           bytes.substr(kTitle.size(), 1)));
+                           version));
   }
   bytes.remove_prefix(kHeader.size());
   if (bytes.size() < kSum + 1 || checksum(bytes.substr(kSum + 1)) != bytes.substr(0, kSum))

@@ -142,6 +142,18 @@ TEST_F(Plot, ARegionThatTheSceneLacksIsAWarningAndWithStrictAnError) {
   EXPECT_EQ(report("quiet")["warnings"], told);
 }
 
+TEST_F(Plot, AStemThatHasNoEffectIsAWarningWithItsPlace) {
+  const std::string vine = tests::fileText(scratch_.path("vine.yaml"));
+  scratch_.write("vine.yaml",
+                 vine + "\notherwise:\n  stem: {radius: 0.2}\nregions: {wall: {stem: {radius: 0.3}}}\n");
+  const auto ran = grow("--no-pictures", "told");
+  EXPECT_EQ(ran.status, 0);
+  EXPECT_NE(ran.output.find(":3: warning: otherwise.stem has no effect"), std::string::npos) << ran.output;
+  EXPECT_NE(ran.output.find("warning: regions.wall.stem has no effect"), std::string::npos) << ran.output;
+  EXPECT_EQ(report("told")["warnings"].size(), 2u);
+  EXPECT_EQ(grow("--no-pictures --strict", "strict").status, 2);
+}
+
 TEST_F(Plot, StrictMindsNothingWhereAllIsWell) {
   const auto ran = grow("--no-pictures --strict");
   EXPECT_EQ(ran.status, 0) << ran.output;

@@ -97,7 +97,9 @@ TEST(State, DamageIsAnErrorThatNamesTheFile) {
     EXPECT_TRUE(messageOf(bad).starts_with("growth.state: ")) << messageOf(bad);
   }
   EXPECT_NE(messageOf("").find("no saved state"), std::string::npos);
-  EXPECT_NE(messageOf("espalier state 2\n" + good.substr(17)).find("version 2"), std::string::npos);
+  EXPECT_NE(messageOf("espalier state ").find("no saved state"), std::string::npos);
+  EXPECT_NE(messageOf("espalier state 2\n" + good.substr(17)).find("version 2;"), std::string::npos);
+  EXPECT_NE(messageOf("espalier state 12\n" + good.substr(17)).find("version 12;"), std::string::npos);
 }
 
 TEST(State, BelongsToItsSiteAndItsPlantings) {

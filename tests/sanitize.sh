@@ -10,9 +10,12 @@
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
-export ASAN_OPTIONS=halt_on_error=1:detect_stack_use_after_return=1:strict_init_order=1
-export UBSAN_OPTIONS=halt_on_error=1:print_stacktrace=1
-export TSAN_OPTIONS=exitcode=66:history_size=7:suppressions=tests/tsan.supp
+# Not for the build, which lists the tests by running them in another folder.
+under_sanitizer() {
+  ASAN_OPTIONS=halt_on_error=1:detect_stack_use_after_return=1:strict_init_order=1 \
+    UBSAN_OPTIONS=halt_on_error=1:print_stacktrace=1 \
+    TSAN_OPTIONS=exitcode=66:history_size=7:suppressions=tests/tsan.supp "$@"
+}
 
 [ $# -gt 0 ] || set -- asan tsan
 for preset in "$@"; do
@@ -37,7 +40,7 @@ for preset in "$@"; do
   } >"$log" 2>&1 || { echo "$preset: FAILED to build" && tail -n 60 "$log" && exit 1; }
   program=build/$preset/tests/sim_tests
   for control in $("$program" --gtest_list_tests --gtest_filter="SanitizerControl.DISABLED_${preset}_*" | sed -n 's/^  //p'); do
-    if "$program" --gtest_also_run_disabled_tests --gtest_filter="SanitizerControl.$control" >"build/$preset/control.log" 2>&1; then
+    if under_sanitizer "$program" --gtest_also_run_disabled_tests --gtest_filter="SanitizerControl.$control" >"build/$preset/control.log" 2>&1; then
       failed=1
       echo "$preset: FAILED: says nothing of a fault on purpose, $control"
     fi
@@ -46,7 +49,7 @@ for preset in "$@"; do
     log=build/$preset/$room.log
     start=$SECONDS
     status=0
-    "build/$preset/tests/${room}_tests" --gtest_brief=1 >"$log" 2>&1 || status=$?
+    under_sanitizer "build/$preset/tests/${room}_tests" --gtest_brief=1 >"$log" 2>&1 || status=$?
     if [ $status -eq 0 ]; then
       echo "$preset $room: no report, $(sed -n 's/^\[==========\] \([0-9]* tests\).*/\1/p' "$log" | tail -n 1), $((SECONDS - start)) s"
     else

@@ -142,9 +142,7 @@ std::string expectation(const Key& key) {
           "differ there",
           kOthers);
     case Kind::section:
-      break;
     case Kind::entries:
-      break;
     case Kind::named:
       break;
   }

@@ -19,8 +19,8 @@ Check check(std::vector<std::string> reads, Rules run) {
 
 /// Complains where a lower bound lies above its upper bound, at the one that was written.
 Check ordered(const std::string& low_path, const std::string& high_path,
-              std::function<double(const RuleSet&)> low, std::function<double(const RuleSet&)> high,
-              bool may_be_equal) {
+              const std::function<double(const RuleSet&)>& low,
+              const std::function<double(const RuleSet&)>& high, bool may_be_equal) {
   return check({low_path, high_path},
                [=](const RuleSet& rules, const Check::Given& given, const Check::Complain& complain) {
                  const double a = low(rules), b = high(rules);

@@ -129,6 +129,7 @@ Sky makeSky(const SkySettings& settings) {
   }
   const std::vector<Voxel> vectors = spreadVectors(count);
   std::vector<Vec3> units;
+  units.reserve(vectors.size());
   for (const Voxel v : vectors) units.push_back(glm::normalize(Vec3(v)));
   std::vector<double> shares = voronoiShares(units);
   meetMoments(units, shares);

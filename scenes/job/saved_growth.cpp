@@ -71,7 +71,8 @@ std::string told(const std::vector<std::string>& differences) {
 sim::Inputs inputsOf(const Scene& scene, const Site& site) {
   sim::Inputs inputs = {{"espalier", ESPALIER_VERSION}};
   for (auto& [path, value] : settings(scene)) {
-    if (startsWith(path, {"name", "iterations", "image", "images", "cameras", "exposure"}) ||
+    if (startsWith(path,
+                   {"name", "iterations", "image", "images", "cameras", "exposure", "sun.shadow_hour"}) ||
         namesAFile(path))
       continue;
     inputs.emplace_back(path, value);

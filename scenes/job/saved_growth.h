@@ -15,8 +15,8 @@ namespace espalier::scenes {
 /// The file's name in the output folder.
 inline constexpr const char* kStateFile = "growth.state";
 
-/// What a scene's growth follows from: its keys but its name, exposure, iterations, images and cameras, and
-/// what its meshes hold.
+/// What a scene's growth follows from: its keys but its name, exposure, iterations, images, cameras and the
+/// hour of its shadows, and what its meshes hold.
 sim::Inputs inputsOf(const Scene& scene, const Site& site);
 
 /// What must be the same.

@@ -153,6 +153,8 @@ TEST_F(Kept, ADamagedOrForeignStateIsAnErrorThatSaysWhatIsWrong) {
   scratch_.write("elsewhere.obj", tests::kPlotMesh);
   writeScene("scene.yaml", "- file: plot.obj", "- {file: elsewhere.obj, name: plot}");
   EXPECT_EQ(grow("--no-pictures --resume --iterations 4").status, 0);
+  writeScene("scene.yaml", "iterations: 14", "iterations: 5\nsun: {shadow_hour: 9}");
+  EXPECT_EQ(grow("--no-pictures --resume").status, 0);
   scratch_.write("scene.yaml", tests::kPlotScene);
 
   std::string bytes = tests::fileText(scratch_.path("out") / "growth.state");

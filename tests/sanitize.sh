@@ -39,7 +39,9 @@ for preset in "$@"; do
     cmake --build --preset "$preset" --parallel "$(nproc)" --target sim_tests rules_tests
   } >"$log" 2>&1 || { echo "$preset: FAILED to build" && tail -n 60 "$log" && exit 1; }
   program=build/$preset/tests/sim_tests
-  for control in $("$program" --gtest_list_tests --gtest_filter="SanitizerControl.DISABLED_${preset}_*" | sed -n 's/^  //p'); do
+  controls=$("$program" --gtest_list_tests --gtest_filter="SanitizerControl.DISABLED_${preset}_*" | sed -n 's/^  //p')
+  [ -n "$controls" ] || { echo "$preset: FAILED: there is no fault on purpose to try it on" && exit 1; }
+  for control in $controls; do
     if under_sanitizer "$program" --gtest_also_run_disabled_tests --gtest_filter="SanitizerControl.$control" >"build/$preset/control.log" 2>&1; then
       failed=1
       echo "$preset: FAILED: says nothing of a fault on purpose, $control"

@@ -212,6 +212,16 @@ TEST_F(Kept, IsDrawnAgainWithOtherCamerasAndSuns) {
   EXPECT_FALSE(sun.at("shadow_matte.png") == grown.at("shadow_matte.png"));
 }
 
+TEST_F(Kept, StrictIsStrictAboutDrawingToo) {
+  scratch_.write("vine.yaml", tests::fileText(scratch_.path("vine.yaml")) + "\nregions: {wal: forbid}\n");
+  ASSERT_EQ(grow("--no-pictures", "grown").status, 0);
+  const auto strict = render("scene.yaml", "grown", "--images vines --strict");
+  EXPECT_EQ(strict.status, 2);
+  EXPECT_NE(strict.output.find("region 'wal'"), std::string::npos) << strict.output;
+  EXPECT_FALSE(fs::exists(scratch_.path("grown") / "vines.png"));
+  EXPECT_EQ(render("scene.yaml", "grown", "--images vines").status, 0);
+}
+
 TEST_F(Kept, IsDrawnWithTheSeedThatItGrewWith) {
   writeScene("strewn.yaml", "    seeds:\n      - [-0.4, 0.1, 0.1]\n      - [0.3, 0.1, 0.1]\n",
              "    scatter: {region: ground, count: 3}\nsky: {sampling: random, rays: 20}\n");

@@ -116,7 +116,7 @@ std::vector<sim::ProposedElement> proposeElements(const sim::SiteView& view, con
         // no obstacle, the others are.
         std::erase_if(tiled, [&](sim::Voxel v) { return among(own, v); });
         Voxels takes;
-        if (sim::fit(view.world, tiled, around.attachment, sim::Passage::around, takes) != sim::Fit::clear)
+        if (sim::fit(view.world, tiled, around.attachment, sim::Passage::around, sim::kNoPlant, takes) != sim::Fit::clear)
           continue;
         if (std::any_of(takes.begin(), takes.end(), [&](sim::Voxel v) { return among(taken, v); })) continue;
         const auto middle = taken.insert(taken.end(), takes.begin(), takes.end());

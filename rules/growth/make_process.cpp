@@ -57,18 +57,16 @@ class BookProcess final : public sim::Process {
  private:
   /// Why a set does not grow here; grown if it does, and then the proposal says what. `set` numbers the sets
   /// that one site tries, from 0.
-  Outcome tryToGrow(const sim::SiteView& view, const sim::Site& site, const RuleSet& rules,
-                    const Surroundings& around, const sim::RandomKey& key, unsigned set,
-                    sim::Proposal& proposal) const;
+  Outcome tryToGrow(const sim::SiteView& view, const RuleSet& rules, const Surroundings& around,
+                    const sim::RandomKey& key, unsigned set, sim::Proposal& proposal) const;
 
   RuleBook book_;
   double voxel_m_;
   bool sky_table_ = false;
 };
 
-Outcome BookProcess::tryToGrow(const sim::SiteView& view, const sim::Site& site, const RuleSet& rules,
-                               const Surroundings& around, const sim::RandomKey& key, unsigned set,
-                               sim::Proposal& proposal) const {
+Outcome BookProcess::tryToGrow(const sim::SiteView& view, const RuleSet& rules, const Surroundings& around,
+                               const sim::RandomKey& key, unsigned set, sim::Proposal& proposal) const {
   const Senses senses = sense(view, around, rules);
   if (senses.exposure < rules.require.exposure_min) return Outcome::too_dark;
   if (senses.exposure > rules.require.exposure_max) return Outcome::too_bright;
@@ -78,7 +76,7 @@ Outcome BookProcess::tryToGrow(const sim::SiteView& view, const sim::Site& site,
   std::optional<Candidate> best;
   switch (rules.propagate) {
     case Propagate::random_tree:
-      best = bestTrial(view, site, rules, around, senses, key, set, voxel_m_, proposal);
+      best = bestTrial(view, rules, around, senses, key, set, proposal);
       break;
   }
   if (!best) return Outcome::no_trial;
@@ -106,7 +104,7 @@ sim::Proposal BookProcess::propose(const sim::SiteView& view, const sim::Site& s
 
   const Surroundings around = lookAround(view, site);
   for (unsigned set = 0; rules != nullptr; ++set, rules = book_.next(*rules, view.world, at)) {
-    const Outcome outcome = tryToGrow(view, site, *rules, around, key, set, proposal);
+    const Outcome outcome = tryToGrow(view, *rules, around, key, set, proposal);
     // What is told of a site that did not grow is why its first set failed, unless a later one got as far as
     // trials.
     if (set == 0 || outcome == Outcome::no_trial || outcome == Outcome::grown || outcome == Outcome::resting)

@@ -30,8 +30,8 @@ Outcome judge(const sim::SiteView& view, const RuleSet& rules, const Surrounding
   if (!sim::contains(view.world.frame().size, sim::voxelAt(trial.to_vx))) return Outcome::out_of_world;
   if (trial.takes.empty()) return Outcome::blocked;
   trial.proximity_vx = sim::averageProximity(view.world, trial.passes);
-  if (trial.proximity_vx > rules.require.proximity_max_vx) return Outcome::too_far;
-  if (trial.proximity_vx < rules.require.proximity_min_vx) return Outcome::too_near;
+  if (trial.proximity_vx > rules.require.proximity_max.number) return Outcome::too_far;
+  if (trial.proximity_vx < rules.require.proximity_min.number) return Outcome::too_near;
   return Outcome::grown;
 }
 
@@ -39,8 +39,7 @@ Outcome judge(const sim::SiteView& view, const RuleSet& rules, const Surrounding
 
 std::optional<Candidate> bestTrial(const sim::SiteView& view, const sim::Site& site, const RuleSet& rules,
                                    const Surroundings& around, const Senses& senses,
-                                   const sim::RandomKey& key, unsigned set, double voxel_m,
-                                   sim::Proposal& proposal) {
+                                   const sim::RandomKey& key, unsigned set, sim::Proposal& proposal) {
   const RandomTree& tree = rules.random_tree;
   std::optional<Candidate> best;
   double best_score = std::numeric_limits<double>::infinity();
@@ -56,7 +55,7 @@ std::optional<Candidate> bestTrial(const sim::SiteView& view, const sim::Site& s
     const sim::Vec3 direction = flattened(
         trialDirection(rules, around, senses, site.number != 0, widening, slots), view.world.frame().size);
     const double length = valueOf(tree.length.value, senses.circumstance, slots, TrialSlot::length);
-    trial.to_vx = around.at_vx + direction * (tree.length.metres ? length / voxel_m : length);
+    trial.to_vx = around.at_vx + direction * length;
     // Bent all the way to an axis that the world has not: out of it.
     const Outcome outcome =
         direction == sim::Vec3(0.0) ? Outcome::out_of_world : judge(view, rules, around, trial);
@@ -64,7 +63,7 @@ std::optional<Candidate> bestTrial(const sim::SiteView& view, const sim::Site& s
     if (view.record_attempts) proposal.attempts.push_back({around.at_vx, trial.to_vx, outcome, false});
     if (outcome != Outcome::grown) continue;
     const double score =
-        rules.prefer.has_proximity ? std::abs(trial.proximity_vx - rules.prefer.proximity_vx) : 0.0;
+        rules.prefer.has_proximity ? std::abs(trial.proximity_vx - rules.prefer.proximity.number) : 0.0;
     if (score < best_score) {
       best_score = score;
       best = trial;

@@ -20,6 +20,9 @@
 /// Positions are in world metres, y up. scenes/read/registry.h describes every key.
 namespace espalier::scenes {
 
+/// What boundary layers a world may have.
+inline constexpr int kMostLayers = 64;
+
 enum class RegionsFrom { group, material };
 
 /// A mesh, a polyline or points, to be tiled into the world.
@@ -40,7 +43,7 @@ struct WorldSpec {
   std::optional<int> resolution;  ///< or the number of voxels along the longest side
   double margin_m = 0.0;
   std::optional<std::array<sim::Vec3, 2>> bounds_m;  ///< instead of the meshes' bounds plus margin
-  int layers = 4;
+  int layers = 4;  ///< at least so many; more where the rules of its plants ask for them (layersFor)
 };
 
 /// Where the sky is looked for: along the same lattice directions from everywhere, or along Greene's random
@@ -117,6 +120,7 @@ struct PlantSpec {
   std::string name;
   std::filesystem::path rules_file;
   std::shared_ptr<const rules::RuleSet> rules;
+  Place rules_place = {};  ///< where the scene file names them; without a path where none does
   std::vector<SeedSpec> seeds;
   std::optional<Scatter> scatter;
 };

@@ -16,8 +16,8 @@ using sim::Outcome;
 Outcome judged(const RuleSet& rules, sim::Felt::Fate fate, double proximity_vx) {
   if (fate == sim::Felt::outside) return Outcome::out_of_world;
   if (fate == sim::Felt::blocked) return Outcome::blocked;
-  if (proximity_vx > rules.require.proximity_max_vx) return Outcome::too_far;
-  if (proximity_vx < rules.require.proximity_min_vx) return Outcome::too_near;
+  if (proximity_vx > rules.require.proximity_max.number) return Outcome::too_far;
+  if (proximity_vx < rules.require.proximity_min.number) return Outcome::too_near;
   return Outcome::grown;
 }
 
@@ -64,7 +64,7 @@ std::optional<Candidate> bestTrial(const sim::SiteView& view, const RuleSet& rul
       }
       if (outcome != Outcome::grown) continue;
       const double score =
-          rules.prefer.has_proximity ? std::abs(proximity_vx - rules.prefer.proximity_vx) : 0.0;
+          rules.prefer.has_proximity ? std::abs(proximity_vx - rules.prefer.proximity.number) : 0.0;
       if (score < best_score) {
         best_score = score;
         best = Candidate{sim::endOf(around.at_vx, ends, n), {}, {}, passage, proximity_vx};

@@ -48,13 +48,12 @@ void requireSpaceFits(const Scene& scene, const sim::Frame& frame, const sim::Vo
 
 }  // namespace
 
-ExposeResult exposeScene(Scene scene, const RunOptions& options) {
+ExposeResult exposeScene(const Scene& scene, const RunOptions& options) {
   ExposeResult result;
   Report& report = result.report;
   Stages stages(options, report);
-  scene.world.layers = 0;  // nothing grows, so nothing needs to feel its way
   const Site site = stages.run("tiling", [&] {
-    Site made = makeSite(scene);
+    Site made = makeSiteForLight(scene);
     requireCamerasInTheOpen(scene, made.world);
     return made;
   });

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <filesystem>
 
+#include "rules/growth/voxel_widths.h"
 #include "scenes/import/mesh_import.h"
 #include "scenes/lights.h"
 #include "scenes/prepare/in_scene.h"
@@ -81,7 +82,7 @@ Site makeSite(const Scene& scene) {
     sim::parallelInvoke(
         [&] {
           const sim::Frame frame = frameFor(scene, meshes);
-          world.emplace(sim::buildWorld(frame, meshes, scene.world.layers, &fills));
+          world.emplace(sim::buildWorld(frame, meshes, layersFor(scene, frame), &fills));
         },
         [&] {
           sky = sim::makeSky(skySettings(scene.sky));
@@ -94,6 +95,32 @@ Site makeSite(const Scene& scene) {
             randomSky(scene.sky, scene.seed),
             std::move(sun)};
   });
+}
+
+Site makeSiteForLight(Scene scene) {
+  scene.plants.clear();
+  scene.world.layers = 0;
+  return makeSite(scene);
+}
+
+int layersFor(const Scene& scene, const sim::Frame& frame) {
+  int layers = scene.world.layers;
+  for (const PlantSpec& plant : scene.plants) {
+    const auto needed = rules::layersNeeded(*plant.rules, frame.voxel_m, glm::length(sim::Vec3(frame.size)));
+    if (needed.layers > kMostLayers) {
+      const Place& at = plant.rules_place;
+      const std::string place =
+          at.path ? fmt::format("{}:{}:{}", *at.path, at.line, at.column) : scene.file.string();
+      throw sim::InputError(
+          fmt::format("{}: {} at a voxel of {:.4g} m, which takes {} boundary layers; expected at most {}{}",
+                      place, needed.asked_by, frame.voxel_m, needed.layers, kMostLayers,
+                      std::isfinite(needed.asked_m)
+                          ? fmt::format(", as with a voxel of {:.4g} m", needed.asked_m / (kMostLayers - 1))
+                          : ""));
+    }
+    layers = std::max(layers, needed.layers);
+  }
+  return layers;
 }
 
 void requireCamerasInTheOpen(const Scene& scene, const sim::World& world) {

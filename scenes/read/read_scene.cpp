@@ -81,6 +81,7 @@ Scene readRoot(const YamlNode& root, const fs::path& path, Problems& problems) {
   scene.region_mentions = loader.mentions();
   scene.warnings = loader.warnings().sorted();
   for (std::size_t i = 0; i < scene.plants.size(); ++i) {
+    scene.plants[i].rules_place = placeOf({&root}, fmt::format("plants[{}].rules", i));
     auto& scatter = scene.plants[i].scatter;
     if (scatter) scatter->region_place = placeOf({&root}, fmt::format("plants[{}].scatter.region", i));
   }

@@ -25,9 +25,9 @@ inline rules::RuleSet lively() {
   rules.bias.away = 0.05;
   rules.bias.toward = 0.1;
   rules.bias.twist = 0.2;
-  rules.bias.twist_radius_vx = 5.0;
-  rules.require.proximity_max_vx = 4.5;
-  rules.prefer = {true, 1.8};
+  rules.bias.twist_radius = {5.0};
+  rules.require.proximity_max = {4.5};
+  rules.prefer = {true, {1.8}};
   rules.light = {0.5, 0.5, 1.5};
   rules::Element leaf;
   leaf.per_segment = 1.5;
@@ -41,7 +41,7 @@ inline rules::RuleSet failing() {
   rules::RuleSet rules;
   rules.name = "failing";
   rules.random_tree.trials_min = rules.random_tree.trials_max = 1;
-  rules.require.proximity_max_vx = std::numeric_limits<double>::min();
+  rules.require.proximity_max = {std::numeric_limits<double>::min()};
   return rules;
 }
 

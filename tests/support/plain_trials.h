@@ -114,14 +114,14 @@ inline std::optional<rules::Candidate> plainBestTrial(const sim::SiteView& view,
       outcome = sim::Outcome::out_of_world;
     else if (felt.fate == sim::Felt::blocked)
       outcome = sim::Outcome::blocked;
-    else if (proximity_vx > rules.require.proximity_max_vx)
+    else if (proximity_vx > rules.require.proximity_max.number)
       outcome = sim::Outcome::too_far;
-    else if (proximity_vx < rules.require.proximity_min_vx)
+    else if (proximity_vx < rules.require.proximity_min.number)
       outcome = sim::Outcome::too_near;
     ++counts[static_cast<std::size_t>(outcome)];
     if (outcome != sim::Outcome::grown) continue;
     const double score =
-        rules.prefer.has_proximity ? std::abs(proximity_vx - rules.prefer.proximity_vx) : 0.0;
+        rules.prefer.has_proximity ? std::abs(proximity_vx - rules.prefer.proximity.number) : 0.0;
     if (score >= best_score) continue;
     best_score = score;
     best = rules::Candidate{to_vx, {}, {}, passage, proximity_vx};

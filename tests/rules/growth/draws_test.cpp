@@ -138,7 +138,8 @@ TEST(Draws, PlantsThatDoNotMeetDoNotKnowOfEachOther) {
 void forEachValue(const Table& table, void* object, const std::string& prefix,
                   const std::function<void(const std::string&, const Key&, void*)>& visit) {
   for (const Key& key : table.keys) {
-    if (key.kind == Kind::value || key.kind == Kind::length || key.kind == Kind::whole_range)
+    if (key.kind == Kind::value || key.kind == Kind::length || key.kind == Kind::size ||
+        key.kind == Kind::whole_range)
       visit(prefix + key.name, key, object);
     if (key.kind == Kind::section) forEachValue(*key.child, key.open(object), prefix + key.name + ".", visit);
     if (key.kind == Kind::entries) {

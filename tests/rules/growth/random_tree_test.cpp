@@ -32,8 +32,8 @@ RuleSet vine() {
   rules.random_tree.trials_min = 30;
   rules.random_tree.trials_max = 60;
   rules.bias.up = 0.08;
-  rules.require.proximity_max_vx = 3.0;
-  rules.prefer = {true, 1.5};
+  rules.require.proximity_max = {3.0};
+  rules.prefer = {true, {1.5}};
   rules.light = {0.8, 0.2, 1.8};
   rules::Element leaf;
   leaf.polygons = {{{0, .32, .04}, {-.23, .13, -.01}, {-.36, .44, -.11}, {-.24, .76, -.11}, {0, .99, -.06}},
@@ -87,7 +87,7 @@ TEST(RandomTree, PrefersTheProximityThatItIsTold) {
   for (const double wanted : {1.2, 1.9, 2.6}) {
     sim::World world = tests::wallPlot();
     RuleSet rules = vine();
-    rules.prefer.proximity_vx = wanted;
+    rules.prefer.proximity = {wanted};
     rules.elements.clear();
     const auto growth = growIn(world, rules, kBothSides, brightSettings(10));
     for (const auto& plant : growth.plants) {
@@ -276,7 +276,7 @@ TEST(RandomTree, BranchesLeaveAtTheirAngleAndAge) {
   rules.random_tree.wander_deg = 0.0;
   rules.random_tree.branch_angle_deg = 60.0;
   rules.bias.up = 0.0;
-  rules.require.proximity_max_vx = rules::kNoLimit;
+  rules.require.proximity_max = {rules::kNoLimit};
   rules.prefer.has_proximity = false;
   sim::World world({Vec3(0.0), 0.04, {120, 120, 120}});
   auto s = brightSettings(7);
@@ -310,7 +310,7 @@ TEST(RandomTree, UpBiasOfOneGrowsStraightUp) {
   RuleSet rules = vine();
   rules.elements.clear();
   rules.bias.up = 1.0;
-  rules.require.proximity_max_vx = rules::kNoLimit;
+  rules.require.proximity_max = {rules::kNoLimit};
   rules.random_tree.branch_age_min = rules.random_tree.branch_age_max = 100;
   sim::World world({Vec3(0.0), 0.04, {20, 60, 20}});
   const auto growth = growIn(world, rules, {{10, 2, 10}}, brightSettings(10));
@@ -344,7 +344,7 @@ TEST(RandomTree, TwistWindsAboutTheCentreOfMass) {
 TEST(RandomTree, AFlatWorldStaysFlat) {
   RuleSet rules = vine();
   rules.elements.clear();
-  rules.require.proximity_max_vx = rules::kNoLimit;
+  rules.require.proximity_max = {rules::kNoLimit};
   rules.prefer.has_proximity = false;
   sim::World world({Vec3(0.0), 0.04, {60, 60, 1}});
   auto s = brightSettings(10);

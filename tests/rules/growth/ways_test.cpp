@@ -50,9 +50,9 @@ RuleSet anyRules(std::mt19937& random) {
   rules.bias.away = any(0.0, 0.3);
   rules.bias.toward = any(0.0, 0.3);
   rules.bias.twist = any(-1.0, 1.0);
-  if (random() % 2 == 0) rules.require.proximity_max_vx = 3.0;
-  if (random() % 3 == 0) rules.require.proximity_min_vx = 1.2;
-  if (random() % 2 == 0) rules.prefer = {true, 1.7};
+  if (random() % 2 == 0) rules.require.proximity_max = {3.0};
+  if (random() % 3 == 0) rules.require.proximity_min = {1.2};
+  if (random() % 2 == 0) rules.prefer = {true, {1.7}};
   rules.require.clear = random() % 4 != 0;
   return rules;
 }

@@ -82,6 +82,9 @@ images:
   EXPECT_FALSE(scene.world.voxel_m || scene.world.bounds_m);
   EXPECT_EQ(scene.world.margin_m, 0.5);
   EXPECT_EQ(scene.world.layers, 6);
+  ASSERT_EQ(scene.plants.size(), 2u);
+  EXPECT_EQ(scene.plants[0].rules_place.line, 10);
+  EXPECT_EQ(scene.plants[0].rules_place.column, 13);
   EXPECT_EQ(scene.sky.weighting, sim::Weighting::cosine);
   EXPECT_EQ(scene.sky.directions, 500);
   EXPECT_EQ(scene.sun.toward_deg, 90);

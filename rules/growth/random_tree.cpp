@@ -1,5 +1,6 @@
 #include "rules/growth/random_tree.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -13,12 +14,34 @@ namespace {
 
 using sim::Outcome;
 
+/// As sim::fit, but that leaves of the limb's own plant give way: their voxels are as free as empty ones.
+sim::Fit fitLimb(const sim::SiteView& view, const Surroundings& around, Candidate& trial) {
+  const sim::World& world = view.world;
+  trial.takes.clear();
+  for (const sim::Voxel v : trial.passes) {
+    if (!sim::contains(world.frame().size, v)) return sim::Fit::outside;
+    bool free = !world.occupied().at(v);
+    if (!free) {
+      const sim::PartId part = world.partAt(v);
+      const auto& own = view.plant.element_parts;
+      free = std::find(own.begin(), own.end(), part) != own.end();
+    }
+    if (free) {
+      trial.takes.push_back(v);
+    } else if (trial.passage == sim::Passage::around &&
+               std::find(around.attachment.begin(), around.attachment.end(), v) == around.attachment.end()) {
+      return sim::Fit::blocked;
+    }
+  }
+  return sim::Fit::clear;
+}
+
 /// Whether a trial meets the rules; fills in what it would take.
 Outcome judge(const sim::SiteView& view, const RuleSet& rules, const Surroundings& around, Candidate& trial) {
   trial.passes.clear();
   sim::tileSegment(around.at_vx, trial.to_vx, trial.passes);
   trial.passage = rules.require.clear ? sim::Passage::around : sim::Passage::through;
-  switch (sim::fit(view.world, trial.passes, around.attachment, trial.passage, trial.takes)) {
+  switch (fitLimb(view, around, trial)) {
     case sim::Fit::outside:
       return Outcome::out_of_world;
     case sim::Fit::blocked:

@@ -24,6 +24,7 @@ void Nearby::clear() {
 }
 
 void Nearby::add(const Facets& element) {
+  if (element.box.low == element.box.high) return;  // a point is in nobody's way
   Body body;
   body.box = element.box;
   body.first = static_cast<std::uint32_t>(triangles_.size());

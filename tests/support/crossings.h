@@ -62,8 +62,7 @@ inline std::size_t crossings(const std::vector<sim::Plant>& plants) {
   return count;
 }
 
-/// Elements that are pierced by a limb that stood before them, other than their own, or by one of another
-/// plant.
+/// Pairs of an element and a limb, of any plants, that pierces it, is not its own and stood before it.
 inline std::size_t piercings(const std::vector<sim::Plant>& plants) {
   std::size_t count = 0;
   for (const sim::Plant& plant : plants) {
@@ -72,9 +71,8 @@ inline std::size_t piercings(const std::vector<sim::Plant>& plants) {
       for (const sim::Plant& other : plants) {
         const sim::Skeleton& s = other.skeleton;
         for (std::size_t i = 1; i < s.parent.size(); ++i) {
-          if (&other == &plant && (s.born[i] >= e.born || static_cast<sim::NodeId>(i) == e.node)) continue;
-          count +=
-              plainlyPierces(s.position_vx[static_cast<std::size_t>(s.parent[i])], s.position_vx[i], element);
+          const auto from = s.position_vx[static_cast<std::size_t>(s.parent[i])];
+          count += s.born[i] < e.born && plainlyPierces(from, s.position_vx[i], element);
         }
       }
     }

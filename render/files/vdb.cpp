@@ -218,7 +218,8 @@ std::string vdbBytes(const sim::World& world, const std::vector<VdbField>& field
   });
   add([&] {
     return shown<FloatGrid>(grids.coverage,
-                            {"coverage", "occupied fraction of a voxel, 1 inside solids", "1"}, frame, fog);
+                            {"coverage", "area inside a voxel over a face's area, 1 inside solids", "1"},
+                            frame, fog);
   });
   add([&] {
     auto normal = shown<Vec3SGrid>(grids.normal,

@@ -20,14 +20,14 @@ double budget() {
          static_cast<double>(::sysconf(_SC_PAGE_SIZE));
 }
 
-/// Bit volumes: what is occupied, what takes light, and three more while a solid is filled or places are
-/// looked at. Surfaces as large as the world's own sides: their grids, taps and places with the directions
-/// that are open there; 32 bytes for each layer before them. Fields of every voxel.
+/// Bit volumes: what is occupied, what is solid, what takes light, and three more while a solid is filled or
+/// places are looked at. Surfaces as large as the world's own sides: their grids, taps and places with the
+/// directions that are open there; 35 bytes for each layer before them. Fields of every voxel.
 double worldBytes(Vec3 size, const WorldUse& use) {
   const double voxels = size.x * size.y * size.z;
   const double padded = (size.x + 2 * 64) / size.x;
   const double sides = 2 * (size.x * size.y + size.y * size.z + size.z * size.x);
-  return (5.0 / 8 * padded + use.bytes_per_voxel) * voxels + (250.0 + 32.0 * use.layers) * sides;
+  return (6.0 / 8 * padded + use.bytes_per_voxel) * voxels + (250.0 + 35.0 * use.layers) * sides;
 }
 
 bool fits(Vec3 size, const WorldUse& use) {
@@ -84,7 +84,7 @@ void requireFits(const Frame& frame, const WorldUse& use) {
 }
 
 void requireFilledFits(std::size_t voxels, const std::string& object) {
-  constexpr double kBytesPerVoxel = 48.0;  // grids of surfaces and layers
+  constexpr double kBytesPerVoxel = 50.0;  // grids of surfaces and layers
   const double bytes = static_cast<double>(voxels) * kBytesPerVoxel;
   if (bytes <= budget()) return;
   throw InputError(

@@ -236,6 +236,8 @@ std::vector<std::vector<Block>> allSlabs(const World& world, const BitVolume& sc
   return slabs;
 }
 
+constexpr std::size_t kPadding = 2;  // steps: 32-bit loads of the last one
+
 /// Without plants, which neither have layers nor stand between.
 BitVolume occupiedByScene(const World& world) {
   BitVolume scene = world.occupied();
@@ -251,9 +253,37 @@ BitVolume occupiedByScene(const World& world) {
 
 }  // namespace
 
+World::Grids::Near::Near(Voxel size)
+    : blocks(blocksOf(size)),
+      block(static_cast<std::size_t>(blocks.x) * static_cast<std::size_t>(blocks.y) *
+            static_cast<std::size_t>(blocks.z)),
+      leaves(1) {
+  findSteps(0);
+}
+
+void World::Grids::Near::add(Voxel v, const NearLeaves& block_leaves) {
+  block[blockNumber(blocks, v)] = static_cast<std::uint32_t>(leaves.size()) * kInBlock;
+  leaves.push_back(block_leaves);
+}
+
+void World::Grids::Near::findSteps(int layers) {
+  steps.assign(leaves.size() * kInBlock + kPadding,
+               static_cast<std::uint16_t>((layers + 1) * NearSteps::kInVoxel));
+  parallelForEach(leaves.size() - 1, [&](std::size_t i) {
+    const NearLeaves& known = leaves[i + 1];
+    std::uint16_t* const of_block = steps.data() + (i + 1) * kInBlock;
+    for (int n = 0; n < static_cast<int>(kInBlock); ++n) {
+      const int x = n & 7, z = (n >> 3) & 7, y = n >> 6;
+      const openvdb::Index at = LayerLeaf::coordToOffset({x, y, z});
+      if (known.layer[at] < 0) continue;
+      of_block[n] =
+          static_cast<std::uint16_t>(std::lround(known.distance_vx[at] * float{NearSteps::kInVoxel}));
+    }
+  });
+}
+
 void World::setLayers(int layers) {
-  constexpr int kMost =
-      1000;  // keeps squared distances far from the end of 64-bit keys and layers within 16 bits
+  constexpr int kMost = 128;  // distances of sqrt(3) layers in 1/256 voxel width stay within 16 bits
   if (layers < 0 || layers > kMost) {
     throw InputError(fmt::format("{} boundary layers: expected 0 to {}", layers, kMost));
   }
@@ -269,16 +299,27 @@ void World::setLayers(int layers) {
   auto slabs =
       short_keys ? allSlabs<std::int32_t>(*this, scene, reach) : allSlabs<std::int64_t>(*this, scene, reach);
 
+  std::size_t blocks = 1;
+  for (const std::vector<Block>& slab : slabs) blocks += slab.size();
+  constexpr std::size_t kMostSteps = std::size_t{1} << 31;
+  if (blocks * Grids::Near::kInBlock > kMostSteps) {
+    throw InputError(fmt::format(
+        "{} boundary layers take {} voxels, in blocks of 8 x 8 x 8; expected at most {}: fewer layers, or "
+        "larger voxels",
+        layers, (blocks - 1) * Grids::Near::kInBlock, kMostSteps));
+  }
   clearLayers();
+  grids_->near.leaves.reserve(blocks);
   for (std::vector<Block>& slab : slabs) {
     for (Block& block : slab) {
-      grids_->near.make(block.first) = {block.layer->buffer().data(), block.nearest->buffer().data(),
-                                        block.distance_vx->buffer().data()};
+      grids_->near.add(block.first, {block.layer->buffer().data(), block.nearest->buffer().data(),
+                                     block.distance_vx->buffer().data()});
       grids_->layer->tree().addLeaf(block.layer.release());
       grids_->nearest->tree().addLeaf(block.nearest.release());
       grids_->distance_vx->tree().addLeaf(block.distance_vx.release());
     }
   }
+  grids_->near.findSteps(layers);
   layers_ = layers;
 }
 
@@ -286,7 +327,7 @@ void World::clearLayers() {
   grids_->layer->clear();
   grids_->nearest->clear();
   grids_->distance_vx->clear();
-  grids_->near.clear();
+  grids_->near = Grids::Near(frame_.size);
   layers_ = 0;
   ++version_;
 }

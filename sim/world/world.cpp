@@ -37,7 +37,7 @@ std::unique_ptr<World::Grids> makeGrids(const Frame& frame) {
       .nearest = makeGrid<openvdb::Int32Grid>("nearest", kFree, transform),
       .distance_vx = makeGrid<openvdb::FloatGrid>("distance_vx", kFar, transform),
       .surface = BlockMap<World::Grids::SurfaceLeaves>(frame.size),
-      .near = BlockMap<World::Grids::NearLeaves>(frame.size),
+      .near = World::Grids::Near(frame.size),
   });
 }
 
@@ -47,15 +47,16 @@ openvdb::Index offsetInLeaf(Voxel v) {
 
 /// How large a share of the rays through a voxel its contents stop: their mean projected area over the
 /// cube's, each a quarter of its surface (Cauchy 1850). A leaf of one-sided area A shows A / 2, a limb of
-/// silhouette A about 0.8 A, and the cube 3 / 2 faces.
-float opacity(const Surface& surface, PartKind kind) {
+/// silhouette A about 0.8 A, and the cube 3 / 2 faces. Rises with the coverage, and when a stem takes over
+/// from elements.
+float opacity(PartKind kind, float coverage) {
   switch (kind) {
     case PartKind::scene:
       return 1.0f;  // a wall has no holes where a triangle only clips a voxel's corner
     case PartKind::stem:
-      return surface.coverage / 2.0f;
+      return std::min(coverage / 2.0f, 1.0f);
     case PartKind::element:
-      return surface.coverage / 3.0f;
+      return std::min(coverage / 3.0f, 1.0f);
   }
   return 1.0f;
 }
@@ -75,10 +76,15 @@ glm::vec3 fromVdb(const openvdb::Vec3f& v) {
 }  // namespace
 
 World::World(const Frame& frame)
-    : frame_(frame), occupied_(frame.size), opaque_(frame.size), grids_(makeGrids(frame)) {}
+    : frame_(frame),
+      occupied_(frame.size),
+      solid_(frame.size),
+      opaque_(frame.size),
+      grids_(makeGrids(frame)) {}
 World::World(const World& other)
     : frame_(other.frame_),
       occupied_(other.occupied_),
+      solid_(other.solid_),
       opaque_(other.opaque_),
       parts_(other.parts_),
       layers_(other.layers_),
@@ -93,7 +99,7 @@ World::World(const World& other)
           .nearest = other.grids_->nearest->deepCopy(),
           .distance_vx = other.grids_->distance_vx->deepCopy(),
           .surface = BlockMap<Grids::SurfaceLeaves>(frame_.size),
-          .near = BlockMap<Grids::NearLeaves>(frame_.size),
+          .near = other.grids_->near,
       })) {
   findBlocks();
 }
@@ -118,6 +124,11 @@ void World::keep(const TiledVoxel& tiled) {
   }
   assert(surface.part > kFree && static_cast<std::size_t>(surface.part) <= parts_.size());
   occupied_.set(voxel);
+  if (part(surface.part).kind != PartKind::element) solid_.set(voxel);
+  put(voxel, surface);
+}
+
+void World::put(Voxel voxel, const Surface& surface) {
   Grids::SurfaceLeaves& leaves = grids_->surface.make(voxel);
   if (leaves.part == nullptr) {
     const openvdb::Coord at = coordOf(voxel);
@@ -133,6 +144,26 @@ void World::keep(const TiledVoxel& tiled) {
   leaves.offset_vx->setValueOn(n, surface.offset_vx);
 }
 
+/// More comes into a voxel that is occupied.
+void World::join(const TiledVoxel& tiled) {
+  const auto& [voxel, surface] = tiled;
+  Surface held = *surfaceAt(voxel);
+  const PartKind kind = part(surface.part).kind;
+  if (kind == PartKind::scene || part(held.part).kind == PartKind::scene) return;
+  const float coverage = held.coverage + surface.coverage;
+  if (kind == PartKind::stem && !solid_.at(voxel)) {
+    held = surface;
+    solid_.set(voxel);
+  }
+  held.coverage = coverage;
+  put(voxel, held);
+  shade(voxel, part(held.part).kind, coverage);
+}
+
+void World::shade(Voxel v, PartKind kind, float coverage) {
+  if (stopsLight(v, opacity(kind, coverage))) opaque_.set(v);
+}
+
 /// The grids' leaves by block, where the grids were not made leaf by leaf here.
 void World::findBlocks() {
   for (auto leaf = grids_->part->tree().beginLeaf(); leaf; ++leaf) {
@@ -143,7 +174,8 @@ void World::findBlocks() {
   }
   for (auto leaf = grids_->layer->tree().cbeginLeaf(); leaf; ++leaf) {
     const openvdb::Coord at = leaf->origin();
-    grids_->near.make({at.x(), at.y(), at.z()}) = {
+    Grids::Near& near = grids_->near;  // its leaves are still the other world's
+    near.leaves[near.block[blockNumber(near.blocks, {at.x(), at.y(), at.z()})] / Grids::Near::kInBlock] = {
         leaf->buffer().data(), grids_->nearest->tree().probeConstLeaf(at)->buffer().data(),
         grids_->distance_vx->tree().probeConstLeaf(at)->buffer().data()};
   }
@@ -151,10 +183,12 @@ void World::findBlocks() {
 
 void World::occupy(std::span<const TiledVoxel> voxels) {
   for (const TiledVoxel& tiled : voxels) {
-    if (occupied_.at(tiled.voxel)) continue;
+    if (occupied_.at(tiled.voxel)) {
+      join(tiled);
+      continue;
+    }
     keep(tiled);
-    if (stopsLight(tiled.voxel, opacity(tiled.surface, part(tiled.surface.part).kind)))
-      opaque_.set(tiled.voxel);
+    shade(tiled.voxel, part(tiled.surface.part).kind, tiled.surface.coverage);
   }
   ++version_;
 }
@@ -173,9 +207,9 @@ void World::occupyBlocks(std::span<const TiledVoxel> blocks) {
   for (const auto& [corner, surface] : blocks) {
     for (int y = 0; y < 8; ++y) {
       for (int z = 0; z < 8; ++z) {
-        std::uint64_t* const row = occupied_.row(corner.y + y, corner.z + z);
-        assert((row[corner.x >> 6] >> (corner.x & 63) & 0xffu) == 0);
-        row[corner.x >> 6] |= std::uint64_t{0xff} << (corner.x & 63);
+        assert((occupied_.row(corner.y + y, corner.z + z)[corner.x >> 6] >> (corner.x & 63) & 0xffu) == 0);
+        for (BitVolume* const bits : {&occupied_, &solid_})
+          bits->row(corner.y + y, corner.z + z)[corner.x >> 6] |= std::uint64_t{0xff} << (corner.x & 63);
       }
     }
     fill(grids_->part->tree(), corner, surface.part);
@@ -231,6 +265,11 @@ std::optional<Nearness> World::nearnessAt(Voxel v) const {
   const openvdb::Index n = offsetInLeaf(v);
   if (leaves.layer[n] < 0) return std::nullopt;
   return Nearness{leaves.layer[n], leaves.nearest[n], leaves.distance_vx[n]};
+}
+
+NearSteps World::nearSteps() const {
+  const Grids::Near& near = grids_->near;
+  return {near.blocks, near.block.data(), near.steps.data()};
 }
 
 std::vector<TiledVoxel> World::surfaces() const {

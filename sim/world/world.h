@@ -30,8 +30,9 @@ struct Part {
 struct Surface {
   PartId part = kFree;
   Colour colour{0.0f};  ///< linear RGB
-  float coverage =
-      0.0f;  ///< occupied fraction: area inside the voxel over a face's area, at most 1; 1 inside a solid
+  /// Area inside the voxel over a face's area. Of the scene at most 1, and 1 inside a solid; of plants the
+  /// sum over all stems and elements in it, which may be more than 1.
+  float coverage = 0.0f;
   Vec3f normal{
       0.0f};  ///< unit, area-weighted, as the triangles are wound; zero where there is none (lines, solids)
   float offset_vx = 0.0f;  ///< how far the surface lies from the voxel's centre along the normal
@@ -43,6 +44,37 @@ struct Nearness {
   PartId part = kFree;  ///< the part of the nearest occupied voxel; among equally near ones the lowest number
   float distance_vx = 0.0f;  ///< between voxel centres, Euclidean
 };
+
+/// The distances to the scene for those who read many at once, in lanes: that of nearnessAt in whole steps of
+/// 1/256 voxel width, rounded to nearest. Beyond the boundary layers layers() + 1 voxel widths, as
+/// averageProximity counts it; without layers nothing is near, not even the scene itself. Valid until the
+/// world ends or its layers are set anew.
+struct NearSteps {
+  static constexpr int kInVoxel = 256;  ///< steps in a voxel width
+
+  Voxel blocks{0};  ///< of 8x8x8 voxels, along each axis
+  /// Where in `steps` the 512 of a block begin; by blockNumber. All blocks that no layer touches share those
+  /// at 0.
+  const std::uint32_t* block = nullptr;
+  /// Of a block by (y & 7) << 6 | (z & 7) << 3 | (x & 7). All places fit into 31 bits. Behind the last lie
+  /// four bytes that may be read, for 32-bit loads.
+  const std::uint16_t* steps = nullptr;
+
+  /// The voxel must lie inside the world.
+  std::uint16_t at(Voxel v) const;
+};
+
+/// The number of a voxel's block of 8x8x8 voxels: x fastest, then z, then y.
+inline std::size_t blockNumber(Voxel blocks, Voxel v) {
+  const auto along = [&](int axis) { return static_cast<std::size_t>(v[axis] >> 3); };
+  return (along(1) * static_cast<std::size_t>(blocks.z) + along(2)) * static_cast<std::size_t>(blocks.x) +
+         along(0);
+}
+
+inline std::uint16_t NearSteps::at(Voxel v) const {
+  const auto in_block = static_cast<std::size_t>((v.y & 7) << 6 | (v.z & 7) << 3 | (v.x & 7));
+  return steps[block[blockNumber(blocks, v)] + in_block];
+}
 
 struct TiledVoxel {
   Voxel voxel;
@@ -62,11 +94,15 @@ class World {
   ~World();
 
   const Frame& frame() const { return frame_; }
-  /// What obstructs.
+  /// Where anything is: the scene, stems, elements.
   const BitVolume& occupied() const { return occupied_; }
+  /// Where something is that nothing grows through: the scene and stems. What is occupied but not solid holds
+  /// elements alone.
+  const BitVolume& solid() const { return solid_; }
   /// What takes light: of the scene what was said when it was added, and of the plants' voxels a share. A
   /// leaf takes up a whole voxel but stops few of the rays through it; so as many of the voxels stop all
-  /// light as the leaves in them would stop rays. Which ones follows from their place alone.
+  /// light as the leaves in them would stop rays. Which ones follows from their place, their part's kind and
+  /// their coverage alone.
   const BitVolume& opaque() const { return opaque_; }
   const std::vector<Part>& parts() const { return parts_; }
   const Part& part(PartId id) const { return parts_[static_cast<std::size_t>(id - 1)]; }
@@ -75,23 +111,29 @@ class World {
   std::uint64_t version() const { return version_; }
 
   PartId addPart(Part part);
-  /// Occupies voxels. One that is occupied already keeps what it has. Throws BrokenContract for a voxel
-  /// outside the world. Scene voxels take all light.
+  /// Occupies voxels. Scene voxels take all light. Throws BrokenContract for a voxel outside the world.
+  /// One that is occupied already
+  /// - by the scene, or now by the scene: keeps what it has;
+  /// - by plants: adds the coverage of what comes, and takes light accordingly. A stem takes it over from
+  ///   elements, with its part, colour and normal; else it keeps those that it had first.
   void occupy(std::span<const TiledVoxel> voxels);
-  /// The same, but they take no light.
+  /// Occupies free voxels with a scene's; they take no light. One that is occupied already keeps what it has.
   void occupyClear(std::span<const TiledVoxel> voxels);
-  /// Occupies blocks of 8x8x8 voxels, wholly free until now, given by their low corners (multiples of 8) with
-  /// what all of their voxels are like. They take no room worth mentioning, and no light.
+  /// Occupies blocks of 8x8x8 voxels, wholly free until now, with a scene's, given by their low corners
+  /// (multiples of 8) with what all of their voxels are like. They take no room worth mentioning, and no
+  /// light.
   void occupyBlocks(std::span<const TiledVoxel> blocks);
   /// Adds voxels to what takes light.
   void addOpaque(const BitVolume& voxels);
-  /// Finds for every voxel within `layers` of an occupied voxel its Nearness; replaces what was known before.
+  /// Finds for every voxel within `layers` of a scene voxel its Nearness; replaces what was known before.
+  /// Throws InputError for more than 128 layers, and where they hold more voxels than NearSteps can count.
   void setLayers(int layers);
 
   /// kFree outside the world too.
   PartId partAt(Voxel v) const;
   std::optional<Surface> surfaceAt(Voxel v) const;
   std::optional<Nearness> nearnessAt(Voxel v) const;
+  NearSteps nearSteps() const;
   /// All occupied voxels with their surfaces, in (y, z, x) order.
   std::vector<TiledVoxel> surfaces() const;
 
@@ -100,11 +142,14 @@ class World {
 
  private:
   void keep(const TiledVoxel& tiled);
+  void put(Voxel v, const Surface& surface);
+  void join(const TiledVoxel& tiled);
+  void shade(Voxel v, PartKind kind, float coverage);
   void findBlocks();
   void clearLayers();
 
   Frame frame_;
-  BitVolume occupied_, opaque_;
+  BitVolume occupied_, solid_, opaque_;
   std::vector<Part> parts_;
   int layers_ = 0;
   std::uint64_t version_ = 0;

@@ -10,41 +10,34 @@ inline openvdb::Coord coordOf(Voxel v) {
   return {v.x, v.y, v.z};
 }
 
+inline Voxel blocksOf(Voxel size) {
+  return (size + 7) / 8;
+}
+
 /// What is known of the blocks of 8x8x8 voxels that the grids' leaves cover, by place. Finding it takes two
 /// reads, where the way down from a tree's root takes four or five; growth asks millions of times.
 template <typename Leaves>
 class BlockMap {
  public:
   explicit BlockMap(Voxel size)
-      : blocks_((size + 7) / 8),
+      : blocks_(blocksOf(size)),
         slots_(static_cast<std::size_t>(blocks_.x) * static_cast<std::size_t>(blocks_.y) *
                static_cast<std::size_t>(blocks_.z)),
         leaves_(1) {}
 
   /// A default-made Leaves where nothing is known. The voxel must lie inside the world.
-  const Leaves& of(Voxel v) const { return leaves_[slots_[index(v)]]; }
+  const Leaves& of(Voxel v) const { return leaves_[slots_[blockNumber(blocks_, v)]]; }
   /// Room for a block that has none, or the block's Leaves.
   Leaves& make(Voxel v) {
-    std::uint32_t& slot = slots_[index(v)];
+    std::uint32_t& slot = slots_[blockNumber(blocks_, v)];
     if (slot == 0) {
       slot = static_cast<std::uint32_t>(leaves_.size());
       leaves_.emplace_back();
     }
     return leaves_[slot];
   }
-  void clear() {
-    std::fill(slots_.begin(), slots_.end(), 0u);
-    leaves_.resize(1);
-  }
 
  private:
-  std::size_t index(Voxel v) const {
-    return (static_cast<std::size_t>(v.y >> 3) * static_cast<std::size_t>(blocks_.z) +
-            static_cast<std::size_t>(v.z >> 3)) *
-               static_cast<std::size_t>(blocks_.x) +
-           static_cast<std::size_t>(v.x >> 3);
-  }
-
   Voxel blocks_;
   std::vector<std::uint32_t> slots_;
   std::vector<Leaves> leaves_;
@@ -61,7 +54,7 @@ struct World::Grids {
   openvdb::Int32Grid::Ptr nearest;    ///< part of the nearest scene object, same topology as layer
   openvdb::FloatGrid::Ptr distance_vx;  ///< distance to it, same topology as layer; background infinity
 
-  /// The same data by block. Leaves are never removed but by setLayers, which fills `near` anew.
+  /// The same data by block. Leaves are never removed but by setLayers, which makes `near` anew.
   struct SurfaceLeaves {
     openvdb::Int32Tree::LeafNodeType* part = nullptr;
     openvdb::Vec3STree::LeafNodeType* colour = nullptr;
@@ -74,8 +67,22 @@ struct World::Grids {
     const std::int32_t* nearest = nullptr;
     const float* distance_vx = nullptr;
   };
+  /// The boundary layers by block, and NearSteps' own arrays.
+  struct Near {
+    explicit Near(Voxel size);
+    void add(Voxel v, const NearLeaves& block_leaves);
+    /// Fills in the steps, once all blocks are added.
+    void findSteps(int layers);
+    const NearLeaves& of(Voxel v) const { return leaves[block[blockNumber(blocks, v)] / kInBlock]; }
+
+    static constexpr std::uint32_t kInBlock = 512;
+    Voxel blocks;
+    std::vector<std::uint32_t> block;  ///< where its steps begin, kInBlock for each of the leaves
+    std::vector<NearLeaves> leaves;    ///< the first: where nothing is near
+    std::vector<std::uint16_t> steps;
+  };
   BlockMap<SurfaceLeaves> surface;
-  BlockMap<NearLeaves> near;
+  Near near;
 };
 
 }  // namespace espalier::sim

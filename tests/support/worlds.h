@@ -23,9 +23,17 @@ inline sim::Part stemPart(std::string object) {
   return part;
 }
 
+inline sim::Part elementPart(std::string object) {
+  sim::Part part = stemPart(std::move(object));
+  part.kind = sim::PartKind::element;
+  return part;
+}
+
 inline void expectSameWorld(const sim::World& a, const sim::World& b) {
   ASSERT_EQ(a.frame(), b.frame());
   EXPECT_EQ(a.occupied().words(), b.occupied().words());
+  EXPECT_EQ(a.solid().words(), b.solid().words());
+  EXPECT_EQ(a.opaque().words(), b.opaque().words());
   const auto surfaces_a = a.surfaces();
   const auto surfaces_b = b.surfaces();
   ASSERT_EQ(surfaces_a.size(), surfaces_b.size());
@@ -33,7 +41,8 @@ inline void expectSameWorld(const sim::World& a, const sim::World& b) {
     const auto& [voxel_a, s] = surfaces_a[i];
     const auto& [voxel_b, t] = surfaces_b[i];
     ASSERT_EQ(voxel_a, voxel_b);
-    ASSERT_TRUE(s.part == t.part && s.colour == t.colour && s.coverage == t.coverage && s.normal == t.normal);
+    ASSERT_TRUE(s.part == t.part && s.colour == t.colour && s.coverage == t.coverage &&
+                s.normal == t.normal && s.offset_vx == t.offset_vx);
   }
   const sim::Voxel size = a.frame().size;
   for (int y = 0; y < size.y; ++y) {
@@ -42,6 +51,7 @@ inline void expectSameWorld(const sim::World& a, const sim::World& b) {
         const auto m = a.nearnessAt({x, y, z});
         const auto n = b.nearnessAt({x, y, z});
         ASSERT_EQ(m.has_value(), n.has_value());
+        ASSERT_EQ(a.nearSteps().at({x, y, z}), b.nearSteps().at({x, y, z}));
         if (!m) continue;
         ASSERT_TRUE(m->layer == n->layer && m->part == n->part && m->distance_vx == n->distance_vx);
       }

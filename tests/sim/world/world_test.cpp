@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include <map>
+#include <memory>
 #include <random>
 
 #include "sim/base/error.h"
@@ -54,6 +54,132 @@ TEST(World, AnOccupiedVoxelKeepsWhatItHas) {
   EXPECT_EQ(world.partAt(Voxel(4)), first);
   EXPECT_EQ(world.partAt(Voxel(5)), second);
   EXPECT_EQ(world.occupied().count(), 3u);
+  EXPECT_EQ(world.solid().words(), world.occupied().words());
+}
+
+/// A world with a part of each kind and of another plant, and what a voxel of it becomes.
+struct Mixed {
+  World world{tests::unitFrame(Voxel(16))};
+  PartId wall = world.addPart(tests::scenePart("wall"));
+  PartId stem = world.addPart(tests::stemPart("ivy"));
+  PartId leaf = world.addPart(tests::elementPart("ivy"));
+  PartId other_stem = world.addPart(tests::stemPart("vine"));
+  PartId other_leaf = world.addPart(tests::elementPart("vine"));
+
+  static Surface surface(PartId part, float coverage) {
+    const auto shade = static_cast<float>(part);
+    return {part, Colour(shade / 8), coverage, Vec3f(shade, 0, 0), shade / 16};
+  }
+  void add(PartId part, float coverage, Voxel v = Voxel(3)) {
+    world.occupy(std::vector<TiledVoxel>{{v, surface(part, coverage)}});
+  }
+  /// All but the coverage as it was given for a part.
+  void expect(PartId part, float coverage, bool solid) {
+    const Surface found = world.surfaceAt(Voxel(3)).value_or(Surface{});
+    const Surface given = surface(part, coverage);
+    EXPECT_EQ(found.part, part);
+    EXPECT_EQ(world.partAt(Voxel(3)), part);
+    EXPECT_EQ(found.colour, given.colour);
+    EXPECT_EQ(found.normal, given.normal);
+    EXPECT_EQ(found.offset_vx, given.offset_vx);
+    EXPECT_EQ(found.coverage, coverage);
+    EXPECT_TRUE(world.occupied().at(Voxel(3)));
+    EXPECT_EQ(world.solid().at(Voxel(3)), solid);
+  }
+};
+
+TEST(World, ElementsShareAVoxelAndTheirCoveragesAddUp) {
+  Mixed m;
+  m.add(m.leaf, 0.25f);
+  m.expect(m.leaf, 0.25f, false);
+  m.add(m.leaf, 0.5f);
+  m.add(m.other_leaf, 0.75f);
+  m.expect(m.leaf, 1.5f, false);
+  EXPECT_EQ(m.world.solid().count(), 0u);
+}
+
+TEST(World, AStemTakesAVoxelOverFromElements) {
+  Mixed m;
+  m.add(m.leaf, 0.25f);
+  m.add(m.other_leaf, 0.5f);
+  m.add(m.other_stem, 0.125f);
+  m.expect(m.other_stem, 0.875f, true);
+}
+
+TEST(World, AStemKeepsItsVoxel) {
+  Mixed m;
+  m.add(m.stem, 0.5f);
+  m.expect(m.stem, 0.5f, true);
+  m.add(m.leaf, 0.25f);
+  m.add(m.other_stem, 0.75f);
+  m.expect(m.stem, 1.5f, true);
+}
+
+TEST(World, TheSceneKeepsItsVoxelAndTakesNoneFromPlants) {
+  Mixed m;
+  m.add(m.wall, 0.5f);
+  for (const PartId part : {m.stem, m.leaf, m.wall}) m.add(part, 0.25f);
+  m.expect(m.wall, 0.5f, true);
+  Mixed grown;
+  grown.add(grown.leaf, 0.5f);
+  grown.add(grown.wall, 1.0f);
+  grown.expect(grown.leaf, 0.5f, false);
+  const Surface wall = Mixed::surface(grown.wall, 1.0f);
+  grown.world.occupyClear(std::vector<TiledVoxel>{{Voxel(3), wall}, {Voxel(4), wall}});
+  grown.world.occupyBlocks(std::vector<TiledVoxel>{{Voxel(8), wall}});
+  grown.expect(grown.leaf, 0.5f, false);
+  EXPECT_TRUE(grown.world.solid().at(Voxel(4)));
+  EXPECT_EQ(grown.world.solid().count(), 1u + 512u);
+  grown.add(grown.leaf, 0.5f, Voxel(9));
+  EXPECT_EQ(grown.world.partAt(Voxel(9)), grown.wall);
+}
+
+/// Of leaves upon leaves and stems through them: what takes light is that of a world which got the sums at
+/// once, as one does that is restored.
+TEST(World, WhatTakesLightFollowsFromPlaceKindAndCoverage) {
+  Mixed m;
+  std::mt19937 random(11);
+  const auto below = [&](int n) { return static_cast<int>(random() % static_cast<unsigned>(n)); };
+  std::size_t opaque = 0;
+  for (int round = 0; round < 8; ++round) {
+    for (int i = 0; i < 1500; ++i) {
+      const PartId part = i % 50 == 0 ? m.wall : i % 5 == 0 ? m.stem : m.leaf;
+      m.add(part, 0.125f * static_cast<float>(1 + below(6)), {below(16), below(16), below(16)});
+    }
+    World at_once(m.world.frame());
+    for (const Part& part : m.world.parts()) at_once.addPart(part);
+    at_once.occupy(m.world.surfaces());
+    tests::expectSameWorld(at_once, m.world);
+    EXPECT_GT(m.world.opaque().count(), opaque);
+    opaque = m.world.opaque().count();
+  }
+  for (int i = 0; i < 24; ++i) m.add(m.leaf, 0.125f, Voxel(5, 6, 7));
+  EXPECT_TRUE(m.world.opaque().at({5, 6, 7}));  // three leaf areas of a face stop every ray
+  for (int x = 0; x < 16; ++x) {
+    World world(tests::unitFrame(Voxel(16)));
+    world.addPart(tests::stemPart("ivy"));
+    world.occupy(std::vector<TiledVoxel>{{{x, 0, 0}, {.part = 1, .coverage = 2.0f}}});
+    EXPECT_EQ(world.opaque().count(), 1u);
+  }
+}
+
+TEST(World, ACopyIsTheSameAndStandsForItself) {
+  Mixed m;
+  m.add(m.wall, 1.0f, {2, 9, 9});
+  m.add(m.leaf, 0.5f);
+  m.add(m.stem, 0.5f, {12, 3, 3});
+  m.add(m.leaf, 0.5f, {12, 3, 3});
+  m.world.setLayers(2);
+  auto original = std::make_unique<Mixed>(m);
+  Mixed copy(*original);
+  original.reset();
+  tests::expectSameWorld(copy.world, m.world);
+  copy.add(copy.stem, 0.25f);
+  copy.expect(copy.stem, 0.75f, true);
+  m.expect(m.leaf, 0.5f, false);
+  copy.world.setLayers(4);
+  EXPECT_EQ(m.world.nearSteps().at({2, 9, 5}), 3 * 256);
+  EXPECT_EQ(copy.world.nearSteps().at({2, 9, 5}), 4 * 256);
 }
 
 TEST(World, RefusesVoxelsOutsideInEveryBuild) {

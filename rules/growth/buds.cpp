@@ -69,6 +69,18 @@ std::vector<sim::Site> dueBuds(const sim::StandView& stand, const sim::Columns& 
   return sites;
 }
 
+namespace {
+
+/// Whether a plant is a single segment that found no way on.
+bool isStunted(const sim::StandView& stand, const sim::Verdict& verdict, const std::vector<Bud>& buds) {
+  const std::int32_t plant = verdict.site.plant;
+  return verdict.outcome == sim::Outcome::no_trial && verdict.proposal->retire &&
+         stand.plants[static_cast<std::size_t>(plant)].skeleton.size() == 2 &&
+         std::none_of(buds.begin(), buds.end(), [&](const Bud& bud) { return bud.plant == plant; });
+}
+
+}  // namespace
+
 void settleBuds(const sim::StandView& stand, std::span<const sim::Verdict> verdicts, sim::Columns& memory) {
   std::vector<Bud> buds = budsOf(memory);
   std::erase_if(buds, [&](const Bud& bud) { return bud.due <= stand.iteration; });
@@ -82,6 +94,10 @@ void settleBuds(const sim::StandView& stand, std::span<const sim::Verdict> verdi
     } else if (verdict.outcome == sim::Outcome::claimed || !verdict.proposal->retire) {
       buds.push_back({site.plant, site.node, static_cast<std::int32_t>(site.number), stand.iteration + 1});
     }
+  }
+  // A seed knows nothing of what lies beyond its first segment: it may have led where none can follow.
+  for (const sim::Verdict& verdict : verdicts) {
+    if (isStunted(stand, verdict, buds)) buds.push_back({verdict.site.plant, 0, 0, stand.iteration + 1});
   }
   keep(buds, memory);
 }

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <tuple>
 
-#include "sim/sense/intersection.h"
+#include "sim/grow/pieces.h"
 #include "sim/tile/tiling.h"
 
 namespace espalier::rules {
@@ -30,15 +30,13 @@ bool among(const Voxels& sorted, sim::Voxel v) {
   return std::binary_search(sorted.begin(), sorted.end(), v, before);
 }
 
-/// The voxels of an element, in order and each once. False, and nothing was tiled, where a corner lies
-/// outside the world: the rule language allows elements that are far larger than that.
-bool tileInside(sim::Voxel world_size, const sim::PlacedElement& element, const Element& rule,
-                Voxels& tiled) {
-  for (const auto& polygon : rule.polygons) {
-    for (const sim::Vec3 corner : polygon) {
-      if (!sim::contains(world_size, sim::voxelAt(sim::placed(element, corner)))) return false;
-    }
-  }
+/// Whether a voxel is part of the scene.
+bool isScene(const sim::World& world, sim::Voxel v) {
+  return world.occupied().at(v) && world.part(world.partAt(v)).kind == sim::PartKind::scene;
+}
+
+/// The voxels of an element, in order and each once.
+void tile(const sim::PlacedElement& element, const Element& rule, Voxels& tiled) {
   tiled.clear();
   std::vector<sim::Vec3> corners;
   for (const auto& polygon : rule.polygons) {
@@ -48,7 +46,32 @@ bool tileInside(sim::Voxel world_size, const sim::PlacedElement& element, const 
   }
   std::sort(tiled.begin(), tiled.end(), before);
   tiled.erase(std::unique(tiled.begin(), tiled.end()), tiled.end());
-  return true;
+}
+
+/// Takes the scene's voxels out of an element's. False where there is one that its own segment does not pass.
+bool clearOfScene(const sim::World& world, const Voxels& own, Voxels& tiled) {
+  bool clear = true;
+  std::erase_if(tiled, [&](sim::Voxel v) {
+    const bool scene = isScene(world, v);
+    clear = clear && (!scene || among(own, v));
+    return scene;
+  });
+  return clear;
+}
+
+/// Bounds of all that could be placed on a segment.
+sim::LatticeBox reachOf(const sim::SiteView& view, const RuleSet& rules, double vigour,
+                        std::int32_t first_shape, sim::Vec3 from_vx, sim::Vec3 to_vx) {
+  double reach = 0.0;
+  for (std::size_t i = 0; i < rules.elements.size(); ++i) {
+    const auto part = view.plant.element_parts[static_cast<std::size_t>(first_shape) + i];
+    for (const sim::Vec3 corner : view.pieces.shapeOf(part).corners)
+      reach = std::max(reach, glm::length(corner) * highest(rules.elements[i].size) * vigour);
+  }
+  const sim::Vec3 rim(sim::Vec3(view.world.frame().size));
+  const sim::Vec3 most(reach + 1e-3);
+  return {sim::latticePoint(glm::max(glm::min(from_vx, to_vx) - most, sim::Vec3(-1.0))),
+          sim::latticePoint(glm::min(glm::max(from_vx, to_vx) + most, rim))};
 }
 
 /// Where each of an element trial's random numbers stands (sim::Slots).
@@ -87,11 +110,18 @@ std::vector<sim::ProposedElement> proposeElements(const sim::SiteView& view, con
                                                   sim::Vec3 to_vx, const std::vector<sim::Voxel>& segment,
                                                   std::int32_t first_shape, const sim::RandomKey& key) {
   std::vector<sim::ProposedElement> placed;
-  Voxels own = segment, taken, tiled;  // taken: by elements of this very proposal, in order
+  Voxels own = segment, tiled;
   std::sort(own.begin(), own.end(), before);
   const sim::Vec3 stem = glm::normalize(to_vx - around.at_vx);
+  sim::Nearby nearby;  // what stands, and elements of this very proposal
+  if (!rules.elements.empty())
+    view.pieces.gather(reachOf(view, rules, senses.vigour, first_shape, around.at_vx, to_vx), 0, -1, nearby);
+  sim::Facets facets;
   for (std::size_t shape = 0; shape < rules.elements.size(); ++shape) {
     const Element& rule = rules.elements[shape];
+    const auto number = first_shape + static_cast<std::int32_t>(shape);
+    const sim::FacetShape& facet_shape =
+        view.pieces.shapeOf(view.plant.element_parts[static_cast<std::size_t>(number)]);
     sim::Slots counting(key, sim::Purpose::element_count, static_cast<unsigned>(shape));
     const double expected =
         evaluate(rule.per_segment, senses.circumstance, counting.uniform(0)) * senses.vigour;
@@ -105,26 +135,22 @@ std::vector<sim::ProposedElement> proposeElements(const sim::SiteView& view, con
         sim::Slots slots(key, sim::Purpose::element, static_cast<unsigned>(shape << 10) + i,
                          static_cast<unsigned>(trial));
         sim::PlacedElement element;
-        element.shape = first_shape + static_cast<std::int32_t>(shape);
+        element.shape = number;
         element.position_vx = glm::mix(around.at_vx, to_vx, 0.1 + 0.9 * slots.uniform(kAlong));
         element.exposure = static_cast<float>(senses.exposure);
         element.scale = evaluate(rule.size, senses.circumstance, slots.uniform(kSize)) * senses.vigour;
         turn(element, around, senses, stem, evaluate(rule.face, senses.circumstance, slots.uniform(kFace)),
              slots);
-        if (!tileInside(view.world.frame().size, element, rule, tiled)) continue;
-        // The world is frozen: the element's own segment and its siblings do not stand there yet. The one is
-        // no obstacle, the others are.
-        std::erase_if(tiled, [&](sim::Voxel v) { return among(own, v); });
-        Voxels takes;
-        if (sim::fit(view.world, tiled, around.attachment, sim::Passage::around, sim::kNoPlant, takes) != sim::Fit::clear)
+        // The cheap questions first. The world is frozen: the element's own segment does not stand there yet.
+        if (!sim::place(element, facet_shape, facets) || !sim::inside(view.world.frame().size, facets) ||
+            nearby.clash(facets, {sim::latticePoint(element.position_vx)}))
           continue;
-        if (std::any_of(takes.begin(), takes.end(), [&](sim::Voxel v) { return among(taken, v); })) continue;
-        const auto middle = taken.insert(taken.end(), takes.begin(), takes.end());
-        std::inplace_merge(taken.begin(), middle, taken.end(), before);
+        tile(element, rule, tiled);
+        if (!clearOfScene(view.world, own, tiled)) continue;
+        nearby.add(facets);
         const double share = area * element.scale * element.scale /
-                             static_cast<double>(std::max<std::size_t>(1, takes.size()));
-        placed.push_back(
-            {element, std::move(takes), sim::Passage::around, static_cast<float>(std::min(1.0, share))});
+                             static_cast<double>(std::max<std::size_t>(1, tiled.size()));
+        placed.push_back({element, tiled, sim::Passage::around, static_cast<float>(std::min(1.0, share))});
         break;
       }
     }

@@ -9,8 +9,9 @@ namespace espalier::rules {
 
 /// Tries to place elements on a new segment, from around.at_vx to `to_vx`, that passes the voxels `segment`:
 /// the expected number grows with the light, as their size does (Greene's boost), and each is tried up to
-/// Element::trials times in random places and attitudes until one intersects nothing but its own segment and
-/// the limbs that this one leaves. `first_shape` is the plant's number of the rule set's first element.
+/// Element::trials times in random places and attitudes, until one lies in no voxel of the scene that its
+/// segment does not pass, crosses no other element and is pierced by no limb but its own (exactly:
+/// sim/sense/piece_grid.h). `first_shape` is the plant's number of the rule set's first element.
 std::vector<sim::ProposedElement> proposeElements(const sim::SiteView& view, const RuleSet& rules,
                                                   const Surroundings& around, const Senses& senses,
                                                   sim::Vec3 to_vx, const std::vector<sim::Voxel>& segment,

@@ -10,16 +10,15 @@
 
 namespace espalier::sim {
 
-/// Voxels that were taken earlier in the same iteration, and from which node.
+/// Voxels that segments took earlier in the same iteration, and from which node.
 class Claims {
  public:
   /// A node of any plant.
   using Node = std::pair<std::size_t, NodeId>;
-  static constexpr Node kNobody{0, kNoNode};
 
   explicit Claims(Voxel size) : taken_(size) {}
 
-  /// Whether a piece that leaves `node` at `start` may have these voxels. A branch and its limb leave their
+  /// Whether a segment that leaves `node` at `start` may have these voxels. A branch and its limb leave their
   /// node through the same voxels: beside it they do not hinder each other.
   bool allow(std::span<const Voxel> voxels, Node node, Voxel start) const;
   /// Throws BrokenContract for a voxel outside the world.

@@ -11,6 +11,7 @@
 #include "sim/base/error.h"
 #include "sim/base/parallel.h"
 #include "sim/grow/claims.h"
+#include "sim/grow/pieces.h"
 
 namespace espalier::sim {
 
@@ -85,7 +86,10 @@ Growing::Growing(World& world, std::vector<Planting> plantings, GrowthSettings s
       plantings_(std::move(plantings)),
       settings_(std::move(settings)),
       growth_(std::move(grown)),
-      claims_(std::make_unique<Claims>(world.frame().size)) {
+      claims_(std::make_unique<Claims>(world.frame().size)),
+      pieces_(std::make_unique<PieceGrid>(world.frame().size)),
+      nearby_(std::make_unique<Nearby>()),
+      facets_(std::make_unique<Facets>()) {
   if (growth_.stands.size() != plantings_.size())
     throw BrokenContract("what was grown before has other plantings than those that shall go on");
   Wants wants;
@@ -101,8 +105,13 @@ Growing::Growing(World& world, std::vector<Planting> plantings, GrowthSettings s
     sky_table_ = settings_.sky_table();
   }
   for (std::size_t i = 0; i < plantings_.size(); ++i) {
+    std::vector<std::shared_ptr<const FacetShape>> shapes;
+    for (const ElementShape& shape : plantings_[i].process->seedling().shapes)
+      shapes.push_back(std::make_shared<FacetShape>(facetShape(shape.polygons)));
     for (std::size_t k = 0; k < growth_.stands[i].count; ++k) {
-      const Plant& plant = growth_.plants[growth_.stands[i].first + k];
+      const std::size_t number = growth_.stands[i].first + k;
+      const Plant& plant = growth_.plants[number];
+      addPlant(plant, static_cast<int>(number), shapes, *pieces_);
       streams_.push_back(streamOf(settings_.seed, plantings_[i].name, plant.key));
       kin_.emplace_back(plant.skeleton);
       segments_ += static_cast<std::size_t>(plant.skeleton.size()) - 1;
@@ -181,6 +190,7 @@ Proposal Growing::proposeAt(std::size_t planting, const Site& site, const Light*
                       kin_[plant],
                       memory,
                       commons,
+                      *pieces_,
                       light,
                       sky_table_ ? &*sky_table_ : nullptr,
                       growth_.iterations,
@@ -229,8 +239,21 @@ void Growing::addNode(std::size_t plant, NodeId parent, Vec3 at_vx, std::span<co
   kin_[plant].add(parent);
 }
 
-/// Places a proposal's segment and those of its elements that nobody else's claim hinders.
-void Growing::place(Asked& asked, std::vector<TiledVoxel>& edit) {
+/// Whether what was accepted earlier in the iteration, pieces from number `before` on, stands in the way of a
+/// proposal's segment.
+bool Growing::hindered(const Asked& asked, std::uint32_t before) {
+  const auto& segment = asked.proposal.segment;
+  if (!segment || segment->passage != Passage::around) return false;
+  if (!claims_->allow(segment->takes, {asked.plant, asked.site.node}, voxelAt(asked.site.at_vx))) return true;
+  const Limb limb{latticePoint(asked.site.at_vx), latticePoint(segment->to_vx)};
+  nearby_->clear();
+  pieces_->gather(boxOf(limb.from, limb.to), before, static_cast<int>(asked.plant), *nearby_);
+  return nearby_->clash(limb);
+}
+
+/// Places a proposal's segment and those of its elements that clash with none of the pieces from number
+/// `before` on.
+void Growing::place(Asked& asked, std::uint32_t before, std::vector<TiledVoxel>& edit) {
   Plant& plant = growth_.plants[asked.plant];
   const Planting& planting = plantings_[asked.planting];
   const Claims::Node from{asked.plant, asked.site.node};
@@ -247,21 +270,30 @@ void Growing::place(Asked& asked, std::vector<TiledVoxel>& edit) {
                 static_cast<float>(std::min(1.0, 2.0 * plant.stem_radius_vx)), Vec3f(0.0f)});
     carrier = asked.node = plant.skeleton.size();
     addNode(asked.plant, asked.site.node, segment->to_vx, segment->quantities);
+    pieces_->add(limbTo(plant, carrier));
     ++segments_;
   }
   asked.first_element = plant.elements.size();
   for (ProposedElement& proposed : asked.proposal.elements) {
     if (proposed.element.shape < 0 || static_cast<std::size_t>(proposed.element.shape) >= plant.shapes.size())
       broken(planting, "proposed an element of a shape that its plant has not");
-    if (proposed.passage == Passage::through) claims_->keepFree(proposed.takes);
-    if (!claims_->allow(proposed.takes, from, voxelAt(proposed.element.position_vx))) continue;
-    claims_->take(proposed.takes, Claims::kNobody);
     proposed.element.node = carrier;
     proposed.element.born = growth_.iterations;
     const auto shape = static_cast<std::size_t>(proposed.element.shape);
+    const PartId part = plant.element_parts[shape];
+    if (!sim::place(proposed.element, pieces_->shapeOf(part), *facets_))
+      broken(planting, "put an element beyond all worlds");
+    if (proposed.passage == Passage::around) {
+      nearby_->clear();
+      pieces_->gather(facets_->box, before, -1, *nearby_);
+      if (nearby_->clash(*facets_, attachmentOf(plant, proposed.element))) continue;
+    }
+    pieces_->add(part, *facets_);
+    for (const Voxel v : proposed.takes) {
+      if (!contains(world_.frame().size, v)) broken(planting, "proposed a voxel outside the world");
+    }
     occupyWith(edit, proposed.takes,
-               {plant.element_parts[shape], plant.shapes[shape].colour, proposed.coverage,
-                Vec3f(proposed.element.z)});
+               {part, plant.shapes[shape].colour, proposed.coverage, Vec3f(proposed.element.z)});
     plant.elements.push_back(proposed.element);
   }
   asked.elements = plant.elements.size() - asked.first_element;
@@ -271,17 +303,16 @@ void Growing::place(Asked& asked, std::vector<TiledVoxel>& edit) {
 void Growing::acceptAll(std::vector<Asked>& asked) {
   std::vector<TiledVoxel> edit;
   std::vector<const Proposal*> accepted;  // of one planting
+  const std::uint32_t before = pieces_->size();
   for (std::size_t i = 0; i < asked.size(); ++i) {
     Asked& a = asked[i];
     Proposal& proposal = a.proposal;
     if (i > 0 && a.planting != asked[i - 1].planting) accepted.clear();
     if (proposal.outcome == Outcome::grown) {
-      const auto& segment = proposal.segment;
-      const bool hindered = segment && segment->passage == Passage::around &&
-                            !claims_->allow(segment->takes, {a.plant, a.site.node}, voxelAt(a.site.at_vx));
-      if (!hindered && plantings_[a.planting].process->agrees(proposal, accepted)) place(a, edit);
+      if (!hindered(a, before) && plantings_[a.planting].process->agrees(proposal, accepted))
+        place(a, before, edit);
       const bool placed = a.node != kNoNode || a.elements > 0;
-      if (!placed && (segment || !proposal.elements.empty())) {
+      if (!placed && (proposal.segment || !proposal.elements.empty())) {
         proposal.outcome = Outcome::claimed;
         for (Attempt& attempt : proposal.attempts) attempt.taken = false;
       } else {

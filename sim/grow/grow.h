@@ -12,6 +12,9 @@
 namespace espalier::sim {
 
 class Claims;
+class Nearby;
+class PieceGrid;
+struct Facets;
 
 struct GrowthProgress {
   int iteration = 0;  ///< that were done
@@ -44,8 +47,8 @@ struct Due {
 /// In each iteration (Greene's term; the design's tick) the world and the plants are frozen; every site that
 /// is due proposes in parallel, with random numbers that depend on (seed, planting, plant, node, number,
 /// iteration) alone; then the proposals are accepted one by one in the order (planting, plant, node, number),
-/// each against the voxels that earlier ones claimed in the same iteration. So nothing depends on the number
-/// of threads.
+/// each against what earlier ones placed in the same iteration: segments against each other by voxels, all
+/// else exactly (Process::propose). So nothing depends on the number of threads.
 ///
 /// A process that breaks its contract (a voxel outside the world, sites out of order) ends growth with
 /// BrokenContract, whatever the build.
@@ -86,7 +89,8 @@ class Growing {
                      const Commons& commons, bool record) const;
   void proposeAll(std::vector<Asked>& asked) const;
   void acceptAll(std::vector<Asked>& asked);
-  void place(Asked& asked, std::vector<TiledVoxel>& edit);
+  bool hindered(const Asked& asked, std::uint32_t before);
+  void place(Asked& asked, std::uint32_t before, std::vector<TiledVoxel>& edit);
   void settleAll(const std::vector<Asked>& asked);
 
   World& world_;
@@ -98,6 +102,9 @@ class Growing {
   std::optional<LightSensor> sensor_;   // if a process wants light
   std::optional<SkyTable> sky_table_;   // if a process wants it
   std::unique_ptr<Claims> claims_;
+  std::unique_ptr<PieceGrid> pieces_;
+  std::unique_ptr<Nearby> nearby_;  // while pieces are accepted
+  std::unique_ptr<Facets> facets_;  // likewise
   int first_ = 0;
   std::size_t segments_ = 0, elements_ = 0, proposals_ = 0;
 };

@@ -14,6 +14,7 @@
 #include "sim/light/brightest.h"
 #include "sim/light/light.h"
 #include "sim/sense/intersection.h"
+#include "sim/sense/piece_grid.h"
 #include "sim/world/world.h"
 
 /// What a growth process is: how random walk, diffusion, colonization or cracks tell the house what they want
@@ -59,15 +60,17 @@ struct Attempt {
 struct ProposedSegment {
   Vec3 to_vx{0.0};                    ///< where the new node would stand
   std::vector<Voxel> takes;           ///< what sim::fit gave
-  Passage passage = Passage::around;  ///< through: voxels claimed earlier do not hinder it
+  Passage passage = Passage::around;  ///< through: what was accepted earlier does not hinder it
   std::vector<float> quantities;  ///< of the new node: one a column of the plant, in the order of their names
 };
 
 struct ProposedElement {
-  PlacedElement element;     ///< node and born are filled in when it is placed
-  std::vector<Voxel> takes;  ///< what sim::fit gave
-  Passage passage = Passage::around;
-  float coverage = 0.0f;  ///< of each voxel that it takes
+  PlacedElement element;  ///< node and born are filled in when it is placed
+  /// Voxels inside the world that it adds its coverage to: those that its polygons lie in and that are not of
+  /// the scene, whatever of plants stands there. They hinder nobody of its plant.
+  std::vector<Voxel> takes;
+  Passage passage = Passage::around;  ///< through: what was accepted earlier does not hinder it
+  float coverage = 0.0f;              ///< of each voxel that it takes
 };
 
 /// A site that a new node brings with it. The house does nothing with it: the process finds it in the verdict
@@ -82,8 +85,8 @@ struct Proposal {
   Outcome outcome = Outcome::no_trial;
   bool retire = true;  ///< if it does not grow: never try again; for settle(), as sprouts are
   std::optional<ProposedSegment> segment = std::nullopt;
-  /// On the segment, or on the site's node where there is none. Those that an earlier claim hinders are left
-  /// out.
+  /// On the segment, or on the site's node where there is none. Those that clash with what was accepted
+  /// earlier in the iteration are left out.
   std::vector<ProposedElement> elements = {};
   std::vector<Sprout> sprouts = {};
   OutcomeCounts trials{};              ///< trials by what became of them
@@ -119,6 +122,7 @@ struct SiteView {
   const Kin& kin;
   const Columns& memory;
   const Commons& commons;
+  const PieceGrid& pieces;              ///< limbs and elements of all plants, to be tested exactly
   const Light* light = nullptr;         ///< at the site, if the process wants it
   const SkyTable* sky_table = nullptr;  ///< for those who look for the brightest spot
   int iteration = 0;
@@ -152,11 +156,15 @@ class Process {
   virtual void begin(const StandView& stand, Columns& memory, Commons& commons) const = 0;
   /// The sites that propose in this iteration, in ascending order of (plant, node, number), each once.
   virtual std::vector<Site> due(const StandView& stand, Columns& memory, Commons& commons) const = 0;
-  /// What one of them would place. Random numbers must follow from the key alone. The voxels of a piece are
-  /// those that sim::fit gave, in the world as it is frozen.
+  /// What one of them would place. Random numbers must follow from the key alone. A segment's voxels are
+  /// those that sim::fit gave, in the world as it is frozen. What stands is the process's own concern: it
+  /// asks sim::fit, and view.pieces for what must be exact. What is accepted before it in the same iteration
+  /// is the house's: of pieces that go around, a segment is left out (and all of its proposal with it) where
+  /// it shares a voxel with a segment or pierces an element of another plant, an element where its polygons
+  /// cross another's or a segment pierces them.
   virtual Proposal propose(const SiteView& view, const Site& site, const RandomKey& key) const = 0;
   /// Whether a proposal may stand beside those of its planting that were accepted before it in the same
-  /// iteration, `accepted`, when their voxels do not clash: for what voxels are too coarse to tell.
+  /// iteration, `accepted`, when its segment is not hindered: for what the house does not know of.
   virtual bool agrees(const Proposal& proposal, std::span<const Proposal* const> accepted) const {
     return static_cast<void>(proposal), static_cast<void>(accepted), true;
   }

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "sim/base/error.h"
+#include "sim/grow/pieces.h"
 #include "sim/grow/state.h"
 
 namespace espalier::sim {
@@ -33,10 +34,13 @@ bool sound(const Skeleton& s, Voxel size) {
   return true;
 }
 
-bool sound(const PlacedElement& e, const Plant& plant) {
-  return e.node >= 0 && e.node < plant.skeleton.size() && e.shape >= 0 &&
-         static_cast<std::size_t>(e.shape) < plant.shapes.size() && finite(e.position_vx) && finite(e.x) &&
-         finite(e.y) && finite(e.z) && std::isfinite(e.scale);
+bool sound(const PlacedElement& e, const Plant& plant, const std::vector<FacetShape>& shapes) {
+  if (e.node < 0 || e.node >= plant.skeleton.size() || e.shape < 0 ||
+      static_cast<std::size_t>(e.shape) >= plant.shapes.size() || !finite(e.position_vx) || !finite(e.x) ||
+      !finite(e.y) || !finite(e.z) || !std::isfinite(e.scale))
+    return false;
+  Facets facets;
+  return place(e, shapes[static_cast<std::size_t>(e.shape)], facets);
 }
 
 std::vector<std::string> namesOf(const Skeleton& skeleton) {
@@ -81,6 +85,8 @@ Growth restore(State state, World& world, const std::vector<Planting>& plantings
   for (std::size_t i = 0; i < plantings.size(); ++i) {
     const Planting& planting = plantings[i];
     const Plant seedling = planting.process->seedling();
+    std::vector<FacetShape> shapes;
+    for (const ElementShape& shape : seedling.shapes) shapes.push_back(facetShape(shape.polygons));
     for (std::size_t k = 0; k < planting.seeds.size(); ++k) {
       const std::size_t number = growth.stands[i].first + k;
       Plant& plant = growth.plants[number];
@@ -97,7 +103,7 @@ Growth restore(State state, World& world, const std::vector<Planting>& plantings
               fmt::format("'{}' keeps other columns than its process does", plant.name));
       require(sound(plant.skeleton, size), fmt::format("the state is damaged: '{}' is no tree", plant.name));
       require(std::all_of(plant.elements.begin(), plant.elements.end(),
-                          [&](const PlacedElement& e) { return sound(e, plant); }),
+                          [&](const PlacedElement& e) { return sound(e, plant, shapes); }),
               fmt::format("the state is damaged: an element of '{}' stands nowhere", plant.name));
     }
   }

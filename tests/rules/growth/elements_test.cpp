@@ -6,7 +6,9 @@
 #include <set>
 #include <tuple>
 
+#include "sim/grow/pieces.h"
 #include "sim/tile/tiling.h"
+#include "tests/support/crossings.h"
 #include "tests/support/lively.h"
 #include "tests/support/plots.h"
 
@@ -18,11 +20,17 @@ using sim::Vec3;
 /// A segment from [10, 10, 10] to [12, 10, 10] in a world, asked for its elements.
 std::vector<sim::ProposedElement> elementsOf(const sim::World& world, const RuleSet& rules,
                                              double vigour = 1.0) {
-  const sim::Plant plant;
+  sim::Plant plant;
+  sim::PieceGrid pieces(world.frame().size);
+  for (const Element& element : rules.elements) {
+    plant.element_parts.push_back(static_cast<sim::PartId>(plant.element_parts.size() + 1));
+    pieces.addPart(plant.element_parts.back(), 0,
+                   std::make_shared<sim::FacetShape>(sim::facetShape(element.polygons)));
+  }
   const sim::Kin kin;
   const sim::Columns memory;
   const sim::Commons commons;
-  const sim::SiteView view{world, plant, kin, memory, commons};
+  const sim::SiteView view{world, plant, kin, memory, commons, pieces};
   Surroundings around;
   around.at_vx = Vec3(10, 10, 10);
   around.voxel = {10, 10, 10};
@@ -78,30 +86,40 @@ TEST(Elements, FarLargerThanTheWorldCostNoTimeOrMemory) {
 TEST(Elements, AsManyAsTheRuleLanguageAllowsAllDrawTheirOwnNumbers) {
   const sim::World world = emptyWorld({22, 21, 21});
   RuleSet rules;
-  Element speck = square(1e-3);
+  Element speck = square(1e-9);  // in nobody's way
   speck.per_segment = 100.0;
   rules.elements.assign(64, speck);
   const auto placed = elementsOf(world, rules, 10.0);
-  EXPECT_GT(placed.size(), 63'000u);  // those that reach over a voxel's side are in each other's way
-  EXPECT_LE(placed.size(), 64'000u);
+  EXPECT_EQ(placed.size(), 64'000u);
   std::set<std::tuple<double, double, double>> attitudes;
   for (const auto& p : placed) attitudes.insert({p.element.position_vx.x, p.element.z.x, p.element.y.x});
   EXPECT_EQ(attitudes.size(), placed.size());
   EXPECT_EQ(placed.back().element.shape, 63);
 }
 
-TEST(Elements, TakeEachVoxelOnceAndNoneOfTheirSegment) {
+TEST(Elements, OfOneSegmentShareVoxelsAndDoNotCross) {
   const sim::World world = emptyWorld({22, 21, 21});
   Element element = square(2.0);
-  element.per_segment = 12.0;
+  element.per_segment = 40.0;
   element.trials = 100;
   const auto placed = elementsOf(world, with(element));
-  EXPECT_GT(placed.size(), 2u);
-  std::set<std::tuple<int, int, int>> taken = {{10, 10, 10}, {11, 10, 10}, {12, 10, 10}};
+  EXPECT_GT(placed.size(), 10u);
+  std::set<std::tuple<int, int, int>> taken;
+  std::size_t takes = 0;
+  double area = 0.0, covered = 0.0;
   for (const auto& p : placed) {
     EXPECT_FALSE(p.takes.empty());
-    for (const sim::Voxel v : p.takes) EXPECT_TRUE(taken.insert({v.x, v.y, v.z}).second);
+    for (const sim::Voxel v : p.takes) taken.insert({v.x, v.y, v.z});
+    takes += p.takes.size();
+    area += 4.0;
+    covered += static_cast<double>(p.coverage) * static_cast<double>(p.takes.size());
   }
+  EXPECT_GT(takes, 2 * taken.size());
+  EXPECT_NEAR(covered, area, 1e-3);
+  sim::Plant plant;
+  plant.shapes = {{"square", element.polygons}};
+  for (const auto& p : placed) plant.elements.push_back(p.element);
+  EXPECT_EQ(tests::crossings({plant}), 0u);
 }
 
 }  // namespace

@@ -188,6 +188,29 @@ TEST(Buds, SproutWhenTheyGrewAndRetireOrWaitWhenNot) {
   EXPECT_EQ(countBuds(memory), 0u);
 }
 
+TEST(Buds, OfASingleSegmentThatFoundNoWayLeaveItToTheSeed) {
+  const Chain chain(2);
+  sim::Columns memory;
+  beginBuds(chain.at(0), memory);
+  const sim::Site seed = dueBuds(chain.at(0), memory)[0];
+  sim::Proposal grew, failed;
+  grew.outcome = Outcome::grown;
+  grew.sprouts = {{0, 1}, {1, 3}};
+  settleBuds(chain.at(0), std::vector{verdict(seed, grew, Outcome::grown, 1)}, memory);
+  const sim::Site tip{0, 1, 0, {2, 1, 1}}, side{0, 1, 1, {2, 1, 1}};
+  settleBuds(chain.at(1), std::vector{verdict(tip, failed, Outcome::no_trial)}, memory);
+  EXPECT_EQ(dueBuds(chain.at(3), memory), std::vector{side});  // it may find one yet
+  settleBuds(chain.at(3), std::vector{verdict(side, failed, Outcome::no_trial)}, memory);
+  EXPECT_EQ(dueBuds(chain.at(3), memory), std::vector<sim::Site>{});
+  EXPECT_EQ(dueBuds(chain.at(4), memory), std::vector{seed});
+  // In the dark another segment would be as dark.
+  settleBuds(chain.at(4), std::vector{verdict(seed, grew, Outcome::grown, 1)}, memory);
+  settleBuds(chain.at(7),
+             std::vector{verdict(tip, failed, Outcome::too_dark), verdict(side, failed, Outcome::too_dark)},
+             memory);
+  EXPECT_EQ(countBuds(memory), 0u);
+}
+
 TEST(Buds, OfAForeignMemoryAreRefused) {
   const Chain chain(2);
   sim::Columns memory;

@@ -1,0 +1,39 @@
+#pragma once
+#include <array>
+
+#include "sim/base/vec.h"
+
+/// Whether triangles and straight lines cross. Points lie on tiling's lattice (sim/tile/tiling.h: 1/4096 of a
+/// voxel width, |component| below 2^26), and all arithmetic is exact integers: no tolerance, and the same
+/// answer on every machine.
+namespace espalier::sim {
+
+using LatticePoint = glm::ivec3;
+using LatticeTriangle = std::array<LatticePoint, 3>;
+
+/// An upright box, bounds included.
+struct LatticeBox {
+  LatticePoint low{0}, high{0};
+};
+
+/// Whether two boxes share a point.
+inline bool meet(const LatticeBox& a, const LatticeBox& b) {
+  return a.low.x <= b.high.x && b.low.x <= a.high.x && a.low.y <= b.high.y && b.low.y <= a.high.y &&
+         a.low.z <= b.high.z && b.low.z <= a.high.z;
+}
+
+LatticePoint latticePoint(Vec3 p_vx);
+LatticeBox boxOf(const LatticeTriangle& triangle);
+LatticeBox boxOf(LatticePoint a, LatticePoint b);
+
+/// Whether two triangles cross: what they share has a length or, where they lie in one plane, an area. Those
+/// that only touch, at a corner or with an edge from one side, do not; a triangle without area crosses
+/// nothing. (Orientations alone, after Guigue and Devillers 2003.)
+bool cross(const LatticeTriangle& a, const LatticeTriangle& b);
+
+/// Whether a straight line pierces a triangle: its ends lie on different sides of the plane, and it passes
+/// the triangle's inside or its edge. An end in the plane counts as lying behind it, so that of the limbs of
+/// one way that meet in the plane exactly one pierces. A triangle without area is not pierced.
+bool pierces(LatticePoint from, LatticePoint to, const LatticeTriangle& triangle);
+
+}  // namespace espalier::sim

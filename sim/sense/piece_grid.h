@@ -1,0 +1,126 @@
+#pragma once
+#include <array>
+#include <cstdint>
+#include <deque>
+#include <memory>
+#include <vector>
+
+#include "sim/sense/crossing.h"
+#include "sim/world/world.h"
+
+/// What of all plants is near, exactly: limbs as straight lines, elements as triangles.
+namespace espalier::sim {
+
+/// A shape's polygons, as triangles of the fans that tiling makes of them.
+struct FacetShape {
+  std::vector<Vec3> corners;                            ///< local frame, each once
+  std::vector<std::array<std::uint32_t, 3>> triangles;  ///< numbers of their corners
+};
+
+/// Polygons of three or more corners each.
+FacetShape facetShape(const std::vector<std::vector<Vec3>>& polygons);
+
+/// An element in its place.
+struct Facets {
+  const FacetShape* shape = nullptr;  ///< borrowed
+  std::vector<LatticePoint> corners;
+  LatticeBox box;
+};
+
+struct Limb {
+  LatticePoint from{0}, to{0};
+  PartId stem = kFree;    ///< of its plant
+  std::int32_t node = 0;  ///< in which it ends
+};
+
+/// Where an element is attached: the limbs that it may touch there are no obstacle.
+struct Attachment {
+  LatticePoint at{0};      ///< limbs that begin or end here
+  PartId stem = kFree;     ///< and the one of this plant
+  std::int32_t node = -1;  ///< that ends in this node
+};
+
+/// Pieces that lie near each other, ready for many questions.
+class Nearby {
+ public:
+  void clear();
+  void add(const Limb& limb) { limbs_.push_back(limb); }
+  void add(const Facets& element);
+
+  /// Whether an element clashes with one of the pieces: a polygon of it crosses one of another element, or a
+  /// limb pierces it.
+  bool clash(const Facets& element, const Attachment& attachment) const;
+  /// Whether a limb pierces one of the elements.
+  bool clash(const Limb& limb) const;
+
+ private:
+  struct Body {
+    LatticeBox box;
+    std::uint32_t first = 0, last = 0;  // of triangles_
+  };
+  std::vector<Limb> limbs_;
+  std::vector<Body> bodies_;
+  std::vector<LatticeTriangle> triangles_;
+  friend class PieceGrid;
+};
+
+/// The limbs and elements of all plants, by place. Pieces are added and never removed; const members may be
+/// called from any number of threads meanwhile nothing is added.
+class PieceGrid {
+ public:
+  /// Pieces may lie beyond a world of this size; they are found there too.
+  explicit PieceGrid(Voxel size);
+
+  /// Elements of a part and of a plant have these facets. A part is known once.
+  void addPart(PartId part, int plant, std::shared_ptr<const FacetShape> shape);
+  /// Throws BrokenContract for a part that is not known.
+  const FacetShape& shapeOf(PartId part) const;
+
+  void add(const Limb& limb);
+  void add(PartId part, const Facets& element);
+  /// Pieces so far: what is added from now on has numbers from here on.
+  std::uint32_t size() const { return static_cast<std::uint32_t>(pieces_.size()); }
+
+  /// Adds to `nearby` the pieces whose bounds meet a box, but those with numbers below `from`, and the
+  /// elements of plant `but` (-1: none).
+  void gather(const LatticeBox& box, std::uint32_t from, int but, Nearby& nearby) const;
+
+ private:
+  // A limb from `a` to `b`, or an element with the bounds `a` and `b`. Numbers count from 1.
+  struct Piece {
+    LatticePoint a, b;
+    std::uint32_t data;  // a limb's node; where an element's corners stand
+    PartId part;         // of an element; of a limb's stem, negative
+  };
+  // Numbers of pieces that touch a cell, in order, 0 where there is room; the youngest chunk is the first.
+  struct Chunk {
+    std::array<std::uint32_t, 7> pieces{};
+    std::uint32_t older = 0;
+  };
+  using Block = std::array<std::uint32_t, 8>;  // the first chunk of each of its 2 x 2 x 2 cells
+  struct Kind {
+    int plant = -1;
+    std::shared_ptr<const FacetShape> shape;
+  };
+  struct CellBox {
+    Voxel low, high;
+    int count() const;
+  };
+
+  CellBox cellsOf(const LatticeBox& box) const;
+  void list(std::uint32_t number, const LatticeBox& box);
+  void listLimb(std::uint32_t number, LatticePoint from, LatticePoint to);
+  void listTriangle(std::uint32_t number, const LatticeTriangle& triangle);
+  std::uint32_t keep(const Facets& element);
+  void unpack(const Piece& piece, Nearby& nearby) const;
+
+  Voxel cells_, blocks_;
+  std::vector<std::uint32_t> block_of_;  // by place; 0: nothing there
+  std::deque<Block> contents_;
+  std::deque<Chunk> chunks_;
+  std::deque<Piece> pieces_;
+  std::deque<std::vector<std::uint16_t>> corners_;
+  std::vector<Kind> kinds_;  // by part
+};
+
+}  // namespace espalier::sim

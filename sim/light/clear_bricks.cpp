@@ -93,16 +93,16 @@ void unite(const Layout& layout, const Plane& from, Voxel step, Plane& into) {
   if (std::abs(by) >= static_cast<int>(8 * layout.lane_bytes)) return;
   const std::uint64_t mask = kept(layout.lane_bytes, by);
   const int along = step[layout.row], across = step[layout.column];
-  const int first = std::max(0, -along), last = layout.lanes - std::max(0, along);
-  if (first >= last) return;
-  const std::size_t bytes = static_cast<std::size_t>(last - first) * layout.lane_bytes;
-  for (int line = std::max(0, -across); line < layout.lines - std::max(0, across); ++line) {
-    const std::uint8_t* const source = from.data() + static_cast<std::size_t>(line + across) * layout.line_bytes +
-                                       static_cast<std::size_t>(first + along) * layout.lane_bytes;
-    std::uint8_t* const target = into.data() + static_cast<std::size_t>(line) * layout.line_bytes +
-                                 static_cast<std::size_t>(first) * layout.lane_bytes;
-    looking::uniteShifted(target, source, bytes, by, mask);
-  }
+  const int lanes = layout.lanes - std::abs(along), lines = layout.lines - std::abs(across);
+  if (lanes <= 0 || lines <= 0) return;
+  const auto at = [&](int line, int lane) {
+    return static_cast<std::size_t>(std::max(0, line)) * layout.line_bytes +
+           static_cast<std::size_t>(std::max(0, lane)) * layout.lane_bytes;
+  };
+  looking::uniteShifted(into.data() + at(-across, -along), from.data() + at(across, along),
+                        {static_cast<std::size_t>(lines), static_cast<std::size_t>(lanes) * layout.lane_bytes,
+                         layout.line_bytes},
+                        by, mask);
 }
 
 }  // namespace
@@ -148,7 +148,7 @@ ClearBricks::ClearBricks(const BitVolume& occupied, std::span<const LatticeDirec
       if (s[axis] != 0) unite(layout, before, step, at->second);
     }
   }
-  rows_.resize(kWords * 8 * layout.bytes());
+  rows_.resize(kWords * 8 * layout.bytes(), ~std::uint64_t{0});
   const std::size_t groups = (directions.size() + 63) / 64;
   parallelForEach(groups, [&](std::size_t group) {
     const auto mine = directions.subspan(64 * group, std::min<std::size_t>(64, directions.size() - 64 * group));
@@ -171,9 +171,11 @@ ClearBricks::ClearBricks(const BitVolume& occupied, std::span<const LatticeDirec
     }
     for (std::size_t byte = 0; byte < layout.bytes(); byte += 8) {
       std::array<std::uint64_t, 64> square{};
-      for (std::size_t i = 0; i < mine.size(); ++i) square[i] = ~load(blocked[i].data() + byte);
+      std::uint64_t any = 0;
+      for (std::size_t i = 0; i < mine.size(); ++i) any |= square[i] = load(blocked[i].data() + byte);
+      if (any == 0) continue;
       lanes::transpose(square.data());
-      for (std::size_t bit = 0; bit < 64; ++bit) rows_[kWords * (8 * byte + bit) + group] = square[bit];
+      for (std::size_t bit = 0; bit < 64; ++bit) rows_[kWords * (8 * byte + bit) + group] = ~square[bit];
     }
   });
 }

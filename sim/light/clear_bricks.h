@@ -28,9 +28,8 @@ class ClearBricks {
     return contains(bricks_, brick) ? rows_.data() + kWords * index(brick) : kAll;
   }
   bool is(std::size_t direction, Voxel voxel) const {
-    const std::uint64_t* const row =
-        contains(size_, voxel) ? rows_.data() + kWords * index(voxel >> Voxel(3)) : kAll;
-    return ((row[direction / 64] >> (direction % 64)) & 1u) != 0;
+    if (!contains(size_, voxel)) return true;
+    return ((rows_[kWords * index(voxel >> Voxel(3)) + direction / 64] >> (direction % 64)) & 1u) != 0;
   }
 
  private:

@@ -1,7 +1,9 @@
 #include "sim/light/look.h"
 
+#include <algorithm>
 #include <bit>
 #include <cstring>
+#include <limits>
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "sim/light/look.cpp"
@@ -13,68 +15,110 @@ HWY_BEFORE_NAMESPACE();
 namespace espalier::sim::looking::HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
-using Words = hn::CappedTag<std::uint64_t, ClearBricks::kWords>;
 
 constexpr std::size_t kWords = ClearBricks::kWords;
 constexpr int kSide = ClearBricks::kSide;
 
+/// A group's mask in as many vectors as it takes.
+constexpr std::size_t kLanes = HWY_MIN(kWords, HWY_LANES(std::uint64_t)), kParts = kWords / kLanes;
+using Words = hn::CappedTag<std::uint64_t, kLanes>;
+using Vector = hn::Vec<Words>;
+
+HWY_INLINE Vector part(const Mask& mask, std::size_t i) { return hn::Load(Words(), mask.words.data() + kLanes * i); }
+
+HWY_INLINE Mask maskOf(const Vector (&parts)[kParts]) {
+  Mask mask;
+  for (std::size_t i = 0; i < kParts; ++i) hn::Store(parts[i], Words(), mask.words.data() + kLanes * i);
+  return mask;
+}
+
 /// The directions that are blocked near a place.
 HWY_INLINE Mask blockedNear(const BitVolume& occupied, const Group& group, Voxel p) {
-  const Words d;
   const Voxel size = occupied.size();
   const int x = p.x - kNear;
-  Mask blocked;
-  for (std::size_t r = 0; r < group.rows.size(); ++r) {
-    const int y = p.y + group.rows[r][0], z = p.z + group.rows[r][1];
-    if (y < 0 || y >= size.y || z < 0 || z >= size.z) continue;
-    const std::uint64_t* const row = occupied.row(y, z) + (x >> 6);
-    const std::uint64_t bits = (row[0] >> (x & 63)) | (row[1] << 1 << (63 - (x & 63)));
-    for (std::size_t k = 0; k < kWords; k += hn::Lanes(d)) {
-      auto all = hn::Load(d, blocked.words.data() + k);
-      for (std::size_t n = 0; n < kFours; ++n)
-        all = hn::Or(all, hn::Load(d, group.crossing[r][n][(bits >> (4 * n)) & 15u].words.data() + k));
-      hn::Store(all, d, blocked.words.data() + k);
+  const int shift = x & 63;
+  const std::ptrdiff_t line = occupied.rowWords();
+  Vector blocked[kParts];
+  for (Vector& words : blocked) words = hn::Zero(Words());
+  const auto* crossing = group.crossing.data();
+  for (int dy = group.lowest; dy <= kNear; ++dy, crossing += 2 * kNear + 1) {
+    if (p.y + dy < 0 || p.y + dy >= size.y) continue;
+    const int first = std::max(-kNear, -p.z), last = std::min(kNear, size.z - 1 - p.z);
+    const std::uint64_t* row = occupied.row(p.y + dy, p.z + first) + (x >> 6);
+    for (int dz = first; dz <= last; ++dz, row += line) {
+      const std::uint64_t bits = (row[0] >> shift) | (row[1] << 1 << (63 - shift));
+      const auto& fours = crossing[dz + kNear];
+      for (std::size_t n = 0; n < kFours; ++n) {
+        const Mask& mask = fours[n][(bits >> (4 * n)) & 15u];
+        for (std::size_t i = 0; i < kParts; ++i) blocked[i] = hn::Or(blocked[i], part(mask, i));
+      }
     }
   }
-  return blocked;
+  return maskOf(blocked);
 }
 
 /// The directions that meet nothing any more beyond what is near.
 HWY_INLINE Mask clearBeyondNear(const Group& group, const ClearBricks& clear, Voxel p) {
-  const Words d;
   const auto& in_x = group.leaving[0][static_cast<std::size_t>(p.x % kSide)];
   const auto& in_y = group.leaving[1][static_cast<std::size_t>(p.y % kSide)];
   const auto& in_z = group.leaving[2][static_cast<std::size_t>(p.z % kSide)];
-  Mask found;
-  for (int dy = -1; dy <= 1; ++dy) {
-    for (int dz = -1; dz <= 1; ++dz) {
-      for (int dx = -1; dx <= 1; ++dx) {
-        const std::uint64_t* const row = clear.ofBrick(p / kSide + Voxel(dx, dy, dz));
-        for (std::size_t k = 0; k < kWords; k += hn::Lanes(d)) {
-          const auto across = hn::And(hn::Load(d, in_x[static_cast<std::size_t>(dx + 1)].words.data() + k),
-                                      hn::Load(d, in_z[static_cast<std::size_t>(dz + 1)].words.data() + k));
-          const auto up = hn::And(hn::Load(d, in_y[static_cast<std::size_t>(dy + 1)].words.data() + k), hn::LoadU(d, row + k));
-          hn::Store(hn::Or(hn::Load(d, found.words.data() + k), hn::And(across, up)), d, found.words.data() + k);
+  Vector found[kParts];
+  for (Vector& words : found) words = hn::Zero(Words());
+  for (std::size_t y = group.lowest < 0 ? 0 : 1; y < 3; ++y) {
+    for (std::size_t z = 0; z < 3; ++z) {
+      for (std::size_t x = 0; x < 3; ++x) {
+        const std::uint64_t* const row = clear.ofBrick(p / kSide + Voxel(x, y, z) - 1);
+        for (std::size_t i = 0; i < kParts; ++i) {
+          const Vector here = hn::And(hn::And(part(in_x[x], i), part(in_z[z], i)),
+                                      hn::And(part(in_y[y], i), hn::LoadU(Words(), row + kLanes * i)));
+          found[i] = hn::Or(found[i], here);
         }
       }
     }
   }
-  return found;
+  return maskOf(found);
 }
 
-/// From where the legs end, with a look ahead after each period.
+/// How many whole periods of v fit between p and the edge of the world.
+int periodsInside(Voxel size, Voxel p, Voxel v) {
+  int periods = std::numeric_limits<int>::max();
+  for (int axis = 0; axis < 3; ++axis) {
+    if (v[axis] > 0) periods = std::min(periods, (size[axis] - 1 - p[axis]) / v[axis]);
+    if (v[axis] < 0) periods = std::min(periods, p[axis] / -v[axis]);
+  }
+  return periods;
+}
+
+/// From where the legs end, with a look ahead from time to time.
 bool walkOn(const BitVolume& occupied, const Group& group, const ClearBricks& clear, Voxel p, std::size_t i) {
+  constexpr std::size_t kAtOnce = 8;
   const LatticeDirection& direction = group.directions[i];
   const std::size_t period = direction.crossed.size(), done = group.rays[i].near + kSteps;
+  const std::uint64_t* const words = occupied.words().data();
+  const std::int64_t* const steps = group.period_steps.data() + group.first_step[i];
+  std::size_t k = done % period;
   Voxel base = p + static_cast<int>(done / period) * direction.v;
-  for (std::size_t k = done % period;; k = 0, base += direction.v) {
-    for (; k < period; ++k) {
-      const Voxel q = base + direction.crossed[k];
-      if (!contains(occupied.size(), q)) return true;
-      if (occupied.at(q)) return false;
+  std::ptrdiff_t start = (occupied.row(base.y, base.z) - words) * BitVolume::kWordBits + base.x;
+  for (int left = periodsInside(occupied.size(), base, direction.v); left > 0; --left) {
+    while (k < period) {
+      std::uint64_t hit = 0;
+      for (const std::size_t end = std::min(period, k + kAtOnce); k < end; ++k) {
+        const std::ptrdiff_t at = start + steps[k];
+        hit |= words[at >> 6] >> (at & 63);
+      }
+      if ((hit & 1u) != 0) return false;
+      if (clear.is(i, base + direction.crossed[k - 1])) return true;
     }
-    if (clear.is(i, base + direction.v)) return true;
+    k = 0;
+    base += direction.v;
+    start += steps[period - 1];
   }
+  for (; k < period; ++k) {
+    const Voxel q = base + direction.crossed[k];
+    if (!contains(occupied.size(), q)) return true;
+    if (occupied.at(q)) return false;
+  }
+  return true;
 }
 
 /// What the legs are walked in.
@@ -107,12 +151,13 @@ HWY_INLINE std::uint64_t walkLegs(const BitVolume& occupied, const Group& group,
     for (; ask != 0; ask &= ask - 1) {
       const auto i = static_cast<std::size_t>(std::countr_zero(ask));
       const Ray& ray = group.rays[first + i];
-      std::size_t within = 0;
+      std::size_t within = kSteps;
       if (kRim) {
         const Voxel v = group.directions[first + i].v;
         within = std::min(ray.within_y[v.y < 0 ? around.down : around.up], ray.within_z[v.z < 0 ? around.before : around.behind]);
       }
-      const std::uint64_t free = hits<kRim>(around, ray, within, leg) ^ 1u;
+      const std::uint64_t free =
+          (within >= kLegs[leg] ? hits<false>(around, ray, within, leg) : hits<true>(around, ray, within, leg)) ^ 1u;
       const std::uint64_t ends = clear.is(first + i, p + ray.beyond[leg]) ? 1 : 0;
       found |= (free & ends) << i;
       next |= (free & ~ends) << i;
@@ -148,21 +193,24 @@ void Look(const BitVolume& occupied, const Group& group, const ClearBricks& clea
   }
 }
 
-void UniteShifted(std::uint8_t* target, const std::uint8_t* source, std::size_t bytes, int by,
-                  std::uint64_t mask) {
-  const auto unite = [&](auto shifted) HWY_ATTR {
-    for (std::size_t i = 0; i < bytes; i += 8) {
+template <typename Shifted>
+HWY_INLINE void uniteLines(std::uint8_t* target, const std::uint8_t* source, Lines lines, const Shifted& shifted) {
+  for (std::size_t line = 0; line < lines.count; ++line, target += lines.apart, source += lines.apart) {
+    for (std::size_t i = 0; i < lines.bytes; i += 8) {
       std::uint64_t from, to;
       std::memcpy(&from, source + i, 8);
       std::memcpy(&to, target + i, 8);
-      to |= shifted(from) & mask;
+      to |= shifted(from);
       std::memcpy(target + i, &to, 8);
     }
-  };
+  }
+}
+
+void UniteShifted(std::uint8_t* target, const std::uint8_t* source, Lines lines, int by, std::uint64_t mask) {
   if (by >= 0) {
-    unite([by](std::uint64_t word) HWY_ATTR { return word >> by; });
+    uniteLines(target, source, lines, [by, mask](std::uint64_t word) HWY_ATTR { return (word >> by) & mask; });
   } else {
-    unite([by](std::uint64_t word) HWY_ATTR { return word << -by; });
+    uniteLines(target, source, lines, [by, mask](std::uint64_t word) HWY_ATTR { return (word << -by) & mask; });
   }
 }
 
@@ -180,9 +228,8 @@ void look(const BitVolume& occupied, const Group& group, const ClearBricks& clea
   HWY_DYNAMIC_DISPATCH(Look)(occupied, group, clear, places, open, stride);
 }
 
-void uniteShifted(std::uint8_t* target, const std::uint8_t* source, std::size_t bytes, int by,
-                  std::uint64_t mask) {
-  HWY_DYNAMIC_DISPATCH(UniteShifted)(target, source, bytes, by, mask);
+void uniteShifted(std::uint8_t* target, const std::uint8_t* source, Lines lines, int by, std::uint64_t mask) {
+  HWY_DYNAMIC_DISPATCH(UniteShifted)(target, source, lines, by, mask);
 }
 
 }  // namespace espalier::sim::looking

@@ -39,23 +39,30 @@ struct Ray {
 /// As many directions as a mask has bits, made ready.
 struct Group {
   std::span<const LatticeDirection> directions;
-  /// Rows of near voxels, by (y, z) from the place; and for each of them and each pattern of four voxels the
-  /// directions that cross one of the pattern's.
-  std::vector<std::array<int, 2>> rows;
+  int lowest;  ///< of the directions' near voxels, along y from the place: 0 or -kNear
+  /// For each row of near voxels, from (lowest, -kNear) to (kNear, kNear) along (y, z), and each pattern of
+  /// four of its voxels the directions that cross one of the pattern's.
   std::vector<std::array<std::array<Mask, 16>, kFours>> crossing;
   /// By axis and by the place's way into its brick: the directions that leave what is near in the brick
   /// before, in the same, and in the one behind.
   std::array<std::array<std::array<Mask, 3>, ClearBricks::kSide>, 3> leaving;
   std::vector<Ray> rays;
+  /// From a place to the voxels of a period, in bits of the volume; those of direction i from first_step[i] on.
+  std::vector<std::int64_t> period_steps;
+  std::vector<std::size_t> first_step;
 };
 
 /// For each place a row of bits, `stride` words apart: the group's directions that reach the world's edge.
 void look(const BitVolume& occupied, const Group& group, const ClearBricks& clear,
           std::span<const Voxel> places, std::uint64_t* open, std::size_t stride);
 
+/// Lines of bytes, `apart` from one to the next, of which `bytes` are meant.
+struct Lines {
+  std::size_t count, bytes, apart;
+};
+
 /// target |= source, each word shifted down by 0 <= `by` < 64 (up by -by) and masked. Reads and writes whole
 /// words.
-void uniteShifted(std::uint8_t* target, const std::uint8_t* source, std::size_t bytes, int by,
-                  std::uint64_t mask);
+void uniteShifted(std::uint8_t* target, const std::uint8_t* source, Lines lines, int by, std::uint64_t mask);
 
 }  // namespace espalier::sim::looking

@@ -26,12 +26,18 @@ Voxel crossed(const LatticeDirection& direction, std::size_t i) {
   return direction.crossed[i % period] + static_cast<int>(i / period) * direction.v;
 }
 
+/// In bits of the volume.
+std::int64_t stepOf(const BitVolume& shape, Voxel o) {
+  const std::int64_t row = std::int64_t{o.y} * shape.size().z + o.z;
+  return row * shape.rowWords() * BitVolume::kWordBits + o.x;
+}
+
 looking::Ray rayOf(const BitVolume& shape, const LatticeDirection& direction) {
   looking::Ray ray{};
   while (farthest(crossed(direction, ray.near)) <= kNear) ++ray.near;
   for (std::size_t i = 0; i < kSteps; ++i) {
     const Voxel o = crossed(direction, ray.near + i);
-    ray.steps[i] = (o.y * shape.size().z + o.z) * shape.rowWords() * BitVolume::kWordBits + o.x;
+    ray.steps[i] = static_cast<std::int32_t>(stepOf(shape, o));
     for (std::size_t within = 0; within < kFar; ++within) {
       if (std::abs(o.y) <= static_cast<int>(within)) ray.within_y[within] = static_cast<std::uint8_t>(i + 1);
       if (std::abs(o.z) <= static_cast<int>(within)) ray.within_z[within] = static_cast<std::uint8_t>(i + 1);
@@ -43,18 +49,16 @@ looking::Ray rayOf(const BitVolume& shape, const LatticeDirection& direction) {
 }
 
 looking::Group groupOf(const BitVolume& shape, std::span<const LatticeDirection> directions) {
-  looking::Group group{directions, {}, {}, {}, {}};
   const bool down = std::any_of(directions.begin(), directions.end(), [](const auto& d) { return d.v.y < 0; });
-  for (int y = down ? -kNear : 0; y <= kNear; ++y) {
-    for (int z = -kNear; z <= kNear; ++z) group.rows.push_back({y, z});
-  }
-  group.crossing.resize(group.rows.size());
+  constexpr int kAcross = 2 * kNear + 1;
+  looking::Group group{directions, down ? -kNear : 0, {}, {}, {}, {}, {}};
+  group.crossing.resize(static_cast<std::size_t>(kAcross * (kNear + 1 - group.lowest)));
   for (std::size_t i = 0; i < directions.size(); ++i) {
     const auto include = [&](looking::Mask& mask) { mask.words[i / 64] |= std::uint64_t{1} << (i % 64); };
     const looking::Ray ray = rayOf(shape, directions[i]);
     for (std::size_t k = 0; k < ray.near; ++k) {
       const Voxel o = crossed(directions[i], k);
-      const int row = (o.y - group.rows[0][0]) * (2 * kNear + 1) + o.z + kNear;
+      const int row = (o.y - group.lowest) * kAcross + o.z + kNear;
       const auto x = static_cast<std::size_t>(o.x + kNear);
       for (std::size_t pattern = 0; pattern < 16; ++pattern) {
         if (((pattern >> (x % 4)) & 1u) != 0) include(group.crossing[static_cast<std::size_t>(row)][x / 4][pattern]);
@@ -67,6 +71,8 @@ looking::Group groupOf(const BitVolume& shape, std::span<const LatticeDirection>
       }
     }
     group.rays.push_back(ray);
+    group.first_step.push_back(group.period_steps.size());
+    for (const Voxel o : directions[i].crossed) group.period_steps.push_back(stepOf(shape, o));
   }
   return group;
 }

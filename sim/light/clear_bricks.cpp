@@ -109,10 +109,6 @@ void unite(const Layout& layout, const Plane& from, Voxel step, Plane& into) {
 
 ClearBricks::ClearBricks(const BitVolume& occupied, std::span<const LatticeDirection> directions)
     : size_(occupied.size()), bricks_((size_ + (kSide - 1)) / kSide) {
-  if (directions.empty()) {
-    rows_.resize(kWords);
-    return;
-  }
   const BitVolume bricks = bricksOf(occupied);
   const Voxel size = bricks.size();
   const Layout layout(size);

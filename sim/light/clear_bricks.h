@@ -20,7 +20,7 @@ class ClearBricks {
 
   static constexpr std::size_t kWords = 4;  ///< of the directions' bits
 
-  /// At most 64 * kWords directions. Without any, nothing is known, and no brick is clear.
+  /// At most 64 * kWords directions.
   ClearBricks(const BitVolume& occupied, std::span<const LatticeDirection> directions);
 
   /// kWords words; bit i is direction i. Outside of the world all are clear.

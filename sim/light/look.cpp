@@ -79,6 +79,26 @@ HWY_INLINE Mask clearBeyondNear(const Group& group, const ClearBricks& clear, Vo
   return maskOf(found);
 }
 
+/// Whether one of the first `count` of the next kAtOnce steps is occupied. If that is not all of them, others
+/// may lie outside of the volume's words.
+template <bool kSome>
+HWY_INLINE bool anyOf(const std::uint64_t* words, std::ptrdiff_t start, const std::int32_t* steps, std::size_t count) {
+  const hn::CappedTag<std::int64_t, kAtOnce> d;
+  const hn::RebindToUnsigned<decltype(d)> du;
+  const hn::Rebind<std::int32_t, decltype(d)> d32;
+  auto hit = hn::Zero(du);
+  for (std::size_t k = 0; k < kAtOnce; k += hn::Lanes(d)) {
+    auto at = hn::Add(hn::PromoteTo(d, hn::LoadU(d32, steps + k)), hn::Set(d, start));
+    if (kSome) {  // the first word holds zeros
+      const auto meant = hn::Lt(hn::Iota(d, static_cast<std::int64_t>(k)), hn::Set(d, static_cast<std::int64_t>(count)));
+      at = hn::IfThenElseZero(meant, at);
+    }
+    const auto read = hn::GatherIndex(du, words, hn::ShiftRight<6>(at));
+    hit = hn::Or(hit, hn::Shr(read, hn::And(hn::BitCast(du, at), hn::Set(du, 63))));
+  }
+  return !hn::AllTrue(du, hn::Eq(hn::And(hit, hn::Set(du, 1)), hn::Zero(du)));
+}
+
 /// How many whole periods of v fit between p and the edge of the world.
 int periodsInside(Voxel size, Voxel p, Voxel v) {
   int periods = std::numeric_limits<int>::max();
@@ -90,24 +110,21 @@ int periodsInside(Voxel size, Voxel p, Voxel v) {
 }
 
 /// From where the legs end, with a look ahead from time to time.
-bool walkOn(const BitVolume& occupied, const Group& group, const ClearBricks& clear, Voxel p, std::size_t i) {
-  constexpr std::size_t kAtOnce = 8;
+HWY_INLINE bool walkOn(const BitVolume& occupied, const Group& group, const ClearBricks& clear, Voxel p, std::size_t i) {
   const LatticeDirection& direction = group.directions[i];
   const std::size_t period = direction.crossed.size(), done = group.rays[i].near + kSteps;
   const std::uint64_t* const words = occupied.words().data();
-  const std::int64_t* const steps = group.period_steps.data() + group.first_step[i];
+  const std::int32_t* const steps = group.period_steps.data() + group.first_step[i];
   std::size_t k = done % period;
   Voxel base = p + static_cast<int>(done / period) * direction.v;
   std::ptrdiff_t start = (occupied.row(base.y, base.z) - words) * BitVolume::kWordBits + base.x;
   for (int left = periodsInside(occupied.size(), base, direction.v); left > 0; --left) {
-    while (k < period) {
-      std::uint64_t hit = 0;
-      for (const std::size_t end = std::min(period, k + kAtOnce); k < end; ++k) {
-        const std::ptrdiff_t at = start + steps[k];
-        hit |= words[at >> 6] >> (at & 63);
-      }
-      if ((hit & 1u) != 0) return false;
-      if (clear.is(i, base + direction.crossed[k - 1])) return true;
+    for (std::size_t next; k < period; k = next) {
+      next = std::min(period, k + kAtOnce);
+      if (next - k == kAtOnce ? anyOf<false>(words, start, steps + k, kAtOnce)
+                              : anyOf<true>(words, start, steps + k, next - k))
+        return false;
+      if (clear.is(i, base + direction.crossed[next - 1])) return true;
     }
     k = 0;
     base += direction.v;
@@ -129,18 +146,15 @@ struct Around {
   std::size_t up, down, before, behind;  // voxels from the place to the rim
 };
 
-/// Whether one of the leg's steps is occupied. A step that would lie outside reads the first word, zeros.
-template <bool kRim>
-HWY_INLINE std::uint64_t hits(const Around& around, const Ray& ray, std::size_t within, std::size_t leg) {
-  std::uint64_t hit = 0;
-  for (std::size_t s = kLegs[leg - 1]; s < kLegs[leg]; s += 8) {
-    for (std::size_t k = s; k < s + 8; ++k) {
-      std::ptrdiff_t at = around.start + ray.steps[k];
-      if (kRim) at = k < within ? at : 0;
-      hit |= around.words[at >> 6] >> (at & 63);
-    }
+/// Whether one of the leg's first steps, those before `within`, is occupied.
+HWY_INLINE bool hits(const Around& around, const Ray& ray, std::size_t within, std::size_t leg) {
+  for (std::size_t s = kLegs[leg - 1]; s < kLegs[leg]; s += kAtOnce) {
+    const std::int32_t* const steps = ray.steps.data() + s;
+    if (within >= s + kAtOnce ? anyOf<false>(around.words, around.start, steps, kAtOnce)
+                              : anyOf<true>(around.words, around.start, steps, within > s ? within - s : 0))
+      return true;
   }
-  return hit & 1u;
+  return false;
 }
 
 template <bool kRim>
@@ -156,8 +170,7 @@ HWY_INLINE std::uint64_t walkLegs(const BitVolume& occupied, const Group& group,
         const Voxel v = group.directions[first + i].v;
         within = std::min(ray.within_y[v.y < 0 ? around.down : around.up], ray.within_z[v.z < 0 ? around.before : around.behind]);
       }
-      const std::uint64_t free =
-          (within >= kLegs[leg] ? hits<false>(around, ray, within, leg) : hits<true>(around, ray, within, leg)) ^ 1u;
+      const std::uint64_t free = hits(around, ray, within, leg) ? 0 : 1;
       const std::uint64_t ends = clear.is(first + i, p + ray.beyond[leg]) ? 1 : 0;
       found |= (free & ends) << i;
       next |= (free & ~ends) << i;
@@ -176,7 +189,12 @@ void Look(const BitVolume& occupied, const Group& group, const ClearBricks& clea
   const Voxel size = occupied.size();
   const std::size_t columns = (group.directions.size() + 63) / 64;
   const auto capped = [](int voxels) { return static_cast<std::size_t>(std::min(voxels, kFar - 1)); };
-  for (const Voxel p : places) {
+  for (std::size_t n = 0; n < places.size(); ++n, open += stride) {
+    const Voxel p = places[n];
+    if (n > 0 && p == places[n - 1]) {  // a node's buds
+      std::copy_n(open - stride, columns, open);
+      continue;
+    }
     const Mask blocked = blockedNear(occupied, group, p), at_once = clearBeyondNear(group, clear, p);
     Around around{occupied.words().data(), 0, false, capped(size.y - 1 - p.y), capped(p.y), capped(p.z), capped(size.z - 1 - p.z)};
     around.start = (occupied.row(p.y, p.z) - around.words) * BitVolume::kWordBits + p.x;
@@ -189,7 +207,6 @@ void Look(const BitVolume& occupied, const Group& group, const ClearBricks& clea
                 (around.rim ? walkLegs<true>(occupied, group, clear, around, p, 64 * k, ask)
                             : walkLegs<false>(occupied, group, clear, around, p, 64 * k, ask));
     }
-    open += stride;
   }
 }
 

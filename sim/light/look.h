@@ -12,12 +12,13 @@
 
 namespace espalier::sim::looking {
 
-inline constexpr int kNear = 5;  ///< voxels to each side that are looked at for all directions at once
+inline constexpr int kNear = 6;  ///< voxels to each side that are looked at for all directions at once
 /// A row of them is read by four voxels.
 inline constexpr std::size_t kFours = (2 * kNear + 4) / 4;
 /// Beyond what is near, a ray's steps are tested leg by leg: how many there are up to the end of each.
 inline constexpr std::array<std::size_t, 5> kLegs{0, 8, 16, 32, 56};
 inline constexpr std::size_t kSteps = kLegs.back();
+inline constexpr std::size_t kAtOnce = 8;  ///< steps that are read together
 inline constexpr int kFar = kNear + 1 + static_cast<int>(kSteps);  ///< no step lies farther away
 static_assert(kNear < ClearBricks::kSide);
 static_assert(kFar < BitVolume::kWordBits);  // beyond the ends of a row lies a word of zeros
@@ -48,7 +49,8 @@ struct Group {
   std::array<std::array<std::array<Mask, 3>, ClearBricks::kSide>, 3> leaving;
   std::vector<Ray> rays;
   /// From a place to the voxels of a period, in bits of the volume; those of direction i from first_step[i] on.
-  std::vector<std::int64_t> period_steps;
+  /// As many steps as are read at once lie behind the last.
+  std::vector<std::int32_t> period_steps;
   std::vector<std::size_t> first_step;
 };
 

@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <utility>
 
 #include "sim/base/parallel.h"
+#include "sim/light/look.h"
 
 namespace espalier::sim {
 namespace {
@@ -14,7 +16,6 @@ using looking::kNear;
 using looking::kSteps;
 
 constexpr std::size_t kGroup = 64 * ClearBricks::kWords;
-constexpr std::size_t kFew = 16;  // places for which it does not pay to find the clear bricks
 
 int farthest(Voxel o) {
   return std::max({std::abs(o.x), std::abs(o.y), std::abs(o.z)});
@@ -27,9 +28,9 @@ Voxel crossed(const LatticeDirection& direction, std::size_t i) {
 }
 
 /// In bits of the volume.
-std::int64_t stepOf(const BitVolume& shape, Voxel o) {
+std::int32_t stepOf(const BitVolume& shape, Voxel o) {
   const std::int64_t row = std::int64_t{o.y} * shape.size().z + o.z;
-  return row * shape.rowWords() * BitVolume::kWordBits + o.x;
+  return static_cast<std::int32_t>(row * shape.rowWords() * BitVolume::kWordBits + o.x);
 }
 
 looking::Ray rayOf(const BitVolume& shape, const LatticeDirection& direction) {
@@ -37,7 +38,7 @@ looking::Ray rayOf(const BitVolume& shape, const LatticeDirection& direction) {
   while (farthest(crossed(direction, ray.near)) <= kNear) ++ray.near;
   for (std::size_t i = 0; i < kSteps; ++i) {
     const Voxel o = crossed(direction, ray.near + i);
-    ray.steps[i] = static_cast<std::int32_t>(stepOf(shape, o));
+    ray.steps[i] = stepOf(shape, o);
     for (std::size_t within = 0; within < kFar; ++within) {
       if (std::abs(o.y) <= static_cast<int>(within)) ray.within_y[within] = static_cast<std::uint8_t>(i + 1);
       if (std::abs(o.z) <= static_cast<int>(within)) ray.within_z[within] = static_cast<std::uint8_t>(i + 1);
@@ -74,24 +75,29 @@ looking::Group groupOf(const BitVolume& shape, std::span<const LatticeDirection>
     group.first_step.push_back(group.period_steps.size());
     for (const Voxel o : directions[i].crossed) group.period_steps.push_back(stepOf(shape, o));
   }
+  group.period_steps.resize(group.period_steps.size() + looking::kAtOnce);
   return group;
 }
 
 }  // namespace
 
-OpenRays::OpenRays(const BitVolume& shape, const DirectionSet& directions) : directions_(directions) {
-  for (std::size_t first = 0; first < directions_.size(); first += kGroup) {
-    groups_.push_back(groupOf(
-        shape, std::span(directions_).subspan(first, std::min(directions_.size() - first, kGroup))));
+OpenRays::OpenRays(const BitVolume& shape, const DirectionSet& directions)
+    : directions_(std::make_shared<const DirectionSet>(directions)) {
+  std::vector<looking::Group> groups;
+  for (std::size_t first = 0; first < directions.size(); first += kGroup) {
+    groups.push_back(groupOf(
+        shape, std::span(*directions_).subspan(first, std::min(directions.size() - first, kGroup))));
   }
+  groups_ = std::make_shared<const std::vector<looking::Group>>(std::move(groups));
 }
 
 std::vector<std::uint64_t> OpenRays::from(const BitVolume& occupied, std::span<const Voxel> places) const {
   std::vector<std::uint64_t> open(places.size() * words());
-  for (std::size_t g = 0; g < groups_.size(); ++g) {
-    const ClearBricks clear(occupied, places.size() > kFew ? groups_[g].directions : std::span<const LatticeDirection>());
+  for (std::size_t g = 0; g < groups_->size(); ++g) {
+    const looking::Group& group = (*groups_)[g];
+    const ClearBricks clear(occupied, group.directions);
     parallelFor(places.size(), 16, [&](std::size_t begin, std::size_t end) {
-      looking::look(occupied, groups_[g], clear, places.subspan(begin, end - begin),
+      looking::look(occupied, group, clear, places.subspan(begin, end - begin),
                     open.data() + begin * words() + g * ClearBricks::kWords, words());
     });
   }

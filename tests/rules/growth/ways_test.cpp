@@ -120,7 +120,8 @@ TEST_F(Levels, TheBestOfManyIsTheBestOfThemOneByOne) {
   sim::Kin kin;
   sim::Columns memory;
   sim::Commons commons;
-  const sim::SiteView view{world, plant, kin, memory, commons};
+  const sim::PieceGrid pieces(world.frame().size);
+  const sim::SiteView view{world, plant, kin, memory, commons, pieces};
   for (const std::string& level : sim::lanes::levels()) {
     sim::lanes::useLevel(level);
     std::mt19937 random(9);

@@ -84,16 +84,17 @@ ExposeResult exposeScene(Scene scene, const RunOptions& options) {
   const ExposureTable table =
       stages.run("counting", [&] { return exposureTable(scene.name, site.world, light); });
   result.table = toText(table);
-  std::vector<OutputFile> files = {
-      {"exposure.csv", [&] { return toCsv(table); }},
-      {"exposure.json", [&] { return toJson(table); }},
-      {"exposure.vdb",
-       [&] { return render::fieldVdbBytes(site.world, exposureFields(light, space.get())); }}};
+  std::vector<OutputFile> files = {{"exposure.csv", [&] { return toCsv(table); }},
+                                   {"exposure.json", [&] { return toJson(table); }},
+                                   {"exposure.vdb", [&] {
+                                      return render::fieldVdbBytes(
+                                          site.world, exposureFields(light, space.get()), report.made_by);
+                                    }}};
   const std::vector<sim::Attempt> no_attempts;
   const std::vector<render::PlantModel> no_models;
   if (options.pictures) {
     stages.run("drawing", [&] {
-      PicturesWanted wanted = picturesOf(scene);
+      PicturesWanted wanted = picturesOf(scene, report.made_by);
       if (wanted.cameras.empty()) {
         const double aspect = static_cast<double>(wanted.width_px) / wanted.height_px;
         wanted.cameras.push_back(overview(site.world.frame(), light.surfaces, site.sun, aspect));

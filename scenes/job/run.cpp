@@ -17,6 +17,7 @@
 #include "scenes/prepare/site.h"
 #include "scenes/prepare/unknown_regions.h"
 #include "scenes/show/light_fields.h"
+#include "scenes/show/picture_memory.h"
 #include "scenes/show/pictures.h"
 #include "scenes/write/output_files.h"
 #include "sim/base/parallel.h"
@@ -127,6 +128,7 @@ sim::Growth growOn(const Scene& scene, Prepared& prepared, std::optional<sim::Gr
 }  // namespace
 
 Report runScene(const Scene& scene, const RunOptions& options, const Keeping& keeping) {
+  if (options.pictures) requirePicturesFit(scene, picturesOf(scene));
   Report report;
   Stages stages(options, report);
   Prepared prepared = prepare(scene, options, report, stages);
@@ -184,6 +186,7 @@ Report renderScene(Scene scene, const std::filesystem::path& from, const RunOpti
     throw sim::InputError(
         fmt::format("{}: it has no images to draw; expected at least one", scene.file.string()));
   }
+  requirePicturesFit(scene, picturesOf(scene));
   Report report;
   Stages stages(options, report);
   std::optional<sim::State> state = stages.run("reading", [&] { return readKept(from); });

@@ -16,6 +16,7 @@
 #include "scenes/lights.h"
 #include "scenes/show/flat_pictures.h"
 #include "scenes/show/light_texts.h"
+#include "scenes/show/picture_memory.h"
 #include "sim/base/error.h"
 #include "sim/base/parallel.h"
 #include "sim/world/ray.h"
@@ -143,9 +144,10 @@ render::PanelPicture Studio::paint(const ImageSpec& image, Panel panel) {
       const auto kind = panelOf(other.kind);
       if (kind && other.camera == image.camera) panels.push_back(*kind);
     }
-    view = std::make_unique<View>(render::see(finished_.world.frame(), finished_.world.occupied(), bricks_,
-                                              cameraOf(wanted_, image), wanted_.width_px, wanted_.height_px),
-                                  world_, look_, panels);
+    view = std::make_unique<View>(
+        render::see(finished_.world.frame(), finished_.world.occupied(), bricks_, cameraOf(wanted_, image),
+                    wanted_.width_px, wanted_.height_px, mostFragments(wanted_)),
+        world_, look_, panels);
   }
   return view->painter.paint(panel);
 }
@@ -291,7 +293,7 @@ std::vector<OutputFile> drawPictures(const PicturesWanted& wanted, const Finishe
       files.push_back(png(image.name, keep(image, drawSection(finished.world, image)), metadata(image)));
     } else if (image.kind == ImageKind::attempts) {
       files.push_back(
-          png(image.name, keep(image, drawAttempts(finished.world, finished.attempts)), metadata(image)));
+          png(image.name, keep(image, drawAttempts(finished.world, finished.attempts, image)), metadata(image)));
     }
   }
   for (const ImageSpec& image : wanted.images) {

@@ -12,6 +12,7 @@
 #include "render/image/camera.h"
 #include "rules/language/rule_set.h"
 #include "scenes/problem.h"
+#include "sim/base/provenance.h"
 #include "sim/base/vec.h"
 #include "sim/light/sky.h"
 #include "sim/light/sun.h"
@@ -29,6 +30,7 @@ enum class RegionsFrom { group, material };
 struct SceneMesh {
   std::string name;  ///< defaults to the file's stem
   std::filesystem::path file;
+  std::string told;  ///< what reports call the file, without a path of the machine; empty: its last name
   RegionsFrom regions_from = RegionsFrom::group;  ///< which names of the file become regions
   bool solid = false;                             ///< fill the inside
   bool optional = false;  ///< a missing file skips the scene instead of being an error
@@ -166,7 +168,8 @@ struct RegionMention {
 
 struct Scene {
   std::string name = "unnamed";
-  std::filesystem::path file;  ///< where it was read from
+  std::filesystem::path file;              ///< where it was read from
+  std::vector<sim::InputFile> read_files;  ///< itself and its rule files, in the order of reading
   std::vector<SceneMesh> meshes;
   WorldSpec world;
   SkySpec sky;
@@ -179,6 +182,8 @@ struct Scene {
   std::uint64_t seed = 1;
   int image_width = 1280;
   int image_height = 960;
+  Place images_place;  ///< where a scene file says how large images are, or which; without a path where none
+                       ///< does
   std::vector<NamedCamera> cameras;
   std::vector<ImageSpec> images;
 };

@@ -51,7 +51,11 @@ std::string forbiddingKey(const RuleSet& rules, const std::string& region) {
   return {};
 }
 
-SeedFailure::Set setOf(const RuleSet& rules, std::string path, PlaceLight light) {
+RuleLength lengthOf(const rules::Distance& written, double voxel_m) {
+  return {written.metres ? written.number / voxel_m : written.number, written.metres};
+}
+
+SeedFailure::Set setOf(const RuleSet& rules, std::string path, PlaceLight light, double voxel_m) {
   SeedFailure::Set set;
   set.path = std::move(path);
   set.exposure =
@@ -61,8 +65,8 @@ SeedFailure::Set setOf(const RuleSet& rules, std::string path, PlaceLight light)
   const double span = set.exposure_max - set.exposure_min;
   const double above = span > 0.0 ? std::clamp((set.exposure - set.exposure_min) / span, 0.0, 1.0) : 1.0;
   set.pace = (1.0 + (rules.light.boost - 1.0) * above) / std::max(1.0, rules.light.boost);
-  set.proximity_min = {rules.require.proximity_min_vx, false};
-  set.proximity_max = {rules.require.proximity_max_vx, false};
+  set.proximity_min = lengthOf(rules.require.proximity_min, voxel_m);
+  set.proximity_max = lengthOf(rules.require.proximity_max, voxel_m);
   if (set.exposure < set.exposure_min) set.outcome = Outcome::too_dark;
   if (set.exposure > set.exposure_max) set.outcome = Outcome::too_bright;
   return set;
@@ -133,7 +137,7 @@ std::vector<std::optional<SeedFailure>> seedFailures(const std::shared_ptr<const
       failure.forbidden_by = forbiddingKey(*rules, failure.region);
     }
     for (const RuleSet* set = book.first(grown, at); set != nullptr; set = book.next(*set, grown, at))
-      failure.sets.push_back(setOf(*set, paths.at(set), lights[i]));
+      failure.sets.push_back(setOf(*set, paths.at(set), lights[i], failure.voxel_m));
     failures[i] = std::move(failure);
   });
   return failures;

@@ -62,6 +62,7 @@ std::string ofLight(const SeedFailure& failure, Outcome reason) {
 
 /// In the unit of the rule.
 std::string lengthOf(double vx, bool metres, double voxel_m) {
+  if (metres && vx * voxel_m < 1.0) return fmt::format("{:.3g} cm", vx * voxel_m * 100.0);
   if (metres) return fmt::format("{:.3g} m", vx * voxel_m);
   return fmt::format("{:.3g}", vx);
 }

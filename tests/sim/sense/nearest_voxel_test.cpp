@@ -31,7 +31,9 @@ TEST(NearestVoxel, IsTheOneThatLookingAtEveryVoxelFinds) {
     const Voxel size(150, 21, 34);
     const BitVolume bits = tests::randomBits(size, chance, 5);
     for (int i = 0; i < 60; ++i) {
-      const auto within = [&](int length) { return static_cast<int>(random() % (length + 20u)) - 10; };
+      const auto within = [&](int length) {
+        return static_cast<int>(random() % static_cast<unsigned>(length + 20)) - 10;
+      };
       const Voxel from(within(size.x), within(size.y), within(size.z));
       const int most = i % 3 == 0 ? 200 : i % 3 == 1 ? 17 : 0;
       EXPECT_EQ(distanceToNearest(bits, from, most), slowly(bits, from, most))

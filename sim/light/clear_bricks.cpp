@@ -50,10 +50,10 @@ BitVolume bricksOf(const BitVolume& occupied) {
 /// Bricks' bits so that all bricks of a row along the world's shortest axis lie in one lane, and lanes lie
 /// densely: a step along that axis is a shift, one along the others a step in memory.
 struct Layout {
-  int lane, row, column;      // axes: bits of a lane, lanes of a line, lines
-  std::size_t lane_bytes;     // 1, 2, 4 or 8
+  int lane, row, column;   // axes: bits of a lane, lanes of a line, lines
+  std::size_t lane_bytes;  // 1, 2, 4 or 8
   int lanes, lines;
-  std::size_t line_bytes;     // whole words, and one more
+  std::size_t line_bytes;  // whole words, and one more
 
   explicit Layout(Voxel bricks) {
     std::array<int, 3> axes{0, 1, 2};
@@ -65,7 +65,8 @@ struct Layout {
   }
   std::size_t bytes() const { return static_cast<std::size_t>(lines) * line_bytes; }
   std::size_t byteOf(Voxel brick) const {
-    return static_cast<std::size_t>(brick[column]) * line_bytes + static_cast<std::size_t>(brick[row]) * lane_bytes;
+    return static_cast<std::size_t>(brick[column]) * line_bytes +
+           static_cast<std::size_t>(brick[row]) * lane_bytes;
   }
 };
 
@@ -147,7 +148,8 @@ ClearBricks::ClearBricks(const BitVolume& occupied, std::span<const LatticeDirec
   rows_.resize(kWords * 8 * layout.bytes(), ~std::uint64_t{0});
   const std::size_t groups = (directions.size() + 63) / 64;
   parallelForEach(groups, [&](std::size_t group) {
-    const auto mine = directions.subspan(64 * group, std::min<std::size_t>(64, directions.size() - 64 * group));
+    const auto mine =
+        directions.subspan(64 * group, std::min<std::size_t>(64, directions.size() - 64 * group));
     std::vector<Plane> blocked(mine.size(), Plane(layout.bytes() + 8));
     for (std::size_t i = 0; i < mine.size(); ++i) {
       const Voxel v = glm::abs(mine[i].v), s = sign(mine[i].v);

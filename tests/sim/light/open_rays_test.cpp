@@ -60,9 +60,9 @@ void expectWhatRaysMeet(const sim::BitVolume& bits, const sim::DirectionSet& set
 
 TEST(OpenRays, AreThoseThatReachTheEdge) {
   const auto set = allKinds();
-  for (const Voxel size : {Voxel(61, 40, 53), Voxel(64, 64, 64), Voxel(1, 90, 70), Voxel(90, 1, 70),
-                           Voxel(90, 70, 1), Voxel(1, 1, 1), Voxel(300, 20, 9), Voxel(9, 20, 300),
-                           Voxel(20, 300, 9), Voxel(129, 77, 7)}) {
+  for (const Voxel size :
+       {Voxel(61, 40, 53), Voxel(64, 64, 64), Voxel(1, 90, 70), Voxel(90, 1, 70), Voxel(90, 70, 1),
+        Voxel(1, 1, 1), Voxel(300, 20, 9), Voxel(9, 20, 300), Voxel(20, 300, 9), Voxel(129, 77, 7)}) {
     for (const double chance : {0.0, 0.0003, 0.01, 0.2}) {
       const auto bits = tests::randomBits(size, chance, 11);
       expectWhatRaysMeet(bits, set, placesIn(size, 60, 5));
@@ -73,8 +73,8 @@ TEST(OpenRays, AreThoseThatReachTheEdge) {
 // Long ways: beyond the legs, and with bricks that are clear or not.
 TEST(OpenRays, AreThoseThatReachTheEdgeOfALargeWorld) {
   sim::BitVolume bits({270, 260, 210});
-  tests::addBox(bits, {0, 0, 0}, {269, 5, 209});      // ground
-  tests::addBox(bits, {40, 6, 100}, {220, 200, 109});  // a wall
+  tests::addBox(bits, {0, 0, 0}, {269, 5, 209});        // ground
+  tests::addBox(bits, {40, 6, 100}, {220, 200, 109});   // a wall
   tests::addBox(bits, {100, 230, 0}, {120, 232, 209});  // a beam above it
   std::vector<Voxel> places = placesIn(bits.size(), 100, 6);
   for (int i = 0; i < 100; ++i) places.emplace_back(30 + 2 * i, 7 + i, 110 + i % 3);

@@ -20,6 +20,27 @@ std::int64_t sumOfPlaces(std::uint64_t word) {
   return sum;
 }
 
+/// How often each of a word's bits has come: plane k holds the counts' bits k.
+class BitCounts {
+ public:
+  void add(std::uint64_t word) {
+    for (std::size_t k = 0; word != 0; ++k) {
+      const std::uint64_t carry = planes_[k] & word;
+      planes_[k] ^= word;
+      word = carry;
+    }
+  }
+  /// Of all bits that came.
+  std::int64_t sumOfPlaces() const {
+    std::int64_t sum = 0;
+    for (std::size_t k = 0; k < planes_.size(); ++k) sum += sim::sumOfPlaces(planes_[k]) << k;
+    return sum;
+  }
+
+ private:
+  std::array<std::uint64_t, 32> planes_{};
+};
+
 /// The largest whole number whose square is at most `square`.
 int rootBelow(double square) {
   const int root = static_cast<int>(std::sqrt(square));
@@ -32,27 +53,33 @@ std::optional<Vec3> centreOfMass(const BitVolume& occupied, Voxel about, double 
   const Voxel size = occupied.size();
   const int reach = static_cast<int>(radius_vx);
   const double square = radius_vx * radius_vx;
+  const Voxel low = glm::max(Voxel(-reach), -about), high = glm::min(Voxel(reach), size - 1 - about);
   glm::i64vec3 sum(0);  // whole numbers: the order of summing does not matter
   std::int64_t count = 0;
-  const int low_y = std::max(-reach, -about.y), high_y = std::min(reach, size.y - 1 - about.y);
-  for (int dy = low_y; dy <= high_y; ++dy) {
-    const int wide = rootBelow(square - dy * dy);
-    const int low_z = std::max(-wide, -about.z), high_z = std::min(wide, size.z - 1 - about.z);
-    for (int dz = low_z; dz <= high_z; ++dz) {
-      const int half = rootBelow(square - dy * dy - dz * dz);
-      const int first = std::max(0, about.x - half), last = std::min(size.x - 1, about.x + half);
-      if (first > last) continue;
-      const std::uint64_t* const row = occupied.row(about.y + dy, about.z + dz);
-      for (int w = first >> 6; w <= last >> 6; ++w) {
-        std::uint64_t word = row[w];
-        if (64 * w < first) word &= ~std::uint64_t{0} << (first & 63);
-        if (64 * w + 63 > last) word &= ~std::uint64_t{0} >> (63 - (last & 63));
+  for (int w = (about.x + low.x) >> 6; w <= (about.x + high.x) >> 6; ++w) {
+    const int first_x = 64 * w - about.x;  // of the word's voxels
+    BitCounts columns;
+    std::int64_t in_columns = 0;
+    for (int dy = low.y; dy <= high.y; ++dy) {
+      const int wide = rootBelow(square - dy * dy);
+      const std::int64_t before = in_columns;
+      for (int dz = std::max(-wide, low.z); dz <= std::min(wide, high.z); ++dz) {
+        std::uint64_t word = occupied.row(about.y + dy, about.z + dz)[w];
         if (word == 0) continue;
+        const int half = rootBelow(square - dy * dy - dz * dz);
+        const int first = -half - first_x, last = half - first_x;
+        if (first > 63 || last < 0) continue;
+        if (first > 0) word &= ~std::uint64_t{0} << first;
+        if (last < 63) word &= ~std::uint64_t{0} >> (63 - last);
+        columns.add(word);
         const std::int64_t here = std::popcount(word);
-        sum += glm::i64vec3(sumOfPlaces(word) + here * (64 * w - about.x), here * dy, here * dz);
-        count += here;
+        in_columns += here;
+        sum.z += here * dz;
       }
+      sum.y += (in_columns - before) * dy;
     }
+    sum.x += columns.sumOfPlaces() + in_columns * first_x;
+    count += in_columns;
   }
   if (count == 0) return std::nullopt;
   return Vec3(about) + Vec3(sum) / static_cast<double>(count);

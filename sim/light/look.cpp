@@ -87,14 +87,13 @@ HWY_INLINE Mask clearBeyondNear(const Group& group, const ClearBricks& clear, Vo
 /// Whether one of the first `count` of the next kAtOnce steps is occupied. If that is not all of them, others
 /// may lie outside of the volume's words.
 template <bool kSome>
-HWY_INLINE bool anyOf(const std::uint64_t* words, std::ptrdiff_t start, const std::int32_t* steps,
+HWY_INLINE bool anyOf(const std::uint64_t* words, std::ptrdiff_t start, const std::int64_t* steps,
                       std::size_t count) {
   const hn::CappedTag<std::int64_t, kAtOnce> d;
   const hn::RebindToUnsigned<decltype(d)> du;
-  const hn::Rebind<std::int32_t, decltype(d)> d32;
   auto hit = hn::Zero(du);
   for (std::size_t k = 0; k < kAtOnce; k += hn::Lanes(d)) {
-    auto at = hn::Add(hn::PromoteTo(d, hn::LoadU(d32, steps + k)), hn::Set(d, start));
+    auto at = hn::Add(hn::LoadU(d, steps + k), hn::Set(d, start));
     if (kSome) {  // the first word holds zeros
       const auto meant =
           hn::Lt(hn::Iota(d, static_cast<std::int64_t>(k)), hn::Set(d, static_cast<std::int64_t>(count)));
@@ -122,7 +121,7 @@ HWY_INLINE bool walkOn(const BitVolume& occupied, const Group& group, const Clea
   const LatticeDirection& direction = group.directions[i];
   const std::size_t period = direction.crossed.size(), done = group.rays[i].near + kSteps;
   const std::uint64_t* const words = occupied.words().data();
-  const std::int32_t* const steps = group.period_steps.data() + group.first_step[i];
+  const std::int64_t* const steps = group.period_steps.data() + group.first_step[i];
   std::size_t k = done % period;
   Voxel base = p + static_cast<int>(done / period) * direction.v;
   std::ptrdiff_t start = (occupied.row(base.y, base.z) - words) * BitVolume::kWordBits + base.x;
@@ -157,7 +156,7 @@ struct Around {
 /// Whether one of the leg's first steps, those before `within`, is occupied.
 HWY_INLINE bool hits(const Around& around, const Ray& ray, std::size_t within, std::size_t leg) {
   for (std::size_t s = kLegs[leg - 1]; s < kLegs[leg]; s += kAtOnce) {
-    const std::int32_t* const steps = ray.steps.data() + s;
+    const std::int64_t* const steps = ray.steps.data() + s;
     if (within >= s + kAtOnce ? anyOf<false>(around.words, around.start, steps, kAtOnce)
                               : anyOf<true>(around.words, around.start, steps, within > s ? within - s : 0))
       return true;

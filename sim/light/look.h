@@ -30,7 +30,7 @@ struct alignas(32) Mask {
 
 /// One direction beyond what is near.
 struct Ray {
-  std::array<std::int32_t, kSteps> steps;  ///< from the place, in bits of the volume
+  std::array<std::int64_t, kSteps> steps;  ///< from the place, in bits of the volume
   std::array<Voxel, kLegs.size()> beyond;  ///< the voxel behind what is near, and behind each leg
   /// How many steps lie within so many voxels of the place along y, and along z.
   std::array<std::uint8_t, kFar> within_y, within_z;
@@ -50,7 +50,7 @@ struct Group {
   std::vector<Ray> rays;
   /// From a place to the voxels of a period, in bits of the volume; those of direction i from first_step[i]
   /// on. As many steps as are read at once lie behind the last.
-  std::vector<std::int32_t> period_steps;
+  std::vector<std::int64_t> period_steps;
   std::vector<std::size_t> first_step;
 };
 

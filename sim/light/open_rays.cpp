@@ -28,9 +28,9 @@ Voxel crossed(const LatticeDirection& direction, std::size_t i) {
 }
 
 /// In bits of the volume.
-std::int32_t stepOf(const BitVolume& shape, Voxel o) {
+std::int64_t stepOf(const BitVolume& shape, Voxel o) {
   const std::int64_t row = std::int64_t{o.y} * shape.size().z + o.z;
-  return static_cast<std::int32_t>(row * shape.rowWords() * BitVolume::kWordBits + o.x);
+  return row * shape.rowWords() * BitVolume::kWordBits + o.x;
 }
 
 looking::Ray rayOf(const BitVolume& shape, const LatticeDirection& direction) {

@@ -81,6 +81,16 @@ TEST(OpenRays, AreThoseThatReachTheEdgeOfALargeWorld) {
   expectWhatRaysMeet(bits, allKinds(), places);
 }
 
+// More bricks along every axis than a word has bits.
+TEST(OpenRays, AreThoseThatReachTheEdgeOfAVeryLargeWorld) {
+  sim::BitVolume bits({530, 521, 540});
+  std::mt19937 random(3);
+  for (int i = 0; i < 3000; ++i)
+    bits.set({static_cast<int>(random() % 530), static_cast<int>(random() % 300),
+              static_cast<int>(random() % 540)});
+  expectWhatRaysMeet(bits, allKinds(), placesIn(bits.size(), 60, 6));
+}
+
 // More directions than a group holds, and down alone.
 TEST(OpenRays, TakeAnyNumberOfDirections) {
   const auto bits = tests::randomBits({70, 33, 41}, 0.004, 8);
@@ -110,8 +120,8 @@ TEST(OpenRays, AreTheSameAtEveryLevel) {
 TEST(ClearBricks, NoRayThroughOneMeetsAnything) {
   auto set = allKinds();
   set.resize(std::min<std::size_t>(set.size(), 64 * sim::ClearBricks::kWords));
-  for (const Voxel size : {Voxel(40, 33, 30), Voxel(17, 40, 25)}) {
-    const auto bits = tests::randomBits(size, 0.0005, 13);
+  for (const Voxel size : {Voxel(40, 33, 30), Voxel(17, 40, 25), Voxel(530, 515, 513)}) {
+    const auto bits = tests::randomBits(size, size.x > 100 ? 1e-7 : 0.0005, 13);
     const sim::ClearBricks clear(bits, set);
     std::size_t clear_ones = 0;
     for (std::size_t d = 0; d < set.size(); ++d) {

@@ -61,7 +61,7 @@ Surroundings lookAround(const sim::SiteView& view, const sim::Site& site) {
 Senses sense(const sim::SiteView& view, const Surroundings& around, const RuleSet& rules) {
   Senses senses;
   senses.light = rules.bias.brightest == Brightest::table
-                     ? sim::brightest(*view.sky_table, view.world.opaque(), around.voxel)
+                     ? *view.brightest
                      : unitOrZero(view.light->sky.toward);
   senses.exposure = blended(rules.light, around.sun_exposure, around.sky_exposure);
   senses.vigour = vigourAt(rules, senses.exposure);

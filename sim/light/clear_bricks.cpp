@@ -25,14 +25,14 @@ std::uint64_t bytesThatHoldAnything(std::uint64_t word) {
   return ((word & 0x0101010101010101u) * 0x0102040810204080u) >> 56;
 }
 
-/// Which bricks hold anything.
-BitVolume bricksOf(const BitVolume& occupied) {
+/// Calls visit(brick) for each brick that holds anything.
+template <typename Visit>
+void forEachFilled(const BitVolume& occupied, const Visit& visit) {
   const Voxel size = occupied.size();
-  BitVolume bricks((size + (kSide - 1)) / kSide);
   const auto words = static_cast<std::size_t>(occupied.rowWords() - 1);
   std::vector<std::uint64_t> united(words);
-  for (int y = 0; y < bricks.size().y; ++y) {
-    for (int z = 0; z < bricks.size().z; ++z) {
+  for (int y = 0; y * kSide < size.y; ++y) {
+    for (int z = 0; z * kSide < size.z; ++z) {
       std::fill(united.begin(), united.end(), 0);
       for (int dy = kSide * y; dy < std::min(size.y, kSide * (y + 1)); ++dy) {
         for (int dz = kSide * z; dz < std::min(size.z, kSide * (z + 1)); ++dz) {
@@ -40,20 +40,33 @@ BitVolume bricksOf(const BitVolume& occupied) {
           for (std::size_t w = 0; w < words; ++w) united[w] |= row[w];
         }
       }
-      std::uint64_t* const row = bricks.row(y, z);
-      for (std::size_t w = 0; w < words; ++w) row[w / 8] |= bytesThatHoldAnything(united[w]) << (8 * (w % 8));
+      for (std::size_t w = 0; w < words; ++w) {
+        for (std::uint64_t bricks = bytesThatHoldAnything(united[w]); bricks != 0; bricks &= bricks - 1)
+          visit(Voxel(static_cast<int>(8 * w) + std::countr_zero(bricks), y, z));
+      }
     }
   }
-  return bricks;
+}
+
+/// How often bricks are to be halved in number along each axis until a row along the shortest fits into a
+/// lane, and all of them into memory.
+int halvings(Voxel bricks) {
+  constexpr std::size_t kMostBricks = std::size_t{1} << 21;
+  for (int n = 0;; ++n) {
+    const Voxel left = ((bricks - 1) >> Voxel(n)) + 1;
+    const std::size_t all = static_cast<std::size_t>(left.x) * static_cast<std::size_t>(left.y) *
+                            static_cast<std::size_t>(left.z);
+    if (std::min({left.x, left.y, left.z}) <= 64 && all <= kMostBricks) return n;
+  }
 }
 
 /// Bricks' bits so that all bricks of a row along the world's shortest axis lie in one lane, and lanes lie
 /// densely: a step along that axis is a shift, one along the others a step in memory.
 struct Layout {
-  int lane, row, column;      // axes: bits of a lane, lanes of a line, lines
-  std::size_t lane_bytes;     // 1, 2, 4 or 8
+  int lane, row, column;   // axes: bits of a lane, lanes of a line, lines
+  std::size_t lane_bytes;  // 1, 2, 4 or 8
   int lanes, lines;
-  std::size_t line_bytes;     // whole words, and one more
+  std::size_t line_bytes;  // whole words, and one more
 
   explicit Layout(Voxel bricks) {
     std::array<int, 3> axes{0, 1, 2};
@@ -65,7 +78,8 @@ struct Layout {
   }
   std::size_t bytes() const { return static_cast<std::size_t>(lines) * line_bytes; }
   std::size_t byteOf(Voxel brick) const {
-    return static_cast<std::size_t>(brick[column]) * line_bytes + static_cast<std::size_t>(brick[row]) * lane_bytes;
+    return static_cast<std::size_t>(brick[column]) * line_bytes +
+           static_cast<std::size_t>(brick[row]) * lane_bytes;
   }
 };
 
@@ -108,9 +122,8 @@ void unite(const Layout& layout, const Plane& from, Voxel step, Plane& into) {
 }  // namespace
 
 ClearBricks::ClearBricks(const BitVolume& occupied, std::span<const LatticeDirection> directions)
-    : size_(occupied.size()), bricks_((size_ + (kSide - 1)) / kSide) {
-  const BitVolume bricks = bricksOf(occupied);
-  const Voxel size = bricks.size();
+    : size_(occupied.size()), bricks_((size_ + (kSide - 1)) / kSide), coarser_(halvings(bricks_)) {
+  const Voxel size = ((bricks_ - 1) >> Voxel(coarser_)) + 1;
   const Layout layout(size);
   for (int axis = 0; axis < 3; ++axis) {
     Voxel one(0);
@@ -118,18 +131,12 @@ ClearBricks::ClearBricks(const BitVolume& occupied, std::span<const LatticeDirec
     step_[static_cast<std::size_t>(axis)] = axis == layout.lane ? 1 : 8 * layout.byteOf(one);
   }
   Plane filled(layout.bytes() + 8);
-  for (int y = 0; y < size.y; ++y) {
-    for (int z = 0; z < size.z; ++z) {
-      for (int x = 0; x < size.x; ++x) {
-        const Voxel brick(x, y, z);
-        if (bricks.at(brick)) {
-          const int bit = brick[layout.lane];
-          std::uint8_t& byte = filled[layout.byteOf(brick) + static_cast<std::size_t>(bit) / 8];
-          byte = static_cast<std::uint8_t>(byte | (1u << (bit % 8)));
-        }
-      }
-    }
-  }
+  forEachFilled(occupied, [&](Voxel brick) {
+    const Voxel judged = brick >> Voxel(coarser_);
+    const auto bit = static_cast<std::size_t>(judged[layout.lane]);
+    std::uint8_t& byte = filled[layout.byteOf(judged) + bit / 8];
+    byte = static_cast<std::uint8_t>(byte | (1u << (bit % 8)));
+  });
   // A brick on its way overlaps up to eight others at once: those from the one that holds its low corner on.
   std::map<std::tuple<int, int, int>, Plane> ahead;
   const auto sign = [](Voxel v) { return glm::sign(v); };
@@ -147,7 +154,8 @@ ClearBricks::ClearBricks(const BitVolume& occupied, std::span<const LatticeDirec
   rows_.resize(kWords * 8 * layout.bytes(), ~std::uint64_t{0});
   const std::size_t groups = (directions.size() + 63) / 64;
   parallelForEach(groups, [&](std::size_t group) {
-    const auto mine = directions.subspan(64 * group, std::min<std::size_t>(64, directions.size() - 64 * group));
+    const auto mine =
+        directions.subspan(64 * group, std::min<std::size_t>(64, directions.size() - 64 * group));
     std::vector<Plane> blocked(mine.size(), Plane(layout.bytes() + 8));
     for (std::size_t i = 0; i < mine.size(); ++i) {
       const Voxel v = glm::abs(mine[i].v), s = sign(mine[i].v);

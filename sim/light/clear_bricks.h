@@ -36,11 +36,13 @@ class ClearBricks {
   static constexpr std::uint64_t kAll[kWords] = {~std::uint64_t{0}, ~std::uint64_t{0}, ~std::uint64_t{0},
                                                  ~std::uint64_t{0}};
   std::size_t index(Voxel brick) const {
-    return static_cast<std::size_t>(brick.x) * step_[0] + static_cast<std::size_t>(brick.y) * step_[1] +
-           static_cast<std::size_t>(brick.z) * step_[2];
+    const Voxel judged = brick >> Voxel(coarser_);
+    return static_cast<std::size_t>(judged.x) * step_[0] + static_cast<std::size_t>(judged.y) * step_[1] +
+           static_cast<std::size_t>(judged.z) * step_[2];
   }
 
   Voxel size_, bricks_;
+  int coarser_;  // halvings: in large worlds 2^coarser_ bricks along each axis are judged as one
   std::array<std::size_t, 3> step_{};  // from a brick to the next along each axis
   std::vector<std::uint64_t> rows_;
 };

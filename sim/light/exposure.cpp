@@ -30,8 +30,8 @@ Outlook lookOut(const BitVolume& occupied, Voxel p, const DirectionSet& directio
 std::vector<Outlook> sharesOf(const DirectionSet& directions) {
   std::vector<Outlook> shares;
   for (const LatticeDirection& direction : directions) {
-    shares.push_back({direction.weight,
-                      static_cast<double>(direction.weight) * glm::normalize(Vec3(direction.v))});
+    shares.push_back(
+        {direction.weight, static_cast<double>(direction.weight) * glm::normalize(Vec3(direction.v))});
   }
   return shares;
 }

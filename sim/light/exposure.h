@@ -33,8 +33,8 @@ std::vector<Outlook> sharesOf(const DirectionSet& directions);
 Outlook outlook(std::span<const Outlook> shares, std::span<const std::uint64_t> open, std::size_t first,
                 std::size_t count);
 
-/// Directions made ready for looks into worlds of one shape, each ray still walked on its own: the same answers
-/// as lookOut, several times as fast.
+/// Directions made ready for looks into worlds of one shape, each ray still walked on its own: the same
+/// answers as lookOut, several times as fast.
 class Lookout {
  public:
   Lookout(const BitVolume& shape, const DirectionSet& directions);

@@ -53,9 +53,8 @@ std::vector<Light> LightSensor::byRays(const BitVolume& opaque, std::span<const 
 
 std::vector<Light> LightSensor::byOpenRays(const BitVolume& opaque, std::span<const Voxel> places) const {
   const std::vector<std::uint64_t> open = rays_.from(opaque, places);
-  return lightsOf(places.size(), [&](std::size_t i) {
-    return std::span(open).subspan(i * rays_.words(), rays_.words());
-  });
+  return lightsOf(places.size(),
+                  [&](std::size_t i) { return std::span(open).subspan(i * rays_.words(), rays_.words()); });
 }
 
 std::vector<Light> LightSensor::bySweep(const BitVolume& opaque, std::span<const Voxel> places) const {

@@ -42,7 +42,8 @@ class LightSensor {
   std::vector<Light> bySweep(const BitVolume& opaque, std::span<const Voxel> places) const;
 
  private:
-  std::vector<Light> lightsOf(std::size_t places, const std::function<std::span<const std::uint64_t>(std::size_t)>& open) const;
+  std::vector<Light> lightsOf(std::size_t places,
+                              const std::function<std::span<const std::uint64_t>(std::size_t)>& open) const;
 
   OpenRays rays_;  // the sky's directions, then the sun's
   std::size_t sky_count_;

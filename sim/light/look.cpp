@@ -5,6 +5,9 @@
 #include <cstring>
 #include <limits>
 
+// Vectors whose length is known when compiling: they are kept in arrays.
+#define HWY_DISABLED_TARGETS (HWY_SVE | HWY_SVE2 | HWY_SVE_256 | HWY_SVE2_128 | HWY_RVV)
+
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "sim/light/look.cpp"
 #include <hwy/foreach_target.h>
@@ -24,7 +27,9 @@ constexpr std::size_t kLanes = HWY_MIN(kWords, HWY_LANES(std::uint64_t)), kParts
 using Words = hn::CappedTag<std::uint64_t, kLanes>;
 using Vector = hn::Vec<Words>;
 
-HWY_INLINE Vector part(const Mask& mask, std::size_t i) { return hn::Load(Words(), mask.words.data() + kLanes * i); }
+HWY_INLINE Vector part(const Mask& mask, std::size_t i) {
+  return hn::Load(Words(), mask.words.data() + kLanes * i);
+}
 
 HWY_INLINE Mask maskOf(const Vector (&parts)[kParts]) {
   Mask mask;
@@ -82,15 +87,16 @@ HWY_INLINE Mask clearBeyondNear(const Group& group, const ClearBricks& clear, Vo
 /// Whether one of the first `count` of the next kAtOnce steps is occupied. If that is not all of them, others
 /// may lie outside of the volume's words.
 template <bool kSome>
-HWY_INLINE bool anyOf(const std::uint64_t* words, std::ptrdiff_t start, const std::int32_t* steps, std::size_t count) {
+HWY_INLINE bool anyOf(const std::uint64_t* words, std::ptrdiff_t start, const std::int64_t* steps,
+                      std::size_t count) {
   const hn::CappedTag<std::int64_t, kAtOnce> d;
   const hn::RebindToUnsigned<decltype(d)> du;
-  const hn::Rebind<std::int32_t, decltype(d)> d32;
   auto hit = hn::Zero(du);
   for (std::size_t k = 0; k < kAtOnce; k += hn::Lanes(d)) {
-    auto at = hn::Add(hn::PromoteTo(d, hn::LoadU(d32, steps + k)), hn::Set(d, start));
+    auto at = hn::Add(hn::LoadU(d, steps + k), hn::Set(d, start));
     if (kSome) {  // the first word holds zeros
-      const auto meant = hn::Lt(hn::Iota(d, static_cast<std::int64_t>(k)), hn::Set(d, static_cast<std::int64_t>(count)));
+      const auto meant =
+          hn::Lt(hn::Iota(d, static_cast<std::int64_t>(k)), hn::Set(d, static_cast<std::int64_t>(count)));
       at = hn::IfThenElseZero(meant, at);
     }
     const auto read = hn::GatherIndex(du, words, hn::ShiftRight<6>(at));
@@ -110,11 +116,12 @@ int periodsInside(Voxel size, Voxel p, Voxel v) {
 }
 
 /// From where the legs end, with a look ahead from time to time.
-HWY_INLINE bool walkOn(const BitVolume& occupied, const Group& group, const ClearBricks& clear, Voxel p, std::size_t i) {
+HWY_INLINE bool walkOn(const BitVolume& occupied, const Group& group, const ClearBricks& clear, Voxel p,
+                       std::size_t i) {
   const LatticeDirection& direction = group.directions[i];
   const std::size_t period = direction.crossed.size(), done = group.rays[i].near + kSteps;
   const std::uint64_t* const words = occupied.words().data();
-  const std::int32_t* const steps = group.period_steps.data() + group.first_step[i];
+  const std::int64_t* const steps = group.period_steps.data() + group.first_step[i];
   std::size_t k = done % period;
   Voxel base = p + static_cast<int>(done / period) * direction.v;
   std::ptrdiff_t start = (occupied.row(base.y, base.z) - words) * BitVolume::kWordBits + base.x;
@@ -141,15 +148,15 @@ HWY_INLINE bool walkOn(const BitVolume& occupied, const Group& group, const Clea
 /// What the legs are walked in.
 struct Around {
   const std::uint64_t* words;
-  std::ptrdiff_t start;  // the place, in bits from the first word
-  bool rim;              // a step may lie above, below, before or behind the world
+  std::ptrdiff_t start;                  // the place, in bits from the first word
+  bool rim;                              // a step may lie above, below, before or behind the world
   std::size_t up, down, before, behind;  // voxels from the place to the rim
 };
 
 /// Whether one of the leg's first steps, those before `within`, is occupied.
 HWY_INLINE bool hits(const Around& around, const Ray& ray, std::size_t within, std::size_t leg) {
   for (std::size_t s = kLegs[leg - 1]; s < kLegs[leg]; s += kAtOnce) {
-    const std::int32_t* const steps = ray.steps.data() + s;
+    const std::int64_t* const steps = ray.steps.data() + s;
     if (within >= s + kAtOnce ? anyOf<false>(around.words, around.start, steps, kAtOnce)
                               : anyOf<true>(around.words, around.start, steps, within > s ? within - s : 0))
       return true;
@@ -158,7 +165,8 @@ HWY_INLINE bool hits(const Around& around, const Ray& ray, std::size_t within, s
 }
 
 template <bool kRim>
-HWY_INLINE std::uint64_t walkLegs(const BitVolume& occupied, const Group& group, const ClearBricks& clear, const Around& around, Voxel p, std::size_t first, std::uint64_t ask) {
+HWY_INLINE std::uint64_t walkLegs(const BitVolume& occupied, const Group& group, const ClearBricks& clear,
+                                  const Around& around, Voxel p, std::size_t first, std::uint64_t ask) {
   std::uint64_t found = 0;
   for (std::size_t leg = 1; leg < kLegs.size() && ask != 0; ++leg) {
     std::uint64_t next = 0;
@@ -168,7 +176,8 @@ HWY_INLINE std::uint64_t walkLegs(const BitVolume& occupied, const Group& group,
       std::size_t within = kSteps;
       if (kRim) {
         const Voxel v = group.directions[first + i].v;
-        within = std::min(ray.within_y[v.y < 0 ? around.down : around.up], ray.within_z[v.z < 0 ? around.before : around.behind]);
+        within = std::min(ray.within_y[v.y < 0 ? around.down : around.up],
+                          ray.within_z[v.z < 0 ? around.before : around.behind]);
       }
       const std::uint64_t free = hits(around, ray, within, leg) ? 0 : 1;
       const std::uint64_t ends = clear.is(first + i, p + ray.beyond[leg]) ? 1 : 0;
@@ -196,12 +205,14 @@ void Look(const BitVolume& occupied, const Group& group, const ClearBricks& clea
       continue;
     }
     const Mask blocked = blockedNear(occupied, group, p), at_once = clearBeyondNear(group, clear, p);
-    Around around{occupied.words().data(), 0, false, capped(size.y - 1 - p.y), capped(p.y), capped(p.z), capped(size.z - 1 - p.z)};
+    Around around{occupied.words().data(), 0, false, capped(size.y - 1 - p.y), capped(p.y), capped(p.z),
+                  capped(size.z - 1 - p.z)};
     around.start = (occupied.row(p.y, p.z) - around.words) * BitVolume::kWordBits + p.x;
     around.rim = std::min({around.up, around.down, around.before, around.behind}) < kFar - 1;
     for (std::size_t k = 0; k < columns; ++k) {
       const std::size_t left = group.directions.size() - 64 * k;
-      const std::uint64_t unblocked = ~blocked.words[k] & (left >= 64 ? ~std::uint64_t{0} : (std::uint64_t{1} << left) - 1);
+      const std::uint64_t unblocked =
+          ~blocked.words[k] & (left >= 64 ? ~std::uint64_t{0} : (std::uint64_t{1} << left) - 1);
       const std::uint64_t ask = unblocked & ~at_once.words[k];
       open[k] = (unblocked & at_once.words[k]) |
                 (around.rim ? walkLegs<true>(occupied, group, clear, around, p, 64 * k, ask)
@@ -210,8 +221,25 @@ void Look(const BitVolume& occupied, const Group& group, const ClearBricks& clea
   }
 }
 
+void SumRows(const float* rows, std::size_t apart, std::span<const std::uint32_t> chosen, float* sums) {
+  const hn::ScalableTag<float> d;
+  constexpr std::size_t kVectors = 8;  // of sums, in registers
+  static_assert(kVectors * HWY_LANES(float) <= kRowUnit);
+  for (std::size_t at = 0; at < apart; at += kVectors * hn::Lanes(d)) {
+    hn::Vec<decltype(d)> all[kVectors];
+    for (auto& sum : all) sum = hn::Zero(d);
+    for (const std::uint32_t row : chosen) {
+      const float* const from = rows + row * apart + at;
+      for (std::size_t i = 0; i < kVectors; ++i)
+        all[i] = hn::Add(all[i], hn::LoadU(d, from + i * hn::Lanes(d)));
+    }
+    for (std::size_t i = 0; i < kVectors; ++i) hn::StoreU(all[i], d, sums + at + i * hn::Lanes(d));
+  }
+}
+
 template <typename Shifted>
-HWY_INLINE void uniteLines(std::uint8_t* target, const std::uint8_t* source, Lines lines, const Shifted& shifted) {
+HWY_INLINE void uniteLines(std::uint8_t* target, const std::uint8_t* source, Lines lines,
+                           const Shifted& shifted) {
   for (std::size_t line = 0; line < lines.count; ++line, target += lines.apart, source += lines.apart) {
     for (std::size_t i = 0; i < lines.bytes; i += 8) {
       std::uint64_t from, to;
@@ -225,9 +253,11 @@ HWY_INLINE void uniteLines(std::uint8_t* target, const std::uint8_t* source, Lin
 
 void UniteShifted(std::uint8_t* target, const std::uint8_t* source, Lines lines, int by, std::uint64_t mask) {
   if (by >= 0) {
-    uniteLines(target, source, lines, [by, mask](std::uint64_t word) HWY_ATTR { return (word >> by) & mask; });
+    uniteLines(target, source, lines,
+               [by, mask](std::uint64_t word) HWY_ATTR { return (word >> by) & mask; });
   } else {
-    uniteLines(target, source, lines, [by, mask](std::uint64_t word) HWY_ATTR { return (word << -by) & mask; });
+    uniteLines(target, source, lines,
+               [by, mask](std::uint64_t word) HWY_ATTR { return (word << -by) & mask; });
   }
 }
 
@@ -239,6 +269,7 @@ namespace espalier::sim::looking {
 
 HWY_EXPORT(Look);
 HWY_EXPORT(UniteShifted);
+HWY_EXPORT(SumRows);
 
 void look(const BitVolume& occupied, const Group& group, const ClearBricks& clear,
           std::span<const Voxel> places, std::uint64_t* open, std::size_t stride) {
@@ -247,6 +278,10 @@ void look(const BitVolume& occupied, const Group& group, const ClearBricks& clea
 
 void uniteShifted(std::uint8_t* target, const std::uint8_t* source, Lines lines, int by, std::uint64_t mask) {
   HWY_DYNAMIC_DISPATCH(UniteShifted)(target, source, lines, by, mask);
+}
+
+void sumRows(const float* rows, std::size_t apart, std::span<const std::uint32_t> chosen, float* sums) {
+  HWY_DYNAMIC_DISPATCH(SumRows)(rows, apart, chosen, sums);
 }
 
 }  // namespace espalier::sim::looking

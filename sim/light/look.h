@@ -18,7 +18,7 @@ inline constexpr std::size_t kFours = (2 * kNear + 4) / 4;
 /// Beyond what is near, a ray's steps are tested leg by leg: how many there are up to the end of each.
 inline constexpr std::array<std::size_t, 5> kLegs{0, 8, 16, 32, 56};
 inline constexpr std::size_t kSteps = kLegs.back();
-inline constexpr std::size_t kAtOnce = 8;  ///< steps that are read together
+inline constexpr std::size_t kAtOnce = 8;                          ///< steps that are read together
 inline constexpr int kFar = kNear + 1 + static_cast<int>(kSteps);  ///< no step lies farther away
 static_assert(kNear < ClearBricks::kSide);
 static_assert(kFar < BitVolume::kWordBits);  // beyond the ends of a row lies a word of zeros
@@ -30,7 +30,7 @@ struct alignas(32) Mask {
 
 /// One direction beyond what is near.
 struct Ray {
-  std::array<std::int32_t, kSteps> steps;  ///< from the place, in bits of the volume
+  std::array<std::int64_t, kSteps> steps;  ///< from the place, in bits of the volume
   std::array<Voxel, kLegs.size()> beyond;  ///< the voxel behind what is near, and behind each leg
   /// How many steps lie within so many voxels of the place along y, and along z.
   std::array<std::uint8_t, kFar> within_y, within_z;
@@ -48,9 +48,9 @@ struct Group {
   /// before, in the same, and in the one behind.
   std::array<std::array<std::array<Mask, 3>, ClearBricks::kSide>, 3> leaving;
   std::vector<Ray> rays;
-  /// From a place to the voxels of a period, in bits of the volume; those of direction i from first_step[i] on.
-  /// As many steps as are read at once lie behind the last.
-  std::vector<std::int32_t> period_steps;
+  /// From a place to the voxels of a period, in bits of the volume; those of direction i from first_step[i]
+  /// on. As many steps as are read at once lie behind the last.
+  std::vector<std::int64_t> period_steps;
   std::vector<std::size_t> first_step;
 };
 
@@ -66,5 +66,12 @@ struct Lines {
 /// target |= source, each word shifted down by 0 <= `by` < 64 (up by -by) and masked. Reads and writes whole
 /// words.
 void uniteShifted(std::uint8_t* target, const std::uint8_t* source, Lines lines, int by, std::uint64_t mask);
+
+/// Rows of floats are as long as a multiple of this.
+inline constexpr std::size_t kRowUnit = 128;
+
+/// The sum of the chosen rows, in the order in which they are chosen. Rows lie `apart` floats from each
+/// other, and each has so many.
+void sumRows(const float* rows, std::size_t apart, std::span<const std::uint32_t> chosen, float* sums);
 
 }  // namespace espalier::sim::looking

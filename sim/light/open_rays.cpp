@@ -28,9 +28,9 @@ Voxel crossed(const LatticeDirection& direction, std::size_t i) {
 }
 
 /// In bits of the volume.
-std::int32_t stepOf(const BitVolume& shape, Voxel o) {
+std::int64_t stepOf(const BitVolume& shape, Voxel o) {
   const std::int64_t row = std::int64_t{o.y} * shape.size().z + o.z;
-  return static_cast<std::int32_t>(row * shape.rowWords() * BitVolume::kWordBits + o.x);
+  return row * shape.rowWords() * BitVolume::kWordBits + o.x;
 }
 
 looking::Ray rayOf(const BitVolume& shape, const LatticeDirection& direction) {
@@ -50,7 +50,8 @@ looking::Ray rayOf(const BitVolume& shape, const LatticeDirection& direction) {
 }
 
 looking::Group groupOf(const BitVolume& shape, std::span<const LatticeDirection> directions) {
-  const bool down = std::any_of(directions.begin(), directions.end(), [](const auto& d) { return d.v.y < 0; });
+  const bool down =
+      std::any_of(directions.begin(), directions.end(), [](const auto& d) { return d.v.y < 0; });
   constexpr int kAcross = 2 * kNear + 1;
   looking::Group group{directions, down ? -kNear : 0, {}, {}, {}, {}, {}};
   group.crossing.resize(static_cast<std::size_t>(kAcross * (kNear + 1 - group.lowest)));
@@ -62,13 +63,15 @@ looking::Group groupOf(const BitVolume& shape, std::span<const LatticeDirection>
       const int row = (o.y - group.lowest) * kAcross + o.z + kNear;
       const auto x = static_cast<std::size_t>(o.x + kNear);
       for (std::size_t pattern = 0; pattern < 16; ++pattern) {
-        if (((pattern >> (x % 4)) & 1u) != 0) include(group.crossing[static_cast<std::size_t>(row)][x / 4][pattern]);
+        if (((pattern >> (x % 4)) & 1u) != 0)
+          include(group.crossing[static_cast<std::size_t>(row)][x / 4][pattern]);
       }
     }
     for (int axis = 0; axis < 3; ++axis) {
       for (int in = 0; in < ClearBricks::kSide; ++in) {
         const int to = (in + ray.beyond[0][axis] + ClearBricks::kSide) / ClearBricks::kSide;
-        include(group.leaving[static_cast<std::size_t>(axis)][static_cast<std::size_t>(in)][static_cast<std::size_t>(to)]);
+        include(group.leaving[static_cast<std::size_t>(axis)][static_cast<std::size_t>(in)]
+                             [static_cast<std::size_t>(to)]);
       }
     }
     group.rays.push_back(ray);
@@ -85,8 +88,8 @@ OpenRays::OpenRays(const BitVolume& shape, const DirectionSet& directions)
     : directions_(std::make_shared<const DirectionSet>(directions)) {
   std::vector<looking::Group> groups;
   for (std::size_t first = 0; first < directions.size(); first += kGroup) {
-    groups.push_back(groupOf(
-        shape, std::span(*directions_).subspan(first, std::min(directions.size() - first, kGroup))));
+    groups.push_back(
+        groupOf(shape, std::span(*directions_).subspan(first, std::min(directions.size() - first, kGroup))));
   }
   groups_ = std::make_shared<const std::vector<looking::Group>>(std::move(groups));
 }

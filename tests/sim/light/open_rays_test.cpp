@@ -60,9 +60,9 @@ void expectWhatRaysMeet(const sim::BitVolume& bits, const sim::DirectionSet& set
 
 TEST(OpenRays, AreThoseThatReachTheEdge) {
   const auto set = allKinds();
-  for (const Voxel size : {Voxel(61, 40, 53), Voxel(64, 64, 64), Voxel(1, 90, 70), Voxel(90, 1, 70),
-                           Voxel(90, 70, 1), Voxel(1, 1, 1), Voxel(300, 20, 9), Voxel(9, 20, 300),
-                           Voxel(20, 300, 9), Voxel(129, 77, 7)}) {
+  for (const Voxel size :
+       {Voxel(61, 40, 53), Voxel(64, 64, 64), Voxel(1, 90, 70), Voxel(90, 1, 70), Voxel(90, 70, 1),
+        Voxel(1, 1, 1), Voxel(300, 20, 9), Voxel(9, 20, 300), Voxel(20, 300, 9), Voxel(129, 77, 7)}) {
     for (const double chance : {0.0, 0.0003, 0.01, 0.2}) {
       const auto bits = tests::randomBits(size, chance, 11);
       expectWhatRaysMeet(bits, set, placesIn(size, 60, 5));
@@ -73,12 +73,22 @@ TEST(OpenRays, AreThoseThatReachTheEdge) {
 // Long ways: beyond the legs, and with bricks that are clear or not.
 TEST(OpenRays, AreThoseThatReachTheEdgeOfALargeWorld) {
   sim::BitVolume bits({270, 260, 210});
-  tests::addBox(bits, {0, 0, 0}, {269, 5, 209});      // ground
-  tests::addBox(bits, {40, 6, 100}, {220, 200, 109});  // a wall
+  tests::addBox(bits, {0, 0, 0}, {269, 5, 209});        // ground
+  tests::addBox(bits, {40, 6, 100}, {220, 200, 109});   // a wall
   tests::addBox(bits, {100, 230, 0}, {120, 232, 209});  // a beam above it
   std::vector<Voxel> places = placesIn(bits.size(), 100, 6);
   for (int i = 0; i < 100; ++i) places.emplace_back(30 + 2 * i, 7 + i, 110 + i % 3);
   expectWhatRaysMeet(bits, allKinds(), places);
+}
+
+// More bricks along every axis than a word has bits.
+TEST(OpenRays, AreThoseThatReachTheEdgeOfAVeryLargeWorld) {
+  sim::BitVolume bits({530, 521, 540});
+  std::mt19937 random(3);
+  for (int i = 0; i < 3000; ++i)
+    bits.set({static_cast<int>(random() % 530), static_cast<int>(random() % 300),
+              static_cast<int>(random() % 540)});
+  expectWhatRaysMeet(bits, allKinds(), placesIn(bits.size(), 60, 6));
 }
 
 // More directions than a group holds, and down alone.
@@ -110,8 +120,8 @@ TEST(OpenRays, AreTheSameAtEveryLevel) {
 TEST(ClearBricks, NoRayThroughOneMeetsAnything) {
   auto set = allKinds();
   set.resize(std::min<std::size_t>(set.size(), 64 * sim::ClearBricks::kWords));
-  for (const Voxel size : {Voxel(40, 33, 30), Voxel(17, 40, 25)}) {
-    const auto bits = tests::randomBits(size, 0.0005, 13);
+  for (const Voxel size : {Voxel(40, 33, 30), Voxel(17, 40, 25), Voxel(530, 515, 513)}) {
+    const auto bits = tests::randomBits(size, size.x > 100 ? 1e-7 : 0.0005, 13);
     const sim::ClearBricks clear(bits, set);
     std::size_t clear_ones = 0;
     for (std::size_t d = 0; d < set.size(); ++d) {

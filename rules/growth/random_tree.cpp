@@ -21,7 +21,7 @@ sim::Fit fitLimb(const sim::SiteView& view, const Surroundings& around, Candidat
   for (const sim::Voxel v : trial.passes) {
     if (!sim::contains(world.frame().size, v)) return sim::Fit::outside;
     bool free = !world.occupied().at(v);
-    if (!free) {
+    if (!free && !world.solid().at(v)) {
       const sim::PartId part = world.partAt(v);
       const auto& own = view.plant.element_parts;
       free = std::find(own.begin(), own.end(), part) != own.end();

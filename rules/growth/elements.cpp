@@ -32,7 +32,7 @@ bool among(const Voxels& sorted, sim::Voxel v) {
 
 /// Whether a voxel is part of the scene.
 bool isScene(const sim::World& world, sim::Voxel v) {
-  return world.occupied().at(v) && world.part(world.partAt(v)).kind == sim::PartKind::scene;
+  return world.solid().at(v) && world.part(world.partAt(v)).kind == sim::PartKind::scene;
 }
 
 /// The voxels of an element, in order and each once.

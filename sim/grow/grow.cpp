@@ -262,7 +262,6 @@ bool Growing::hindered(const Asked& asked, std::uint32_t before) {
   if (!segment || segment->passage != Passage::around) return false;
   if (!claims_->allow(segment->takes, {asked.plant, asked.site.node}, voxelAt(asked.site.at_vx))) return true;
   const Limb limb{latticePoint(asked.site.at_vx), latticePoint(segment->to_vx)};
-  nearby_->clear();
   pieces_->gather(boxOf(limb.from, limb.to), before, static_cast<int>(asked.plant), *nearby_);
   return nearby_->clash(limb);
 }
@@ -300,7 +299,6 @@ void Growing::place(Asked& asked, std::uint32_t before, std::vector<TiledVoxel>&
     if (!sim::place(proposed.element, pieces_->shapeOf(part), *facets_))
       broken(planting, "put an element beyond all worlds");
     if (proposed.passage == Passage::around) {
-      nearby_->clear();
       pieces_->gather(facets_->box, before, -1, *nearby_);
       if (nearby_->clash(*facets_, attachmentOf(plant, proposed.element))) continue;
     }

@@ -151,14 +151,6 @@ LatticePoint latticePoint(Vec3 p_vx) {
   return LatticePoint(fixedFromVoxel(p_vx));
 }
 
-LatticeBox boxOf(const LatticeTriangle& t) {
-  return {glm::min(glm::min(t[0], t[1]), t[2]), glm::max(glm::max(t[0], t[1]), t[2])};
-}
-
-LatticeBox boxOf(LatticePoint a, LatticePoint b) {
-  return {glm::min(a, b), glm::max(a, b)};
-}
-
 bool cross(const LatticeTriangle& a, const LatticeTriangle& b) {
   const LatticeBox box_a = boxOf(a), box_b = boxOf(b);
   if (!meet(box_a, box_b)) return false;

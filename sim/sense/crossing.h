@@ -1,6 +1,7 @@
 #pragma once
 #include <array>
 
+#include <glm/common.hpp>
 #include "sim/base/vec.h"
 
 /// Whether triangles and straight lines cross. Points lie on tiling's lattice (sim/tile/tiling.h: 1/4096 of a
@@ -22,9 +23,13 @@ inline bool meet(const LatticeBox& a, const LatticeBox& b) {
          a.low.z <= b.high.z && b.low.z <= a.high.z;
 }
 
+inline LatticeBox boxOf(LatticePoint a, LatticePoint b) {
+  return {glm::min(a, b), glm::max(a, b)};
+}
+inline LatticeBox boxOf(const LatticeTriangle& t) {
+  return {glm::min(glm::min(t[0], t[1]), t[2]), glm::max(glm::max(t[0], t[1]), t[2])};
+}
 LatticePoint latticePoint(Vec3 p_vx);
-LatticeBox boxOf(const LatticeTriangle& triangle);
-LatticeBox boxOf(LatticePoint a, LatticePoint b);
 
 /// Whether two triangles cross: what they share has a length or, where they lie in one plane, an area. Those
 /// that only touch, at a corner or with an edge from one side, do not; a triangle without area crosses

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <utility>
 
 #include "sim/sense/piece_grid.h"
 
@@ -17,51 +18,129 @@ LatticeTriangle triangleOf(const Facets& element, std::size_t i) {
 
 }  // namespace
 
+/// Whether two boxes share no point.
+inline bool Nearby::apart(const Bounds& a, const Bounds& b) {
+  int signs = 0;  // one is negative where the boxes are apart; no branches, so that lanes do it
+  for (int i = 0; i < 4; ++i) signs |= (b.high[i] - a.low[i]) | (a.high[i] - b.low[i]);
+  return signs < 0;
+}
+
+/// Whether all corners lie beyond one of the planes: by more than rounding of the arithmetic could feign.
+inline bool Nearby::apart(const Slab& slab, std::span<const Facet> facets) {
+  constexpr double kMargin = 0.5;
+  bool above = true, below = true;
+  for (const Facet& facet : facets) {
+    for (const LatticePoint corner : facet.corners) {
+      const double at = glm::dot(slab.normal, Vec3(corner));
+      above = above && at > slab.high + kMargin;
+      below = below && at < slab.low - kMargin;
+    }
+    if (!above && !below) return false;
+  }
+  return true;
+}
+
+Nearby::Slab Nearby::slabOf(std::span<const Facet> facets) {
+  Slab slab;
+  for (const Facet& facet : facets) {
+    const Vec3 u(facet.corners[1] - facet.corners[0]), v(facet.corners[2] - facet.corners[0]);
+    slab.normal += glm::cross(u, v);
+  }
+  const double length = glm::length(slab.normal);
+  slab.normal = length > 0.0 ? slab.normal / length : Vec3(0, 1, 0);
+  slab.low = slab.high = glm::dot(slab.normal, Vec3(facets[0].corners[0]));
+  for (const Facet& facet : facets) {
+    for (const LatticePoint corner : facet.corners) {
+      const double at = glm::dot(slab.normal, Vec3(corner));
+      slab.low = std::min(slab.low, at);
+      slab.high = std::max(slab.high, at);
+    }
+  }
+  return slab;
+}
+
 void Nearby::clear() {
+  limb_bounds_.clear();
   limbs_.clear();
+  body_bounds_.clear();
   bodies_.clear();
-  triangles_.clear();
+  facets_.clear();
 }
 
 void Nearby::add(const Facets& element) {
   if (element.box.low == element.box.high) return;  // a point is in nobody's way
   Body body;
-  body.box = element.box;
-  body.first = static_cast<std::uint32_t>(triangles_.size());
-  for (std::size_t i = 0; i < element.shape->triangles.size(); ++i)
-    triangles_.push_back(triangleOf(element, i));
-  body.last = static_cast<std::uint32_t>(triangles_.size());
+  body.first = static_cast<std::uint32_t>(facets_.size());
+  for (std::size_t i = 0; i < element.shape->triangles.size(); ++i) {
+    const LatticeTriangle corners = triangleOf(element, i);
+    facets_.push_back({Bounds(boxOf(corners)), corners});
+  }
+  body.last = static_cast<std::uint32_t>(facets_.size());
+  body.slab = slabOf(std::span(facets_).subspan(body.first));
   bodies_.push_back(body);
+  body_bounds_.emplace_back(element.box);
 }
 
-bool Nearby::clash(const Facets& element, const Attachment& attachment) const {
-  const std::size_t facets = element.shape->triangles.size();
-  for (const Limb& limb : limbs_) {
-    if (!meet(boxOf(limb.from, limb.to), element.box) || exempt(limb, attachment)) continue;
-    for (std::size_t i = 0; i < facets; ++i) {
-      if (pierces(limb.from, limb.to, triangleOf(element, i))) return true;
-    }
-  }
-  for (const Body& body : bodies_) {
-    if (!meet(body.box, element.box)) continue;
-    for (std::size_t i = 0; i < facets; ++i) {
-      const LatticeTriangle mine = triangleOf(element, i);
-      if (!meet(body.box, boxOf(mine))) continue;
-      for (std::uint32_t k = body.first; k < body.last; ++k) {
-        if (cross(mine, triangles_[k])) return true;
-      }
+void Nearby::open(Body& body) {
+  if (body.last > 0) return;
+  body.first = static_cast<std::uint32_t>(facets_.size());
+  grid_->unpack(body.number, facets_);
+  body.last = static_cast<std::uint32_t>(facets_.size());
+  body.slab = slabOf(std::span(facets_).subspan(body.first));
+}
+
+/// Whether the element that is asked of crosses one that is open.
+bool Nearby::cross(const Body& body) const {
+  const auto facets = std::span(facets_).subspan(body.first, body.last - body.first);
+  if (apart(asked_slab_, facets) || apart(body.slab, asked_)) return false;
+  for (const Facet& mine : asked_) {
+    for (const Facet& other : facets) {
+      if (!apart(mine.bounds, other.bounds) && sim::cross(mine.corners, other.corners)) return true;
     }
   }
   return false;
 }
 
-bool Nearby::clash(const Limb& limb) const {
-  const LatticeBox box = boxOf(limb.from, limb.to);
-  return std::any_of(bodies_.begin(), bodies_.end(), [&](const Body& body) {
-    if (!meet(body.box, box)) return false;
-    const auto first = triangles_.begin() + body.first, last = triangles_.begin() + body.last;
-    return std::any_of(first, last, [&](const LatticeTriangle& t) { return pierces(limb.from, limb.to, t); });
-  });
+bool Nearby::clash(const Facets& element, const Attachment& attachment) {
+  const std::size_t facets = element.shape->triangles.size();
+  const Bounds bounds(element.box);
+  for (std::size_t i = 0; i < limbs_.size(); ++i) {
+    const Limb& limb = limbs_[i];
+    if (apart(limb_bounds_[i], bounds) || exempt(limb, attachment)) continue;
+    for (std::size_t k = 0; k < facets; ++k) {
+      if (pierces(limb.from, limb.to, triangleOf(element, k))) return true;
+    }
+  }
+  asked_.clear();
+  for (std::size_t i = 0; i < bodies_.size(); ++i) {
+    if (apart(body_bounds_[i], bounds)) continue;
+    if (asked_.empty()) {
+      for (std::size_t k = 0; k < facets; ++k) {
+        const LatticeTriangle corners = triangleOf(element, k);
+        asked_.push_back({Bounds(boxOf(corners)), corners});
+      }
+      asked_slab_ = slabOf(asked_);
+    }
+    open(bodies_[i]);
+    if (!cross(bodies_[i])) continue;
+    // What is in the way once is likely to be so again: it is asked first.
+    std::swap(bodies_[i], bodies_[i / 2]);
+    std::swap(body_bounds_[i], body_bounds_[i / 2]);
+    return true;
+  }
+  return false;
+}
+
+bool Nearby::clash(const Limb& limb) {
+  const Bounds bounds(boxOf(limb.from, limb.to));
+  for (std::size_t i = 0; i < bodies_.size(); ++i) {
+    if (apart(body_bounds_[i], bounds)) continue;
+    open(bodies_[i]);
+    for (std::uint32_t k = bodies_[i].first; k < bodies_[i].last; ++k) {
+      if (pierces(limb.from, limb.to, facets_[k].corners)) return true;
+    }
+  }
+  return false;
 }
 
 }  // namespace espalier::sim

@@ -12,6 +12,7 @@ constexpr int kCell = 4;  // voxels
 constexpr int kHalfVoxel = static_cast<int>(kFixedOne / 2);
 constexpr int kCellPoints = kCell * static_cast<int>(kFixedOne);
 constexpr int kFewCells = 8;  // a piece whose bounds touch more is listed part by part
+constexpr std::uint32_t kByParts = 1u << 31;
 constexpr std::size_t kPool = std::size_t{1} << 15;
 
 std::size_t indexIn(Voxel size, Voxel v) {
@@ -93,14 +94,14 @@ int PieceGrid::CellBox::count() const {
   return static_cast<int>(std::min<std::int64_t>(count, 1 << 30));
 }
 
-PieceGrid::CellBox PieceGrid::cellsOf(const LatticeBox& box) const {
-  const auto cell = [&](LatticePoint p) {
-    // Voxels' centres lie at whole numbers. Shifting rounds down.
-    const Voxel at((p + kHalfVoxel) >> 14);
-    return glm::clamp(at, Voxel(0), cells_ - 1);
-  };
+Voxel PieceGrid::cellAt(LatticePoint p) const {
   static_assert(kCellPoints == 1 << 14);
-  return {cell(box.low), cell(box.high)};
+  // Voxels' centres lie at whole numbers. Shifting rounds down.
+  return glm::clamp(Voxel((p + kHalfVoxel) >> 14), Voxel(0), cells_ - 1);
+}
+
+PieceGrid::CellBox PieceGrid::cellsOf(const LatticeBox& box) const {
+  return {cellAt(box.low), cellAt(box.high)};
 }
 
 void PieceGrid::list(std::uint32_t number, const LatticeBox& box) {
@@ -166,36 +167,38 @@ void PieceGrid::add(const Limb& limb) {
   pieces_.push_back({limb.from, limb.to, static_cast<std::uint32_t>(limb.node), -limb.stem});
   const LatticeBox box = boxOf(limb.from, limb.to);
   if (cellsOf(box).count() <= kFewCells) return list(size(), box);
+  pieces_.back().data |= kByParts;
   listLimb(size(), limb.from, limb.to);
 }
 
 void PieceGrid::add(PartId part, const Facets& element) {
   pieces_.push_back({element.box.low, element.box.high, keep(element), part});
   if (cellsOf(element.box).count() <= kFewCells) return list(size(), element.box);
+  pieces_.back().data |= kByParts;
   for (const auto& t : element.shape->triangles)
     listTriangle(size(), {element.corners[t[0]], element.corners[t[1]], element.corners[t[2]]});
 }
 
-void PieceGrid::unpack(const Piece& piece, Nearby& nearby) const {
+void PieceGrid::unpack(std::uint32_t number, std::vector<Nearby::Facet>& facets) const {
+  const Piece& piece = pieces_[number - 1];
   const FacetShape& shape = *kinds_[static_cast<std::size_t>(piece.part)].shape;
-  const LatticeBox box{piece.a, piece.b};
-  const int words = wide(box) ? 6 : 3;
-  const std::uint16_t* const pool = corners_[piece.data / kPool].data() + piece.data % kPool;
-  const auto corner = [&](std::uint32_t number) {
-    const std::uint16_t* const at = pool + static_cast<std::ptrdiff_t>(number) * words;
+  const int words = wide({piece.a, piece.b}) ? 6 : 3;
+  const std::uint32_t data = piece.data & ~kByParts;
+  const std::uint16_t* const pool = corners_[data / kPool].data() + data % kPool;
+  const auto corner = [&](std::uint32_t i) {
+    const std::uint16_t* const at = pool + static_cast<std::ptrdiff_t>(i) * words;
     if (words == 3) return piece.a + LatticePoint(at[0], at[1], at[2]);
     return piece.a + LatticePoint(at[0] | (at[1] << 16), at[2] | (at[3] << 16), at[4] | (at[5] << 16));
   };
-  Nearby::Body body;
-  body.box = box;
-  body.first = static_cast<std::uint32_t>(nearby.triangles_.size());
-  for (const auto& t : shape.triangles)
-    nearby.triangles_.push_back({corner(t[0]), corner(t[1]), corner(t[2])});
-  body.last = static_cast<std::uint32_t>(nearby.triangles_.size());
-  nearby.bodies_.push_back(body);
+  for (const auto& t : shape.triangles) {
+    const LatticeTriangle corners = {corner(t[0]), corner(t[1]), corner(t[2])};
+    facets.push_back({Nearby::Bounds(boxOf(corners)), corners});
+  }
 }
 
 void PieceGrid::gather(const LatticeBox& box, std::uint32_t from, int but, Nearby& nearby) const {
+  nearby.clear();
+  nearby.grid_ = this;
   const CellBox wanted = cellsOf(box);
   std::vector<std::uint32_t> listed_by_parts;
   forEachCell(wanted.low, wanted.high, [&](Voxel cell) {
@@ -211,18 +214,20 @@ void PieceGrid::gather(const LatticeBox& box, std::uint32_t from, int but, Nearb
         if (!meet(bounds, box)) continue;
         if (piece.part > 0 && but >= 0 && kinds_[static_cast<std::size_t>(piece.part)].plant == but) continue;
         // Each once: in the first cell that it shares with the box.
-        const CellBox its = cellsOf(bounds);
-        if (its.count() <= kFewCells) {
-          if (cell != glm::max(its.low, wanted.low)) continue;
+        if ((piece.data & kByParts) == 0) {
+          if (cell != glm::max(cellAt(bounds.low), wanted.low)) continue;
         } else {
           if (std::find(listed_by_parts.begin(), listed_by_parts.end(), numbers[i]) != listed_by_parts.end())
             continue;
           listed_by_parts.push_back(numbers[i]);
         }
         if (piece.part < 0) {
-          nearby.add(Limb{piece.a, piece.b, -piece.part, static_cast<std::int32_t>(piece.data)});
+          nearby.limb_bounds_.emplace_back(bounds);
+          nearby.limbs_.push_back(
+              {piece.a, piece.b, -piece.part, static_cast<std::int32_t>(piece.data & ~kByParts)});
         } else {
-          unpack(piece, nearby);
+          nearby.body_bounds_.emplace_back(bounds);
+          nearby.bodies_.push_back({{}, numbers[i]});
         }
       }
     }

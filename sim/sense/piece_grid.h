@@ -2,7 +2,9 @@
 #include <array>
 #include <cstdint>
 #include <deque>
+#include <glm/vec4.hpp>
 #include <memory>
+#include <span>
 #include <vector>
 
 #include "sim/sense/crossing.h"
@@ -40,28 +42,58 @@ struct Attachment {
   std::int32_t node = -1;  ///< that ends in this node
 };
 
-/// Pieces that lie near each other, ready for many questions.
+class PieceGrid;
+
+/// Pieces that lie near each other, ready for many questions. Keeps its memory from one to the next.
 class Nearby {
  public:
   void clear();
-  void add(const Limb& limb) { limbs_.push_back(limb); }
   void add(const Facets& element);
 
   /// Whether an element clashes with one of the pieces: a polygon of it crosses one of another element, or a
   /// limb pierces it.
-  bool clash(const Facets& element, const Attachment& attachment) const;
+  bool clash(const Facets& element, const Attachment& attachment);
   /// Whether a limb pierces one of the elements.
-  bool clash(const Limb& limb) const;
+  bool clash(const Limb& limb);
 
  private:
-  struct Body {
-    LatticeBox box;
-    std::uint32_t first = 0, last = 0;  // of triangles_
-  };
-  std::vector<Limb> limbs_;
-  std::vector<Body> bodies_;
-  std::vector<LatticeTriangle> triangles_;
   friend class PieceGrid;
+  // Four numbers a corner, the last one 0: a vector's lanes.
+  struct Bounds {
+    Bounds() = default;
+    explicit Bounds(const LatticeBox& box) : low(box.low, 0), high(box.high, 0) {}
+    alignas(16) glm::ivec4 low{0};
+    alignas(16) glm::ivec4 high{0};
+  };
+  struct Facet {
+    Bounds bounds;
+    LatticeTriangle corners;
+  };
+  // All corners lie between two planes.
+  struct Slab {
+    Vec3 normal{0.0};  // unit; zero: unknown
+    double low = 0.0, high = 0.0;
+  };
+  struct Body {
+    Slab slab;
+    std::uint32_t number = 0;           // of the piece in the grid; 0: none
+    std::uint32_t first = 0, last = 0;  // of facets_, once it is open
+  };
+
+  static bool apart(const Bounds& a, const Bounds& b);
+  static bool apart(const Slab& slab, std::span<const Facet> facets);
+  static Slab slabOf(std::span<const Facet> facets);
+  void open(Body& body);
+  bool cross(const Body& body) const;
+
+  const PieceGrid* grid_ = nullptr;
+  std::vector<Bounds> limb_bounds_;
+  std::vector<Limb> limbs_;
+  std::vector<Bounds> body_bounds_;
+  std::vector<Body> bodies_;
+  std::vector<Facet> facets_;  // of bodies that were looked at
+  std::vector<Facet> asked_;   // of the element that is asked of
+  Slab asked_slab_;
 };
 
 /// The limbs and elements of all plants, by place. Pieces are added and never removed; const members may be
@@ -81,15 +113,16 @@ class PieceGrid {
   /// Pieces so far: what is added from now on has numbers from here on.
   std::uint32_t size() const { return static_cast<std::uint32_t>(pieces_.size()); }
 
-  /// Adds to `nearby` the pieces whose bounds meet a box, but those with numbers below `from`, and the
-  /// elements of plant `but` (-1: none).
+  /// Finds the pieces whose bounds meet a box, but those with numbers below `from`, and the elements of plant
+  /// `but` (-1: none). `nearby` holds them instead of what it held, until something is added to the grid.
   void gather(const LatticeBox& box, std::uint32_t from, int but, Nearby& nearby) const;
 
  private:
+  friend class Nearby;
   // A limb from `a` to `b`, or an element with the bounds `a` and `b`. Numbers count from 1.
   struct Piece {
     LatticePoint a, b;
-    std::uint32_t data;  // a limb's node; where an element's corners stand
+    std::uint32_t data;  // a limb's node; where an element's corners stand; bit 31: listed part by part
     PartId part;         // of an element; of a limb's stem, negative
   };
   // Numbers of pieces that touch a cell, in order, 0 where there is room; the youngest chunk is the first.
@@ -107,12 +140,13 @@ class PieceGrid {
     int count() const;
   };
 
+  Voxel cellAt(LatticePoint p) const;
   CellBox cellsOf(const LatticeBox& box) const;
   void list(std::uint32_t number, const LatticeBox& box);
   void listLimb(std::uint32_t number, LatticePoint from, LatticePoint to);
   void listTriangle(std::uint32_t number, const LatticeTriangle& triangle);
   std::uint32_t keep(const Facets& element);
-  void unpack(const Piece& piece, Nearby& nearby) const;
+  void unpack(std::uint32_t number, std::vector<Nearby::Facet>& facets) const;
 
   Voxel cells_, blocks_;
   std::vector<std::uint32_t> block_of_;  // by place; 0: nothing there

@@ -119,13 +119,11 @@ TEST(PieceGrid, AnswersAsAllPiecesWould) {
         const Limb& limb = heap.limbs[static_cast<std::size_t>(i) % heap.limbs.size()];
         attachment = {limb.from, limb.stem, limb.node + 4 * kPlants};
       }
-      nearby.clear();
       heap.grid.gather(trial.box, from, -1, nearby);
       const bool expected = heap.clashes(trial, attachment, from);
       ASSERT_EQ(nearby.clash(trial, attachment), expected) << i;
       clashing += expected;
       // What was gathered for more answers the same for less.
-      nearby.clear();
       heap.grid.gather({trial.box.low - 5000, trial.box.high + 9000}, from, -1, nearby);
       ASSERT_EQ(nearby.clash(trial, attachment), expected) << i;
     }
@@ -149,7 +147,6 @@ TEST(PieceGrid, ALimbIsHinderedByElementsButThoseOfOnePlant) {
       if (plant == but) continue;
       for (const auto& t : Heap::trianglesOf(element)) expected = expected || pierces(limb.from, limb.to, t);
     }
-    nearby.clear();
     heap.grid.gather(boxOf(limb.from, limb.to), 0, but, nearby);
     ASSERT_EQ(nearby.clash(limb), expected);
     clashing += expected;

@@ -25,13 +25,14 @@ std::uint64_t bytesThatHoldAnything(std::uint64_t word) {
   return ((word & 0x0101010101010101u) * 0x0102040810204080u) >> 56;
 }
 
-/// Calls visit(brick) for each brick that holds anything.
-template <typename Visit>
-void forEachFilled(const BitVolume& occupied, const Visit& visit) {
+/// The bricks that hold anything, by their y.
+std::vector<std::vector<Voxel>> filledBricks(const BitVolume& occupied) {
   const Voxel size = occupied.size();
   const auto words = static_cast<std::size_t>(occupied.rowWords() - 1);
-  std::vector<std::uint64_t> united(words);
-  for (int y = 0; y * kSide < size.y; ++y) {
+  std::vector<std::vector<Voxel>> filled(static_cast<std::size_t>((size.y + kSide - 1) / kSide));
+  parallelForEach(filled.size(), [&](std::size_t slab) {
+    const int y = static_cast<int>(slab);
+    std::vector<std::uint64_t> united(words);
     for (int z = 0; z * kSide < size.z; ++z) {
       std::fill(united.begin(), united.end(), 0);
       for (int dy = kSide * y; dy < std::min(size.y, kSide * (y + 1)); ++dy) {
@@ -42,10 +43,11 @@ void forEachFilled(const BitVolume& occupied, const Visit& visit) {
       }
       for (std::size_t w = 0; w < words; ++w) {
         for (std::uint64_t bricks = bytesThatHoldAnything(united[w]); bricks != 0; bricks &= bricks - 1)
-          visit(Voxel(static_cast<int>(8 * w) + std::countr_zero(bricks), y, z));
+          filled[slab].emplace_back(static_cast<int>(8 * w) + std::countr_zero(bricks), y, z);
       }
     }
-  }
+  });
+  return filled;
 }
 
 /// How often bricks are to be halved in number along each axis until a row along the shortest fits into a
@@ -180,7 +182,9 @@ ClearBricks::ClearBricks(const BitVolume& occupied, std::span<const LatticeDirec
   step_[static_cast<std::size_t>(layout.row)] = 8 * layout.lane_bytes;
   step_[static_cast<std::size_t>(layout.column)] = 8 * layout.bytes;
   ReadPlane filled(layout);
-  forEachFilled(occupied, [&](Voxel brick) { filled.set(brick >> Voxel(coarser_)); });
+  for (const auto& slab : filledBricks(occupied)) {
+    for (const Voxel brick : slab) filled.set(brick >> Voxel(coarser_));
+  }
   std::map<std::tuple<int, int, int>, ReadPlane> met;  // by a brick whose low corner lies here, by v's signs
   for (const LatticeDirection& direction : directions) {
     const Voxel sign = glm::sign(direction.v);

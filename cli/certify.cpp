@@ -30,7 +30,7 @@ int certify(const CertifyArguments& arguments) {
     return kInputError;
   }
   try {
-    const scenes::Certificate certificate = scenes::certify(scenes::makeSite(*scene), scene->seed);
+    const scenes::Certificate certificate = scenes::certify(scenes::makeSiteForLight(*scene), scene->seed);
     fmt::print("{}", arguments.json ? scenes::toJson(certificate) : scenes::toText(certificate));
   } catch (const scenes::MeshMissing& missing) {
     fmt::print(stderr, "{}; skipped, as the scene calls it optional\n", missing.what());

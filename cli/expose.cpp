@@ -50,7 +50,7 @@ void addExpose(CLI::App& app, int& exit_status) {
       } else if (where) {
         scene.exposure.where = kWhere.at(*where);
       }
-      const scenes::ExposeResult result = scenes::exposeScene(std::move(scene), run);
+      const scenes::ExposeResult result = scenes::exposeScene(scene, run);
       return JobOutcome{scenes::toJson(result.report), scenes::summary(result, run.folder)};
     });
   });

@@ -12,6 +12,7 @@
 #include "render/image/camera.h"
 #include "rules/language/rule_set.h"
 #include "scenes/problem.h"
+#include "sim/base/provenance.h"
 #include "sim/base/vec.h"
 #include "sim/light/sky.h"
 #include "sim/light/sun.h"
@@ -20,12 +21,16 @@
 /// Positions are in world metres, y up. scenes/read/registry.h describes every key.
 namespace espalier::scenes {
 
+/// What boundary layers a world may have.
+inline constexpr int kMostLayers = 64;
+
 enum class RegionsFrom { group, material };
 
 /// A mesh, a polyline or points, to be tiled into the world.
 struct SceneMesh {
   std::string name;  ///< defaults to the file's stem
   std::filesystem::path file;
+  std::string told;  ///< what reports call the file, without a path of the machine; empty: its last name
   RegionsFrom regions_from = RegionsFrom::group;  ///< which names of the file become regions
   bool solid = false;                             ///< fill the inside
   bool optional = false;  ///< a missing file skips the scene instead of being an error
@@ -40,7 +45,7 @@ struct WorldSpec {
   std::optional<int> resolution;  ///< or the number of voxels along the longest side
   double margin_m = 0.0;
   std::optional<std::array<sim::Vec3, 2>> bounds_m;  ///< instead of the meshes' bounds plus margin
-  int layers = 4;
+  int layers = 4;  ///< at least so many; more where the rules of its plants ask for them (layersFor)
 };
 
 /// Where the sky is looked for: along the same lattice directions from everywhere, or along Greene's random
@@ -117,6 +122,7 @@ struct PlantSpec {
   std::string name;
   std::filesystem::path rules_file;
   std::shared_ptr<const rules::RuleSet> rules;
+  Place rules_place = {};  ///< where the scene file names them; without a path where none does
   std::vector<SeedSpec> seeds;
   std::optional<Scatter> scatter;
 };
@@ -162,7 +168,8 @@ struct RegionMention {
 
 struct Scene {
   std::string name = "unnamed";
-  std::filesystem::path file;  ///< where it was read from
+  std::filesystem::path file;              ///< where it was read from
+  std::vector<sim::InputFile> read_files;  ///< itself and its rule files, in the order of reading
   std::vector<SceneMesh> meshes;
   WorldSpec world;
   SkySpec sky;
@@ -175,6 +182,8 @@ struct Scene {
   std::uint64_t seed = 1;
   int image_width = 1280;
   int image_height = 960;
+  Place images_place;  ///< where a scene file says how large images are, or which; without a path where none
+                       ///< does
   std::vector<NamedCamera> cameras;
   std::vector<ImageSpec> images;
 };

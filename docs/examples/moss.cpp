@@ -74,7 +74,7 @@ class Moss final : public Process {
     e.x = perpendicular(e.z);
     e.y = glm::cross(e.z, e.x);
     cushion.coverage = 1.0f;
-    const Fit fits = fit(view.world, {&at, 1}, {}, Passage::around, cushion.takes);
+    const Fit fits = fit(view.world, {&at, 1}, {}, Passage::around, kNoPlant, cushion.takes);
     return fits == Fit::clear ? Outcome::grown : Outcome::blocked;
   }
   static std::vector<std::int32_t>& triesOf(Columns& memory, std::size_t plant) {

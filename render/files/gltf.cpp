@@ -32,11 +32,24 @@ int sizeOf(const auto& container) {
   return static_cast<int>(container.size());
 }
 
+tinygltf::Value extras(const sim::Provenance& made_by) {
+  tinygltf::Value::Array inputs;
+  for (const sim::InputFile& input : made_by.inputs) {
+    inputs.emplace_back(tinygltf::Value::Object{{"file", tinygltf::Value(validUtf8(input.name))},
+                                                {"kind", tinygltf::Value(input.kind)},
+                                                {"xxh3", tinygltf::Value(sim::hexOf(input.hash))}});
+  }
+  // As text: of JSON's numbers tinygltf writes 32 bits or a real one.
+  return tinygltf::Value(tinygltf::Value::Object{{"seed", tinygltf::Value(std::to_string(made_by.seed))},
+                                                 {"inputs", tinygltf::Value(std::move(inputs))}});
+}
+
 class GlbWriter {
  public:
-  GlbWriter() {
+  explicit GlbWriter(const sim::Provenance& made_by) {
     model_.asset.version = "2.0";
-    model_.asset.generator = "Espalier";
+    model_.asset.generator = made_by.software.empty() ? "Espalier" : validUtf8(made_by.software);
+    if (!made_by.software.empty()) model_.asset.extras = extras(made_by);
     model_.buffers.resize(1);
     model_.scenes.resize(1);
     model_.defaultScene = 0;
@@ -221,8 +234,8 @@ std::string GlbWriter::bytes() {
 
 }  // namespace
 
-std::string glbBytes(const ModelScene& scene) {
-  GlbWriter writer;
+std::string glbBytes(const ModelScene& scene, const sim::Provenance& made_by) {
+  GlbWriter writer(made_by);
   for (const sim::Mesh* mesh : scene.meshes) writer.addMesh(*mesh);
   for (const PlantModel* plant : scene.plants) writer.addPlant(*plant);
   return writer.bytes();

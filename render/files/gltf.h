@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "render/model/plant_model.h"
+#include "sim/base/provenance.h"
 #include "sim/tile/mesh.h"
 
 namespace espalier::render {
@@ -17,6 +18,7 @@ struct ModelScene {
 /// and one for each of its elements. Metres, y up. Materials carry the base colours (leaves are
 /// double-sided); COLOR_0 of a plant holds exposure as a grey value. Empty meshes are left out. The same
 /// scene gives the same bytes. Throws InputError when a mesh's index is out of range.
-std::string glbBytes(const ModelScene& scene);
+/// `made_by` goes into `asset`: the software as its generator, the rest as its extras.
+std::string glbBytes(const ModelScene& scene, const sim::Provenance& made_by = {});
 
 }  // namespace espalier::render

@@ -142,7 +142,7 @@ void addFields(std::vector<MakeGrid>& out, const std::vector<VdbField>& fields, 
   }
 }
 
-openvdb::MetaMap aboutFile(const sim::World& world) {
+openvdb::MetaMap aboutFile(const sim::World& world, const sim::Provenance& made_by) {
   openvdb::MetaMap file;
   file.insertMeta("creator", openvdb::StringMetadata("Espalier"));
   file.insertMeta("up", openvdb::StringMetadata("+y"));
@@ -154,6 +154,10 @@ openvdb::MetaMap aboutFile(const sim::World& world) {
     names += fmt::format("{}\t{}\t{}\n", i + 1, part.object, part.region);
   }
   file.insertMeta("parts", openvdb::StringMetadata(names));
+  if (made_by.software.empty()) return file;
+  file.insertMeta("software", openvdb::StringMetadata(made_by.software));
+  file.insertMeta("seed", openvdb::Int64Metadata(static_cast<std::int64_t>(made_by.seed)));
+  file.insertMeta("inputs", openvdb::StringMetadata(sim::listOf(made_by.inputs)));
   return file;
 }
 
@@ -196,7 +200,8 @@ class Writer : public openvdb::io::Archive {
 
 }  // namespace
 
-std::string vdbBytes(const sim::World& world, const std::vector<VdbField>& fields) {
+std::string vdbBytes(const sim::World& world, const std::vector<VdbField>& fields,
+                     const sim::Provenance& made_by) {
   openvdb::initialize();
   using openvdb::FloatGrid, openvdb::Int32Grid, openvdb::Vec3SGrid;
   const sim::World::Grids& grids = world.grids();
@@ -241,14 +246,15 @@ std::string vdbBytes(const sim::World& world, const std::vector<VdbField>& field
         {"distance", "distance to the nearest scene voxel, centre to centre", "voxel widths"}, frame);
   });
   addFields(out, fields, world);
-  return Writer().bytes(out, aboutFile(world));
+  return Writer().bytes(out, aboutFile(world, made_by));
 }
 
-std::string fieldVdbBytes(const sim::World& world, const std::vector<VdbField>& fields) {
+std::string fieldVdbBytes(const sim::World& world, const std::vector<VdbField>& fields,
+                          const sim::Provenance& made_by) {
   openvdb::initialize();
   std::vector<MakeGrid> out;
   addFields(out, fields, world);
-  return Writer().bytes(out, aboutFile(world));
+  return Writer().bytes(out, aboutFile(world, made_by));
 }
 
 }  // namespace espalier::render

@@ -6,6 +6,7 @@
 #include <variant>
 #include <vector>
 
+#include "sim/base/provenance.h"
 #include "sim/base/voxel_set.h"
 #include "sim/world/world.h"
 
@@ -37,9 +38,12 @@ struct VdbField {
 /// the parts are in the file's metadata. OpenVDB's random file id is replaced by one that follows from the
 /// contents, so that the same world gives the same bytes. Throws InputError where a field has another size
 /// than the world.
-std::string vdbBytes(const sim::World& world, const std::vector<VdbField>& fields = {});
+/// `made_by` goes into the file's metadata: `software`, `seed` and `inputs`.
+std::string vdbBytes(const sim::World& world, const std::vector<VdbField>& fields = {},
+                     const sim::Provenance& made_by = {});
 
 /// The fields alone, with the world's transform and the names of its parts.
-std::string fieldVdbBytes(const sim::World& world, const std::vector<VdbField>& fields);
+std::string fieldVdbBytes(const sim::World& world, const std::vector<VdbField>& fields,
+                          const sim::Provenance& made_by = {});
 
 }  // namespace espalier::render

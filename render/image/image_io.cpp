@@ -49,6 +49,12 @@ std::string encode(const char* format, OIIO::ImageSpec spec, const Image& image,
 
 }  // namespace
 
+Metadata textsOf(const sim::Provenance& made_by) {
+  return {{"Software", made_by.software},
+          {"espalier:seed", std::to_string(made_by.seed)},
+          {"espalier:inputs", sim::listOf(made_by.inputs)}};
+}
+
 std::string encodePng(const Image& display, const Metadata& metadata) {
   checkPixels(display);
   if (display.channels != 1 && display.channels != 3 && display.channels != 4)

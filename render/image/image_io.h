@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "render/image/image.h"
+#include "sim/base/provenance.h"
 
 /// Pictures as the bytes of a file: write them with sim::writeWhole. The same picture gives the same bytes
 /// always: nothing of the time or the machine is stamped into them. All functions throw sim::InputError when
@@ -12,6 +13,10 @@ namespace espalier::render {
 
 /// Texts kept in the file's header, by name; stored in the order given.
 using Metadata = std::vector<std::pair<std::string, std::string>>;
+
+/// What says by which program and from what a picture was made: `Software`, `espalier:seed`,
+/// `espalier:inputs`.
+Metadata textsOf(const sim::Provenance& made_by);
 
 /// 8-bit PNG of display values (sRGB, 0..1; what lies outside is clamped) with 1, 3 or 4 channels; alpha, the
 /// fourth, is not premultiplied.

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 
 #include "sim/base/error.h"
 
@@ -111,7 +112,7 @@ void appendSubsamples(const Eye& eye, int x, int y, const Fragment* plane, std::
 }  // namespace
 
 Visibility see(const sim::Frame& frame, const sim::BitVolume& occupied, const sim::Bricks& bricks,
-               const Camera& camera, int width_px, int height_px) {
+               const Camera& camera, int width_px, int height_px, std::size_t most) {
   if (width_px < 1 || height_px < 1)
     throw sim::InputError(
         fmt::format("a picture of {} x {} pixels; both must be at least 1", width_px, height_px));
@@ -134,9 +135,11 @@ Visibility see(const sim::Frame& frame, const sim::BitVolume& occupied, const si
 
   std::vector<std::vector<Fragment>> rows(height);
   all.starts.assign(width * height + 1, 0);
+  std::atomic<std::size_t> seen = 0;  // more than `most`, or not: whatever the order of the rows
   sim::parallelForEach(static_cast<std::size_t>(height_px), [&](std::size_t line) {
     const int y = static_cast<int>(line);
     std::vector<Fragment>& row = rows[static_cast<std::size_t>(y)];
+    if (seen > most) return;
     row.reserve(2 * width);
     for (int x = 0; x < width_px; ++x) {
       const std::size_t i = static_cast<std::size_t>(y) * width + static_cast<std::size_t>(x);
@@ -154,7 +157,14 @@ Visibility see(const sim::Frame& frame, const sim::BitVolume& occupied, const si
                          row);
       all.starts[i + 1] = row.size() - before;
     }
+    seen += row.size();
   });
+  if (seen > most) {
+    throw sim::InputError(fmt::format(
+        "a picture of {} x {} pixels sees more faces of voxels than the memory that is free for it here "
+        "can hold; expected fewer pixels, or a camera that is nearer",
+        width_px, height_px));
+  }
   for (std::size_t i = 0; i < width * height; ++i) all.starts[i + 1] += all.starts[i];
   all.fragments.reserve(all.starts.back());
   for (const std::vector<Fragment>& row : rows)

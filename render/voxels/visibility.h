@@ -1,6 +1,7 @@
 #pragma once
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -43,8 +44,10 @@ struct Visibility {
   }
 };
 
-/// Throws InputError where the camera stands inside an occupied voxel or the size is not positive.
+/// Throws InputError where the camera stands inside an occupied voxel, the size is not positive, or the
+/// pixels see more than `most` fragments, which bounds what it takes of memory.
 Visibility see(const sim::Frame& frame, const sim::BitVolume& occupied, const sim::Bricks& bricks,
-               const Camera& camera, int width_px, int height_px);
+               const Camera& camera, int width_px, int height_px,
+               std::size_t most = std::numeric_limits<std::size_t>::max());
 
 }  // namespace espalier::render

@@ -1,7 +1,5 @@
 #include "rules/growth/make_process.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <optional>
 
@@ -9,7 +7,7 @@
 #include "rules/growth/elements.h"
 #include "rules/growth/random_tree.h"
 #include "rules/growth/rule_book.h"
-#include "sim/base/error.h"
+#include "rules/growth/voxel_widths.h"
 
 namespace espalier::rules {
 namespace {
@@ -18,7 +16,7 @@ using sim::Outcome;
 
 class BookProcess final : public sim::Process {
  public:
-  BookProcess(RuleBook book, double voxel_m) : book_(std::move(book)), voxel_m_(voxel_m) {
+  explicit BookProcess(RuleBook book) : book_(std::move(book)) {
     forEachSet(book_.top(), [&](const RuleSet& set, const std::string&) {
       sky_table_ = sky_table_ || set.bias.brightest == Brightest::table;
     });
@@ -30,7 +28,7 @@ class BookProcess final : public sim::Process {
     sim::Plant plant;
     plant.shapes = book_.shapes();
     plant.stem_colour = book_.top().stem_colour;
-    plant.stem_radius_vx = book_.top().stem_radius_vx;
+    plant.stem_radius_vx = book_.top().stem_radius.number;
     for (const char* name : {"exposure", "proximity_vx", "sky_exposure", "sun_exposure"})
       plant.skeleton.columns[name];
     return plant;
@@ -57,18 +55,15 @@ class BookProcess final : public sim::Process {
  private:
   /// Why a set does not grow here; grown if it does, and then the proposal says what. `set` numbers the sets
   /// that one site tries, from 0.
-  Outcome tryToGrow(const sim::SiteView& view, const sim::Site& site, const RuleSet& rules,
-                    const Surroundings& around, const sim::RandomKey& key, unsigned set,
-                    sim::Proposal& proposal) const;
+  Outcome tryToGrow(const sim::SiteView& view, const RuleSet& rules, const Surroundings& around,
+                    const sim::RandomKey& key, unsigned set, sim::Proposal& proposal) const;
 
   RuleBook book_;
-  double voxel_m_;
   bool sky_table_ = false;
 };
 
-Outcome BookProcess::tryToGrow(const sim::SiteView& view, const sim::Site& site, const RuleSet& rules,
-                               const Surroundings& around, const sim::RandomKey& key, unsigned set,
-                               sim::Proposal& proposal) const {
+Outcome BookProcess::tryToGrow(const sim::SiteView& view, const RuleSet& rules, const Surroundings& around,
+                               const sim::RandomKey& key, unsigned set, sim::Proposal& proposal) const {
   const Senses senses = sense(view, around, rules);
   if (senses.exposure < rules.require.exposure_min) return Outcome::too_dark;
   if (senses.exposure > rules.require.exposure_max) return Outcome::too_bright;
@@ -78,7 +73,7 @@ Outcome BookProcess::tryToGrow(const sim::SiteView& view, const sim::Site& site,
   std::optional<Candidate> best;
   switch (rules.propagate) {
     case Propagate::random_tree:
-      best = bestTrial(view, site, rules, around, senses, key, set, voxel_m_, proposal);
+      best = bestTrial(view, rules, around, senses, key, set, proposal);
       break;
   }
   if (!best) return Outcome::no_trial;
@@ -106,7 +101,7 @@ sim::Proposal BookProcess::propose(const sim::SiteView& view, const sim::Site& s
 
   const Surroundings around = lookAround(view, site);
   for (unsigned set = 0; rules != nullptr; ++set, rules = book_.next(*rules, view.world, at)) {
-    const Outcome outcome = tryToGrow(view, site, *rules, around, key, set, proposal);
+    const Outcome outcome = tryToGrow(view, *rules, around, key, set, proposal);
     // What is told of a site that did not grow is why its first set failed, unless a later one got as far as
     // trials.
     if (set == 0 || outcome == Outcome::no_trial || outcome == Outcome::grown || outcome == Outcome::resting)
@@ -123,18 +118,7 @@ sim::Proposal BookProcess::propose(const sim::SiteView& view, const sim::Site& s
 }  // namespace
 
 std::shared_ptr<const sim::Process> makeProcess(std::shared_ptr<const RuleSet> rules, double voxel_m) {
-  forEachSet(*rules, [&](const RuleSet& set, const std::string& path) {
-    const double unit = set.random_tree.length.metres ? voxel_m : 1.0;
-    const double shortest = lowest(set.random_tree.length.value) / unit;
-    const double longest = highest(set.random_tree.length.value) / unit;
-    if (!(shortest >= 0.1 && longest <= 60.0)) {
-      throw sim::InputError(
-          fmt::format("rule set '{}'{}: random_tree.length is {:.3g} to {:.3g} voxel widths at a voxel of "
-                      "{:.4g} m; expected 0.1 to 60",
-                      set.name, path.empty() ? "" : ", " + path, shortest, longest, voxel_m));
-    }
-  });
-  return std::make_shared<BookProcess>(RuleBook(std::move(rules)), voxel_m);
+  return std::make_shared<BookProcess>(RuleBook(inVoxelWidths(rules, voxel_m)));
 }
 
 }  // namespace espalier::rules

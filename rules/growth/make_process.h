@@ -19,7 +19,7 @@ namespace espalier::rules {
 /// The plant's one stem looks as the top rule set says.
 ///
 /// `voxel_m` turns lengths given in metres into voxel widths. Throws sim::InputError for a rule set that
-/// cannot work, wherever the book leads to it (a segment longer than 60 voxel widths or shorter than 0.1).
+/// cannot work with such voxels, wherever the book leads to it (rules/growth/voxel_widths.h).
 std::shared_ptr<const sim::Process> makeProcess(std::shared_ptr<const RuleSet> rules, double voxel_m);
 
 }  // namespace espalier::rules

@@ -4,97 +4,79 @@
 #include <cmath>
 #include <limits>
 
-#include "rules/growth/bend.h"
-#include "sim/sense/intersection.h"
-#include "sim/sense/proximity.h"
-#include "sim/tile/tiling.h"
+#include "rules/growth/ways.h"
+#include "sim/sense/feelers.h"
 
 namespace espalier::rules {
 namespace {
 
 using sim::Outcome;
 
-/// As sim::fit, but that leaves of the limb's own plant give way: their voxels are as free as empty ones.
-sim::Fit fitLimb(const sim::SiteView& view, const Surroundings& around, Candidate& trial) {
-  const sim::World& world = view.world;
-  trial.takes.clear();
-  for (const sim::Voxel v : trial.passes) {
-    if (!sim::contains(world.frame().size, v)) return sim::Fit::outside;
-    bool free = !world.occupied().at(v);
-    if (!free && !world.solid().at(v)) {
-      const sim::PartId part = world.partAt(v);
-      const auto& own = view.plant.element_parts;
-      free = std::find(own.begin(), own.end(), part) != own.end();
-    }
-    if (free) {
-      trial.takes.push_back(v);
-    } else if (trial.passage == sim::Passage::around &&
-               std::find(around.attachment.begin(), around.attachment.end(), v) == around.attachment.end()) {
-      return sim::Fit::blocked;
-    }
-  }
-  return sim::Fit::clear;
+/// What the rules say to a segment that was felt along.
+Outcome judged(const RuleSet& rules, sim::Felt::Fate fate, double proximity_vx) {
+  if (fate == sim::Felt::outside) return Outcome::out_of_world;
+  if (fate == sim::Felt::blocked) return Outcome::blocked;
+  if (proximity_vx > rules.require.proximity_max.number) return Outcome::too_far;
+  if (proximity_vx < rules.require.proximity_min.number) return Outcome::too_near;
+  return Outcome::grown;
 }
 
-/// Whether a trial meets the rules; fills in what it would take.
-Outcome judge(const sim::SiteView& view, const RuleSet& rules, const Surroundings& around, Candidate& trial) {
-  trial.passes.clear();
-  sim::tileSegment(around.at_vx, trial.to_vx, trial.passes);
-  trial.passage = rules.require.clear ? sim::Passage::around : sim::Passage::through;
-  switch (fitLimb(view, around, trial)) {
-    case sim::Fit::outside:
-      return Outcome::out_of_world;
-    case sim::Fit::blocked:
-      return Outcome::blocked;
-    case sim::Fit::clear:
-      break;
-  }
-  // Tiling rounds, so that an end within 1/8192 of the rim may lie beyond it where its voxel does not.
-  if (!sim::contains(view.world.frame().size, sim::voxelAt(trial.to_vx))) return Outcome::out_of_world;
-  if (trial.takes.empty()) return Outcome::blocked;
-  trial.proximity_vx = sim::averageProximity(view.world, trial.passes);
-  if (trial.proximity_vx > rules.require.proximity_max_vx) return Outcome::too_far;
-  if (trial.proximity_vx < rules.require.proximity_min_vx) return Outcome::too_near;
-  return Outcome::grown;
+/// The voxels that segments of a set may reach along any axis.
+int reachOf(const Ways& ways) {
+  return static_cast<int>(std::max(ways.length_vx.low, ways.length_vx.low + ways.length_vx.span)) + 1;
 }
 
 }  // namespace
 
-std::optional<Candidate> bestTrial(const sim::SiteView& view, const sim::Site& site, const RuleSet& rules,
+std::optional<Candidate> bestTrial(const sim::SiteView& view, const RuleSet& rules,
                                    const Surroundings& around, const Senses& senses,
-                                   const sim::RandomKey& key, unsigned set, double voxel_m,
-                                   sim::Proposal& proposal) {
+                                   const sim::RandomKey& key, unsigned set, sim::Proposal& proposal) {
   const RandomTree& tree = rules.random_tree;
+  const sim::Passage passage = rules.require.clear ? sim::Passage::around : sim::Passage::through;
+  const int plant = sim::numberOf(view.world, view.plant);
+  const Ways ways = waysOf(rules, around, senses, key, set, view.world.frame().size);
+  const sim::Room room =
+      sim::roomAround(view.world, around.voxel, reachOf(ways), around.attachment, passage, plant);
   std::optional<Candidate> best;
   double best_score = std::numeric_limits<double>::infinity();
   std::size_t best_attempt = 0;
-  Candidate trial;
-  const int enough =
-      rules.prefer.has_proximity ? tree.trials_min : 1;  // without a preference any good one will do
-  for (int i = 0; i < tree.trials_max && !(best && i >= enough); ++i) {
-    sim::Slots slots(key, sim::Purpose::trial, set, static_cast<unsigned>(i));
-    // A tip that has not found a way among its first trials looks farther afield.
-    const double widening =
-        i < tree.trials_min ? 1.0 : 1.0 + (i - tree.trials_min + 1.0) / (tree.trials_max - tree.trials_min);
-    const sim::Vec3 direction = flattened(
-        trialDirection(rules, around, senses, site.number != 0, widening, slots), view.world.frame().size);
-    const double length = valueOf(tree.length.value, senses.circumstance, slots, TrialSlot::length);
-    trial.to_vx = around.at_vx + direction * (tree.length.metres ? length / voxel_m : length);
-    // Bent all the way to an axis that the world has not: out of it.
-    const Outcome outcome =
-        direction == sim::Vec3(0.0) ? Outcome::out_of_world : judge(view, rules, around, trial);
-    ++proposal.trials[static_cast<std::size_t>(outcome)];
-    if (view.record_attempts) proposal.attempts.push_back({around.at_vx, trial.to_vx, outcome, false});
-    if (outcome != Outcome::grown) continue;
-    const double score =
-        rules.prefer.has_proximity ? std::abs(trial.proximity_vx - rules.prefer.proximity_vx) : 0.0;
-    if (score < best_score) {
-      best_score = score;
-      best = trial;
-      best_attempt = proposal.attempts.size() - 1;
+  sim::Offsets ends;
+  sim::Felt felt;
+  // Without a preference any good one will do.
+  const int enough = rules.prefer.has_proximity ? tree.trials_min : 1;
+  // Where any good one will do, one of the first mostly does.
+  constexpr int kFew = 16;
+  const auto done = [&](int trial) { return trial >= tree.trials_max || (best && trial >= enough); };
+  for (int first = 0; !done(first);) {
+    // Trials are made as if one by one: what is felt ahead of the one that ends them counts for nothing.
+    const int until = first >= enough ? tree.trials_max : std::max(enough, std::min(kFew, tree.trials_max));
+    const int count = std::min<int>(until - first, sim::Offsets::kMost);
+    trialEnds(ways, static_cast<unsigned>(first), static_cast<std::size_t>(count), ends);
+    sim::feel(view.world, room, around.at_vx, ends, static_cast<std::size_t>(count), felt);
+    int i = 0;
+    for (; i < count && !done(first + i); ++i) {
+      const auto n = static_cast<std::size_t>(i);
+      const double proximity_vx = felt.fate[n] == sim::Felt::clear ? double{felt.proximity_vx[n]} : 0.0;
+      const Outcome outcome = judged(rules, felt.fate[n], proximity_vx);
+      ++proposal.trials[static_cast<std::size_t>(outcome)];
+      if (view.record_attempts) {
+        proposal.attempts.push_back({around.at_vx, sim::endOf(around.at_vx, ends, n), outcome, false});
+      }
+      if (outcome != Outcome::grown) continue;
+      const double score =
+          rules.prefer.has_proximity ? std::abs(proximity_vx - rules.prefer.proximity.number) : 0.0;
+      if (score < best_score) {
+        best_score = score;
+        best = Candidate{sim::endOf(around.at_vx, ends, n), {}, {}, passage, proximity_vx};
+        best_attempt = proposal.attempts.size() - 1;
+      }
     }
+    first += i;
   }
-  if (best && view.record_attempts) proposal.attempts[best_attempt].taken = true;
+  if (!best) return best;
+  if (view.record_attempts) proposal.attempts[best_attempt].taken = true;
+  sim::tileSegment(around.at_vx, best->to_vx, best->passes);
+  sim::fit(view.world, best->passes, around.attachment, passage, plant, best->takes);
   return best;
 }
 

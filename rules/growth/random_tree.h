@@ -23,11 +23,10 @@ struct Candidate {
 };
 
 /// The best of a site's trials under one rule set, if there is a good one; counts them all in `proposal`, and
-/// records each once if the view says so. `set` numbers the rule sets that one site tries, from 0; `voxel_m`
-/// turns lengths in metres into voxel widths.
-std::optional<Candidate> bestTrial(const sim::SiteView& view, const sim::Site& site, const RuleSet& rules,
+/// records each once if the view says so. `set` numbers the rule sets that one site tries, from 0. Trials are
+/// felt along many at a time; they count as if they were made one by one.
+std::optional<Candidate> bestTrial(const sim::SiteView& view, const RuleSet& rules,
                                    const Surroundings& around, const Senses& senses,
-                                   const sim::RandomKey& key, unsigned set, double voxel_m,
-                                   sim::Proposal& proposal);
+                                   const sim::RandomKey& key, unsigned set, sim::Proposal& proposal);
 
 }  // namespace espalier::rules

@@ -61,12 +61,12 @@ Surroundings lookAround(const sim::SiteView& view, const sim::Site& site) {
 Senses sense(const sim::SiteView& view, const Surroundings& around, const RuleSet& rules) {
   Senses senses;
   senses.light = rules.bias.brightest == Brightest::table
-                     ? sim::brightest(*view.sky_table, view.world.opaque(), around.voxel)
+                     ? *view.brightest
                      : unitOrZero(view.light->sky.toward);
   senses.exposure = blended(rules.light, around.sun_exposure, around.sky_exposure);
   senses.vigour = vigourAt(rules, senses.exposure);
   if (highest(rules.bias.twist) != 0.0 || lowest(rules.bias.twist) != 0.0) {
-    const auto mass = sim::centreOfMass(view.world.occupied(), around.voxel, rules.bias.twist_radius_vx);
+    const auto mass = sim::centreOfMass(view.world.occupied(), around.voxel, rules.bias.twist_radius.number);
     if (mass) senses.twist = unitOrZero(glm::cross(around.heading, *mass - around.at_vx));
   }
   senses.circumstance = {senses.exposure, static_cast<double>(view.iteration),

@@ -50,6 +50,10 @@ struct Writer {
   std::string operator()(const Length& length) const {
     return written(length.value, length.metres ? " m" : "");
   }
+  std::string operator()(const Distance& distance) const {
+    return std::isfinite(distance.number) ? fmt::format("{}{}", distance.number, distance.metres ? " m" : "")
+                                          : "";
+  }
   std::string operator()(const sim::Colour& colour) const {
     return fmt::format("\"{}\"", hexFromLinear(colour));
   }
@@ -57,10 +61,22 @@ struct Writer {
   std::string operator()(std::chrono::year_month_day date) const { return sim::written(date); }
   std::string operator()(const std::string& text) const { return text; }
   std::string operator()(const RuleReference& reference) const { return reference.file; }
-  template <class T>
-  std::string operator()(const std::vector<T>& list) const {
+  std::string operator()(const Polygons& polygons) const {
+    const std::string_view unit = polygons.metres ? " m" : "";
+    const auto corner = [&](const sim::Vec3& p) {
+      return fmt::format("[{1}{0}, {2}{0}, {3}{0}]", unit, p.x, p.y, p.z);
+    };
+    return listed(polygons.corners, [&](const auto& polygon) { return listed(polygon, corner); });
+  }
+  std::string operator()(const std::vector<std::string>& names) const {
+    return listed(names, [](const std::string& name) { return name; });
+  }
+
+ private:
+  template <class T, class One>
+  static std::string listed(const std::vector<T>& list, One one) {
     std::string all;
-    for (const auto& item : list) all += (all.empty() ? "" : ", ") + (*this)(item);
+    for (const auto& item : list) all += (all.empty() ? "" : ", ") + one(item);
     return list.empty() ? "" : "[" + all + "]";
   }
 };
@@ -109,6 +125,10 @@ std::string expectation(const Key& key) {
       return bounded(key, "a number").append(kOrVaries);
     case Kind::length:
       return bounded(key, "a length") + ", such as 2.4 or \"12 cm\"" + std::string(kOrVaries);
+    case Kind::distance:
+      return bounded(key, "a length") + ", such as 2.4 or \"12 cm\"";
+    case Kind::size:
+      return bounded(key, "a number") + ", or a length such as \"6 cm\"" + std::string(kOrVaries);
     case Kind::metres:
       return bounded(key, "a length") + ", such as 0.04 or \"4 cm\"";
     case Kind::colour:
@@ -118,7 +138,10 @@ std::string expectation(const Key& key) {
     case Kind::place:
       return fmt::format("a point [x, y, z]{}", inUnit(key));
     case Kind::polygons:
-      return fmt::format("a list of polygons, each a list of points [x, y, z]{}", inUnit(key));
+      return fmt::format(
+          "a list of polygons, each a list of points [x, y, z]{}, all numbers or all lengths such as \"2 "
+          "cm\"",
+          inUnit(key));
     case Kind::choice:
       return fmt::format("one of {}", fmt::join(key.choices, ", "));
     case Kind::date:

@@ -29,11 +29,13 @@ enum class Kind {
   number,       ///< a number
   value,        ///< Value: a constant, a range or a curve
   length,       ///< Length: voxel widths, or text such as "12 cm"; also ranges and curves of those
+  distance,     ///< Distance: voxel widths, or text such as "12 cm"
+  size,         ///< Length: a factor, or text such as "12 cm"; also ranges and curves of those
   metres,       ///< a number of metres or text such as "4 cm"
   colour,       ///< "#rrggbb" or [r, g, b], both sRGB; stored linear
   point,        ///< [x, y, z] of numbers
   place,        ///< [x, y, z], each as in `metres`
-  polygons,     ///< a list of polygons, each a list of points
+  polygons,     ///< Polygons: a list of them, each a list of points [x, y, z], each as in `distance`
   choice,       ///< one of a few words
   name,         ///< a word that may become part of a file name
   text,         ///< any text of one line
@@ -71,9 +73,9 @@ struct RuleReference {
 };
 
 /// A value on its way between a file and a struct. monostate: none.
-using Datum = std::variant<std::monostate, bool, std::int64_t, WholeRange, double, Value, Length, sim::Colour,
-                           sim::Vec3, std::chrono::year_month_day, std::string,
-                           std::vector<std::vector<sim::Vec3>>, std::vector<std::string>, RuleReference>;
+using Datum = std::variant<std::monostate, bool, std::int64_t, WholeRange, double, Value, Length, Distance,
+                           sim::Colour, sim::Vec3, std::chrono::year_month_day, std::string, Polygons,
+                           std::vector<std::string>, RuleReference>;
 
 struct Table;
 

@@ -92,6 +92,10 @@ class TableOf {
     return field<Length>(n, Kind::length, a, s);
   }
   template <class A>
+  TableOf& distance(std::string n, A a, About s) {
+    return field<Distance>(n, Kind::distance, a, s);
+  }
+  template <class A>
   TableOf& metres(std::string n, A a, About s) {
     return field<double>(n, Kind::metres, a, s);
   }
@@ -108,10 +112,6 @@ class TableOf {
   template <class A>
   TableOf& place(std::string n, A a, About s) {
     return field<sim::Vec3>(n, Kind::place, a, s);
-  }
-  template <class A>
-  TableOf& polygons(std::string n, A a, About s) {
-    return field<std::vector<std::vector<sim::Vec3>>>(n, Kind::polygons, a, s);
   }
   template <class A>
   TableOf& date(std::string n, A a, About s) {

@@ -71,10 +71,10 @@ std::shared_ptr<const Table> biasKeys() {
                .limits = {-1.0, 1.0},
                .meaning = "To one side of the plane through the last segment and the local centre of mass: a "
                           "helix; below 0 to the other side."})
-          .number("radius", &Bias::twist_radius_vx,
-                  {.unit = kVoxels,
-                   .limits = {0.0, 64.0, true},
-                   .meaning = "How far around a tip the centre of mass is taken."})
+          .distance("radius", &Bias::twist_radius,
+                    {.unit = kVoxels,
+                     .limits = {0.0, 64.0, true},
+                     .meaning = "How far around a tip the centre of mass is taken."})
           .shared();
   return TableOf<Bias>()
       .value("up", &Bias::up, weight("Straight up.", "vertical_bias"))
@@ -93,16 +93,15 @@ std::shared_ptr<const Table> biasKeys() {
 std::shared_ptr<const Table> requireKeys() {
   const auto proximity =
       TableOf<Require>()
-          .number("min", &Require::proximity_min_vx,
-                  {.unit = kVoxels,
-                   .limits = kDistance,
-                   .meaning = "Least mean distance of a segment from the nearest scene object."})
-          .number("max", &Require::proximity_max_vx,
-                  {.unit = kVoxels,
-                   .limits = {0.0, 1000.0, true},
-                   .meaning = "Greatest mean distance. A voxel beyond the scene's last boundary layer counts "
-                              "as one farther than that.",
-                   .greene = "maxprox"})
+          .distance("min", &Require::proximity_min,
+                    {.unit = kVoxels,
+                     .limits = kDistance,
+                     .meaning = "Least mean distance of a segment from the nearest scene object."})
+          .distance("max", &Require::proximity_max,
+                    {.unit = kVoxels,
+                     .limits = {0.0, 1000.0, true},
+                     .meaning = "Greatest mean distance. Without it a plant may go where it likes.",
+                     .greene = "maxprox"})
           .shared();
   const auto exposure = TableOf<Require>()
                             .number("min", &Require::exposure_min,
@@ -129,12 +128,12 @@ std::shared_ptr<const Table> requireKeys() {
 std::shared_ptr<const Table> preferKeys() {
   return TableOf<Prefer>()
       .custom(
-          "proximity", Kind::number,
+          "proximity", Kind::distance,
           [](Prefer& p, const Datum& d) {
             p.has_proximity = true;
-            p.proximity_vx = std::get<double>(d);
+            p.proximity = std::get<Distance>(d);
           },
-          [](const Prefer& p) { return p.has_proximity ? Datum{p.proximity_vx} : Datum{}; },
+          [](const Prefer& p) { return p.has_proximity ? Datum{p.proximity} : Datum{}; },
           {.unit = kVoxels,
            .limits = kDistance,
            .meaning = "The trial whose mean distance from the scene is nearest to this wins; without it the "
@@ -171,8 +170,8 @@ std::shared_ptr<const Table> lightKeys() {
 std::shared_ptr<const Table> stemKeys() {
   return TableOf<RuleSet>()
       .colour("colour", &RuleSet::stem_colour, {.meaning = "Colour of the bark."})
-      .number(
-          "radius", &RuleSet::stem_radius_vx,
+      .distance(
+          "radius", &RuleSet::stem_radius,
           {.unit = kVoxels, .limits = {0.0, 100.0, true}, .meaning = "Radius of a twig that does not fork."})
       .shared();
 }
@@ -190,17 +189,35 @@ std::shared_ptr<const Table> elementKeys() {
               .limits = {0.0, 100.0},
               .meaning = "Expected number on a segment at the least exposure.",
               .greene = "expected_frequency"})
-      .value("size", &Element::size,
-             {.unit = "factor",
-              .limits = {0.0, 100.0, true},
-              .meaning = "Scale of the polygons at the least exposure."})
+      .custom(
+          "size", Kind::size,
+          [](Element& e, const Datum& d) {
+            const auto& size = std::get<Length>(d);
+            e.size = size.value;
+            e.size_metres = size.metres;
+          },
+          [](const Element& e) {
+            return Datum{Length{e.size, e.size_metres}};
+          },
+          {.unit = "factor",
+           .limits = {0.0, 100.0, true},
+           .meaning = "Scale of the polygons at the least exposure; a length is what 1 of their numbers "
+                      "measures."})
       .value("face", &Element::face,
              {.unit = "weight",
               .limits = kWeight,
               .meaning = "How far the face turns from the stem's own way to the open and the sky."})
       .colour("colour", &Element::colour, {.meaning = "Colour of its polygons."})
-      .polygons(
-          "polygons", &Element::polygons,
+      .custom(
+          "polygons", Kind::polygons,
+          [](Element& e, const Datum& d) {
+            const auto& polygons = std::get<Polygons>(d);
+            e.polygons = polygons.corners;
+            e.polygons_metres = polygons.metres;
+          },
+          [](const Element& e) {
+            return Datum{Polygons{e.polygons, e.polygons_metres}};
+          },
           {.unit = kVoxels,
            .limits = {-1000.0, 1000.0},
            .meaning = "Flat polygons by their corners; attached at [0, 0, 0], growing along +y, facing +z.",

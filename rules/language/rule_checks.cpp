@@ -17,21 +17,22 @@ Check check(std::vector<std::string> reads, Rules run) {
           }};
 }
 
-/// Complains where a lower bound lies above its upper bound, at the one that was written.
+/// Complains where a lower bound lies above its upper bound, at the one that was written. Bounds in two units
+/// wait for the voxel size (rules/growth/voxel_widths.h).
 Check ordered(const std::string& low_path, const std::string& high_path,
-              const std::function<double(const RuleSet&)>& low,
-              const std::function<double(const RuleSet&)>& high, bool may_be_equal) {
-  return check({low_path, high_path},
-               [=](const RuleSet& rules, const Check::Given& given, const Check::Complain& complain) {
-                 const double a = low(rules), b = high(rules);
-                 if (a < b || (may_be_equal && a == b)) return;
-                 const auto said = [&](const std::string& path, double number) {
-                   return fmt::format("{} is {}{}", path, number, given(path) ? "" : " (by default)");
-                 };
-                 complain(given(low_path) ? low_path : high_path,
-                          fmt::format("{} and {}; expected the first to be {} the second", said(low_path, a),
-                                      said(high_path, b), may_be_equal ? "at most" : "less than"));
-               });
+              const std::function<Distance(const RuleSet&)>& low,
+              const std::function<Distance(const RuleSet&)>& high, bool may_be_equal) {
+  return check({low_path, high_path}, [=](const RuleSet& rules, const Check::Given& given,
+                                          const Check::Complain& complain) {
+    const Distance a = low(rules), b = high(rules);
+    if (a.metres != b.metres || a.number < b.number || (may_be_equal && a.number == b.number)) return;
+    const auto said = [&](const std::string& path, const Distance& bound) {
+      return fmt::format("{} is {}{}", path, written(Datum{bound}), given(path) ? "" : " (by default)");
+    };
+    complain(given(low_path) ? low_path : high_path,
+             fmt::format("{} and {}; expected the first to be {} the second", said(low_path, a),
+                         said(high_path, b), may_be_equal ? "at most" : "less than"));
+  });
 }
 
 double longestEdge(const Polygon& polygon) {
@@ -88,6 +89,12 @@ void checkElements(const RuleSet& rules, const Check::Given&, const Check::Compl
         break;
       }
     }
+    if (element.size_metres && element.polygons_metres) {
+      complain(
+          path + ".size",
+          "size is a length, and the corners of the polygons are lengths too; expected a factor here, or "
+          "corners as plain numbers, multiples of the size");
+    }
     if (element.polygons.empty())
       complain(path + ".polygons", "an element without polygons; expected at least one");
     for (std::size_t p = 0; p < element.polygons.size(); ++p) {
@@ -103,15 +110,15 @@ const std::vector<Check>& ruleChecks() {
   static const std::vector<Check> checks = {
       ordered(
           "random_tree.trials.min", "random_tree.trials.max",
-          [](auto& r) { return double(r.random_tree.trials_min); },
-          [](auto& r) { return double(r.random_tree.trials_max); }, true),
+          [](auto& r) { return Distance{double(r.random_tree.trials_min)}; },
+          [](auto& r) { return Distance{double(r.random_tree.trials_max)}; }, true),
       ordered(
-          "require.proximity.min", "require.proximity.max",
-          [](auto& r) { return r.require.proximity_min_vx; },
-          [](auto& r) { return r.require.proximity_max_vx; }, false),
+          "require.proximity.min", "require.proximity.max", [](auto& r) { return r.require.proximity_min; },
+          [](auto& r) { return r.require.proximity_max; }, false),
       ordered(
-          "require.exposure.min", "require.exposure.max", [](auto& r) { return r.require.exposure_min; },
-          [](auto& r) { return r.require.exposure_max; }, false),
+          "require.exposure.min", "require.exposure.max",
+          [](auto& r) { return Distance{r.require.exposure_min}; },
+          [](auto& r) { return Distance{r.require.exposure_max}; }, false),
       check({"light.blend"},
             [](auto& rules, auto&, auto& complain) {
               if (rules.light.sun + rules.light.sky <= 0.0) {

@@ -17,11 +17,26 @@ namespace espalier::rules {
 
 inline constexpr double kNoLimit = std::numeric_limits<double>::infinity();
 
-/// A length as it was written: in voxel widths, or in metres until a job's voxel size is known.
+/// A length as it was written: in voxel widths, or in metres until a job's voxel size is known
+/// (rules/growth/voxel_widths.h). What grows by a rule set sees voxel widths alone.
 struct Length {
   Value value;
   bool metres = false;
   friend bool operator==(const Length&, const Length&) = default;
+};
+
+/// A length that is one number.
+struct Distance {
+  double number = 0.0;
+  bool metres = false;
+  friend bool operator==(const Distance&, const Distance&) = default;
+};
+
+/// Flat polygons by their corners.
+struct Polygons {
+  std::vector<std::vector<sim::Vec3>> corners;
+  bool metres = false;
+  friend bool operator==(const Polygons&, const Polygons&) = default;
 };
 
 /// Greene's random walk: each tip grows by its best trial, and nodes branch when they come of age.
@@ -50,14 +65,14 @@ struct Bias {
   Value away = 0.0;    ///< from the nearest scene object
   Value toward = 0.0;  ///< to the nearest scene object
   Value twist = 0.0;   ///< to one side of the plane through the last segment and the local centre of mass
-  double twist_radius_vx = 8.0;  ///< how far the centre of mass looks
+  Distance twist_radius{8.0};  ///< how far the centre of mass looks
 };
 
 /// A trial that does not meet these is rejected.
 struct Require {
   bool clear = true;  ///< intersects nothing but its own parent
-  double proximity_min_vx = 0.0;
-  double proximity_max_vx = kNoLimit;
+  Distance proximity_min{0.0};
+  Distance proximity_max{kNoLimit};
   double exposure_min = 0.0;
   double exposure_max = 1.0;
 };
@@ -65,7 +80,7 @@ struct Require {
 /// Ranks the trials that are left.
 struct Prefer {
   bool has_proximity = false;
-  double proximity_vx = 0.0;  ///< the mean proximity nearest to this wins
+  Distance proximity;  ///< the mean proximity nearest to this wins
 };
 
 struct Light {
@@ -77,11 +92,13 @@ struct Light {
 struct Element {
   std::string name = "leaf";
   int trials = 30;
-  Value per_segment = 1.0;  ///< expected number on a segment at the least exposure
-  Value size = 1.0;         ///< scale of the polygons at the least exposure
-  Value face = 0.7;         ///< how much the face turns from the stem's own way to the open and the sky, 0..1
+  Value per_segment = 1.0;   ///< expected number on a segment at the least exposure
+  Value size = 1.0;          ///< scale of the polygons at the least exposure
+  bool size_metres = false;  ///< size is what a polygon's unit measures, in metres; else a factor
+  Value face = 0.7;  ///< how much the face turns from the stem's own way to the open and the sky, 0..1
   sim::Colour colour{0.13f, 0.30f, 0.05f};       ///< linear RGB
-  std::vector<std::vector<sim::Vec3>> polygons;  ///< corners, voxel widths (see sim::ElementShape)
+  std::vector<std::vector<sim::Vec3>> polygons;  ///< corners (see sim::ElementShape)
+  bool polygons_metres = false;                  ///< they are in metres; else in voxel widths, or in sizes
 };
 
 struct RuleSet;
@@ -103,7 +120,7 @@ struct RuleSet {
   Prefer prefer;
   Light light;
   sim::Colour stem_colour{0.16f, 0.10f, 0.05f};  ///< linear RGB
-  double stem_radius_vx = 0.08;                  ///< of a twig that does not fork
+  Distance stem_radius{0.08};                    ///< of a twig that does not fork
   std::vector<Element> elements;
   std::map<std::string, RegionRule, std::less<>> regions;  ///< by region name
   std::optional<RegionRule> others;                        ///< of every region that is not named

@@ -258,9 +258,8 @@ std::string accuracyOnMeshes(const std::vector<std::filesystem::path>& meshes) {
       mesh.solid = true;
       scene.meshes.push_back(mesh);
       scene.world.resolution = resolution;
-      scene.world.layers = 0;
       scene.sky.directions = 512;
-      const Site site = makeSite(scene);
+      const Site site = makeSiteForLight(scene);
       const auto check = spotCheck(site, scene.seed);
       if (!check) continue;
       text += fmt::format("| {} | {:.3g} m | {} | {} | {:+.4f} | {:.4f} | {:.4f} | {:.4f} |\n",

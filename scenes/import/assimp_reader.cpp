@@ -136,7 +136,8 @@ void requireMeshFormat(const std::filesystem::path& file) {
   formatOf(file);
 }
 
-sim::Mesh readWithAssimp(const std::filesystem::path& file, RegionsFrom regions_from) {
+sim::Mesh readWithAssimp(const std::filesystem::path& file, RegionsFrom regions_from,
+                         std::vector<sim::InputFile>& files) {
   const Format format = formatOf(file);
   DeclaredCounts declared;
   if (format == Format::ply) declared = checkPly(file);
@@ -159,6 +160,7 @@ sim::Mesh readWithAssimp(const std::filesystem::path& file, RegionsFrom regions_
   for (unsigned m = 0; m < scene->mNumMeshes; ++m) requireSound(*scene->mMeshes[m]);
   const auto instances = instancesOf(*scene);
   requireDeclared(declared, countFaces(instances), format);
+  files = io->files();
   return meshOf(*scene, instances, regions_from, file.stem().string(), coloursOf(format));
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 #include <filesystem>
+#include <vector>
 
 #include "scenes/scene.h"
 #include "sim/tile/mesh.h"
@@ -13,6 +14,8 @@ void requireMeshFormat(const std::filesystem::path& file);
 /// Reads a mesh file through Assimp, in this process. Only for a child process: Assimp can crash or hang on
 /// damaged files; importMesh is the safe way. Degenerate triangles are still there.
 /// Throws sim::InputError, without the file's name.
-sim::Mesh readWithAssimp(const std::filesystem::path& file, RegionsFrom regions_from);
+/// `files`: what was read, called by its path from the mesh's folder.
+sim::Mesh readWithAssimp(const std::filesystem::path& file, RegionsFrom regions_from,
+                         std::vector<sim::InputFile>& files);
 
 }  // namespace espalier::scenes

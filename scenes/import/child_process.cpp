@@ -8,6 +8,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <csignal>
@@ -47,8 +48,12 @@ class Descriptor {
   int fd_;
 };
 
+/// Never beyond what is allowed already.
 void limitTo(int resource, rlim_t soft, rlim_t hard) {
-  const rlimit limit{soft, hard};
+  rlimit limit{};
+  if (::getrlimit(static_cast<__rlimit_resource>(resource), &limit) != 0) ::_exit(1);
+  limit.rlim_max = std::min(limit.rlim_max, hard);
+  limit.rlim_cur = std::min(limit.rlim_max, soft);
   if (::setrlimit(static_cast<__rlimit_resource>(resource), &limit) != 0) ::_exit(1);
 }
 

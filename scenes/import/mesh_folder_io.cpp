@@ -7,21 +7,10 @@
 #include <iterator>
 #include <string_view>
 
+#include "sim/base/hasher.h"
+
 namespace espalier::scenes {
 namespace fs = std::filesystem;
-namespace {
-
-/// The whole file, edited, as a stream that owns it.
-Assimp::IOStream* editedStream(const fs::path& file, MeshFolderIo::Edit edit) {
-  std::ifstream in(file, std::ios::binary);
-  std::string text{std::istreambuf_iterator<char>(in), {}};
-  edit(text);
-  auto* bytes = new std::uint8_t[text.size()];
-  std::copy(text.begin(), text.end(), bytes);
-  return new Assimp::MemoryIOStream(bytes, text.size(), true);
-}
-
-}  // namespace
 
 MeshFolderIo::MeshFolderIo(const fs::path& mesh_file, Edit edit) : mesh_file_(mesh_file), edit_(edit) {}
 
@@ -47,8 +36,32 @@ Assimp::IOStream* MeshFolderIo::Open(const char* name, const char* mode) {
     refused_.emplace_back(name);
     return nullptr;
   }
-  if (edit_ != nullptr && real == mesh_file_) return editedStream(real, edit_);
-  return DefaultIOSystem::Open(real.c_str(), mode);
+  auto kept = kept_.find(real);
+  if (kept == kept_.end()) {
+    std::ifstream in(real, std::ios::binary);
+    Kept file;
+    file.bytes.assign(std::istreambuf_iterator<char>(in), {});
+    if (!in) {
+      refused_.emplace_back(name);
+      return nullptr;
+    }
+    file.hash = sim::hashOf(file.bytes);
+    if (edit_ != nullptr && real == mesh_file_) edit_(file.bytes);
+    kept = kept_.emplace(real, std::move(file)).first;
+  }
+  const std::string& bytes = kept->second.bytes;
+  return new Assimp::MemoryIOStream(reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size(), false);
+}
+
+std::vector<sim::InputFile> MeshFolderIo::files() const {
+  std::vector<sim::InputFile> files;
+  for (const auto& [path, kept] : kept_) {
+    const bool mesh = path == mesh_file_;
+    files.insert(mesh ? files.begin() : files.end(),
+                 {path.lexically_relative(mesh_file_.parent_path()).generic_string(),
+                  mesh ? "mesh" : "mesh_part", kept.hash});
+  }
+  return files;
 }
 
 }  // namespace espalier::scenes

@@ -1,15 +1,19 @@
 #pragma once
 #include <assimp/DefaultIOSystem.h>
 
+#include <cstdint>
 #include <filesystem>
+#include <map>
 #include <string>
 #include <vector>
+
+#include "sim/base/provenance.h"
 
 namespace espalier::scenes {
 
 /// Assimp's way to files, narrowed: one mesh file by its bare name, and regular files in or below its folder,
 /// read only, asked for by relative paths without `..`, not through links that lead out. Everything else is
-/// as if it were not there.
+/// as if it were not there. A file is read once and kept, so that its hash is that of what Assimp saw.
 class MeshFolderIo : public Assimp::DefaultIOSystem {
  public:
   using Edit = void (*)(std::string& text);
@@ -22,6 +26,9 @@ class MeshFolderIo : public Assimp::DefaultIOSystem {
 
   /// Names that were asked for and could not be served, in the order of asking.
   const std::vector<std::string>& refused() const { return refused_; }
+  /// What was read: the mesh file first, then the others in the order of their names; called by their paths
+  /// from its folder.
+  std::vector<sim::InputFile> files() const;
 
  private:
   /// The file to open, or an empty path.
@@ -30,6 +37,11 @@ class MeshFolderIo : public Assimp::DefaultIOSystem {
   std::filesystem::path mesh_file_;
   Edit edit_;
   std::vector<std::string> refused_;
+  struct Kept {
+    std::string bytes;  ///< as Assimp sees them
+    std::uint64_t hash = 0;
+  };
+  std::map<std::filesystem::path, Kept> kept_;
 };
 
 }  // namespace espalier::scenes

@@ -48,9 +48,14 @@ ChildLimits limitsFor(std::uintmax_t bytes) {
   return limits;
 }
 
-sim::Mesh readInChild(const std::filesystem::path& file, RegionsFrom regions_from,
-                      const ChildLimits& limits) {
-  const ChildResult result = runInChild([&] { return packMesh(readWithAssimp(file, regions_from)); }, limits);
+sim::Mesh readInChild(const std::filesystem::path& file, RegionsFrom regions_from, const ChildLimits& limits,
+                      std::vector<sim::InputFile>* files) {
+  const auto work = [&] {
+    std::vector<sim::InputFile> read;
+    const sim::Mesh mesh = readWithAssimp(file, regions_from, read);
+    return packMesh(mesh, read);
+  };
+  const ChildResult result = runInChild(work, limits);
   switch (result.end) {
     case ChildEnd::finished:
       break;
@@ -69,7 +74,7 @@ sim::Mesh readInChild(const std::filesystem::path& file, RegionsFrom regions_fro
                       limits.memory_bytes >> 20));
   }
   try {
-    return unpackMesh(result.bytes);
+    return unpackMesh(result.bytes, files);
   } catch (const std::exception& error) {
     throw sim::InputError(fmt::format("the file is damaged: it confused the mesh reader ({})", error.what()));
   }
@@ -160,11 +165,11 @@ glm::dmat3 turnAbout(int axis, double degrees) {
 }  // namespace
 
 sim::Mesh importMesh(const std::filesystem::path& file, RegionsFrom regions_from,
-                     std::optional<ChildLimits> limits) {
+                     std::optional<ChildLimits> limits, std::vector<sim::InputFile>* files) {
   try {
     const std::uintmax_t bytes = sizeOf(file);
     requireMeshFormat(file);
-    return checked(readInChild(file, regions_from, limits.value_or(limitsFor(bytes))));
+    return checked(readInChild(file, regions_from, limits.value_or(limitsFor(bytes)), files));
   } catch (const sim::InputError& error) {
     throw sim::InputError(fmt::format("{}: {}", file.string(), error.what()));
   }

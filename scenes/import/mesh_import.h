@@ -1,6 +1,7 @@
 #pragma once
 #include <filesystem>
 #include <optional>
+#include <vector>
 
 #include "scenes/import/child_process.h"
 #include "scenes/scene.h"
@@ -26,9 +27,11 @@ namespace espalier::scenes {
 /// format, damaged, without triangles, with more than 8 million, with a vertex that is not finite, or with an
 /// index that is out of range.
 ///
-/// `limits` are by default what suits the file's size.
+/// `limits` are by default what suits the file's size. `files`: what was read, each once: the mesh file and
+/// those that it names, called by their paths from its folder.
 sim::Mesh importMesh(const std::filesystem::path& file, RegionsFrom regions_from,
-                     std::optional<ChildLimits> limits = std::nullopt);
+                     std::optional<ChildLimits> limits = std::nullopt,
+                     std::vector<sim::InputFile>* files = nullptr);
 
 /// The mesh scaled about the origin, turned about the x, then the y, then the z axis, then moved. Quarter
 /// turns are exact. Throws sim::InputError where the result is not finite.

@@ -76,7 +76,7 @@ void requireBelow(const std::vector<std::uint32_t>& indices, std::size_t limit) 
 
 }  // namespace
 
-std::string packMesh(const sim::Mesh& mesh) {
+std::string packMesh(const sim::Mesh& mesh, const std::vector<sim::InputFile>& files) {
   Packer out;
   out.putText(mesh.name);
   out.putArray(mesh.vertices_m.data(), mesh.vertices_m.size());
@@ -91,10 +91,16 @@ std::string packMesh(const sim::Mesh& mesh) {
     out.put(material.colour);
   }
   out.put(static_cast<std::uint64_t>(mesh.degenerate_dropped));
+  out.put(static_cast<std::uint64_t>(files.size()));
+  for (const auto& file : files) {
+    out.putText(file.name);
+    out.putText(file.kind);
+    out.put(file.hash);
+  }
   return out.take();
 }
 
-sim::Mesh unpackMesh(std::string_view bytes) {
+sim::Mesh unpackMesh(std::string_view bytes, std::vector<sim::InputFile>* files) {
   Unpacker in(bytes);
   sim::Mesh mesh;
   mesh.name = in.getText();
@@ -110,12 +116,19 @@ sim::Mesh unpackMesh(std::string_view bytes) {
     material.colour = in.get<sim::Colour>();
   }
   mesh.degenerate_dropped = static_cast<std::size_t>(in.get<std::uint64_t>());
+  std::vector<sim::InputFile> read(in.getCount(3 * sizeof(std::uint64_t)));
+  for (auto& file : read) {
+    file.name = in.getText();
+    file.kind = in.getText();
+    file.hash = in.get<std::uint64_t>();
+  }
   if (!in.atEnd()) throw std::runtime_error("there are bytes after the end");
   if (mesh.region.size() != mesh.triangles.size() || mesh.material.size() != mesh.triangles.size()) {
     throw std::runtime_error("not every triangle has a region and a material");
   }
   requireBelow(mesh.region, mesh.regions.size());
   requireBelow(mesh.material, mesh.materials.size());
+  if (files != nullptr) *files = std::move(read);
   return mesh;
 }
 

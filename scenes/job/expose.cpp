@@ -12,6 +12,7 @@
 #include "scenes/show/expose_pictures.h"
 #include "scenes/show/exposure_table.h"
 #include "scenes/show/light_fields.h"
+#include "scenes/show/picture_memory.h"
 #include "scenes/show/pictures.h"
 #include "scenes/write/output_files.h"
 #include "sim/base/error.h"
@@ -48,13 +49,18 @@ void requireSpaceFits(const Scene& scene, const sim::Frame& frame, const sim::Vo
 
 }  // namespace
 
-ExposeResult exposeScene(Scene scene, const RunOptions& options) {
+ExposeResult exposeScene(const Scene& scene, const RunOptions& options) {
   ExposeResult result;
   Report& report = result.report;
   Stages stages(options, report);
-  scene.world.layers = 0;  // nothing grows, so nothing needs to feel its way
+  if (options.pictures) {
+    PicturesWanted wanted = picturesOf(scene);
+    if (wanted.cameras.empty()) wanted.cameras.emplace_back();  // the overview
+    wanted.images = exposureImages(scene, wanted.cameras, true);
+    requirePicturesFit(scene, wanted);
+  }
   const Site site = stages.run("tiling", [&] {
-    Site made = makeSite(scene);
+    Site made = makeSiteForLight(scene);
     requireCamerasInTheOpen(scene, made.world);
     return made;
   });
@@ -84,21 +90,22 @@ ExposeResult exposeScene(Scene scene, const RunOptions& options) {
   const ExposureTable table =
       stages.run("counting", [&] { return exposureTable(scene.name, site.world, light); });
   result.table = toText(table);
-  std::vector<OutputFile> files = {
-      {"exposure.csv", [&] { return toCsv(table); }},
-      {"exposure.json", [&] { return toJson(table); }},
-      {"exposure.vdb",
-       [&] { return render::fieldVdbBytes(site.world, exposureFields(light, space.get())); }}};
+  std::vector<OutputFile> files = {{"exposure.csv", [&] { return toCsv(table); }},
+                                   {"exposure.json", [&] { return toJson(table); }},
+                                   {"exposure.vdb", [&] {
+                                      return render::fieldVdbBytes(
+                                          site.world, exposureFields(light, space.get()), report.made_by);
+                                    }}};
   const std::vector<sim::Attempt> no_attempts;
   const std::vector<render::PlantModel> no_models;
   if (options.pictures) {
     stages.run("drawing", [&] {
-      PicturesWanted wanted = picturesOf(scene);
+      PicturesWanted wanted = picturesOf(scene, report.made_by);
       if (wanted.cameras.empty()) {
         const double aspect = static_cast<double>(wanted.width_px) / wanted.height_px;
         wanted.cameras.push_back(overview(site.world.frame(), light.surfaces, site.sun, aspect));
       }
-      wanted.images = exposureImages(scene, wanted.cameras, site.sun);
+      wanted.images = exposureImages(scene, wanted.cameras, !site.sun.directions.empty());
       const Finished finished{site.meshes, site.world, no_attempts, light, no_models};
       auto pictures = inScene(scene, [&] { return drawPictures(wanted, finished, options.stop); });
       for (OutputFile& file : pictures) files.push_back(std::move(file));

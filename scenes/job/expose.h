@@ -18,7 +18,7 @@ struct ExposeResult {
 /// written into the folder as runScene writes. Scene::exposure says where light is wanted beside the
 /// surfaces. Throws sim::InputError; MeshMissing; sim::Stopped when stopped, and then nothing more is
 /// written.
-ExposeResult exposeScene(Scene scene, const RunOptions& options);
+ExposeResult exposeScene(const Scene& scene, const RunOptions& options);
 
 /// What a person would paste into a report: the world, what the numbers are, the regions, the files.
 std::string summary(const ExposeResult& result, const std::filesystem::path& folder);

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <sys/resource.h>
 
+#include "scenes/job/seed_failure_words.h"
 #include "scenes/show/light_json.h"
 #include "sim/base/parallel.h"
 #include "sim/base/whole_file.h"
@@ -20,11 +21,31 @@ Json outcomes(const sim::OutcomeCounts& counts) {
   return json;
 }
 
+/// Those that occurred: of thousands of plants nobody wants the others.
+Json occurred(const sim::OutcomeCounts& counts) {
+  Json json = Json::object();
+  for (std::size_t i = 0; i < counts.size(); ++i) {
+    if (counts[i] > 0) json[std::string(sim::nameOf(static_cast<sim::Outcome>(i)))] = counts[i];
+  }
+  return json;
+}
+
+Json plant(const Report::Growth::Plant& plant) {
+  Json json = {{"name", plant.name},
+               {"planting", plant.planting},
+               {"rules", plant.rules},
+               {"seed", {{"at_m", {plant.at_m.x, plant.at_m.y, plant.at_m.z}}, {"key", plant.key}}},
+               {"segments", plant.segments},
+               {"elements", plant.elements},
+               {"buds", occurred(plant.tally.sites)},
+               {"trials", occurred(plant.tally.trials)}};
+  if (plant.failure) json["failed"] = whyItDidNotGrow(*plant.failure);
+  return json;
+}
+
 Json growth(const Report::Growth& growth) {
   Json plants = Json::array();
-  for (const auto& [name, counts] : growth.plants) {
-    plants.push_back({{"name", name}, {"segments", counts[0]}, {"elements", counts[1]}});
-  }
+  for (const Report::Growth::Plant& one : growth.plants) plants.push_back(plant(one));
   return {{"iterations", growth.iterations},
           {"state_hash", fmt::format("{:016x}", growth.state_hash)},
           {"buds", outcomes(growth.buds)},
@@ -43,6 +64,9 @@ std::uint64_t peakMemoryBytes() {
 
 void describeWorld(Report& report, const Scene& scene, const Site& site) {
   report.scene = scene.name;
+  report.made_by = {"Espalier " ESPALIER_VERSION, scene.seed, scene.read_files};
+  report.made_by.inputs.insert(report.made_by.inputs.end(), site.mesh_files.begin(), site.mesh_files.end());
+  report.run.scene = scene.file.string();
   report.frame = site.world.frame();
   report.fills = site.fills;
   report.scene_voxels = site.world.occupied().count();
@@ -53,6 +77,12 @@ void describeWorld(Report& report, const Scene& scene, const Site& site) {
 std::string toJson(const Report& report) {
   Json json;
   json["scene"] = report.scene;
+  json["software"] = report.made_by.software;
+  json["seed"] = report.made_by.seed;
+  json["inputs"] = Json::array();
+  for (const sim::InputFile& input : report.made_by.inputs) {
+    json["inputs"].push_back({{"file", input.name}, {"kind", input.kind}, {"xxh3", sim::hexOf(input.hash)}});
+  }
   json["warnings"] = report.warnings;
   const sim::Frame& frame = report.frame;
   json["world"] = {{"size", {frame.size.x, frame.size.y, frame.size.z}},
@@ -78,7 +108,8 @@ std::string toJson(const Report& report) {
   json["files"] = report.files;
   Json stages = Json::object();
   for (const auto& [stage, seconds] : report.run.stages_s) stages[stage] = seconds;
-  json["run"] = {{"stages_s", stages},
+  json["run"] = {{"scene", report.run.scene},
+                 {"stages_s", stages},
                  {"total_s", report.run.total_s},
                  {"peak_memory_bytes", report.run.peak_memory_bytes},
                  {"threads", report.run.threads}};

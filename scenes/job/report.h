@@ -1,5 +1,4 @@
 #pragma once
-#include <array>
 #include <cstdint>
 #include <filesystem>
 #include <optional>
@@ -8,8 +7,10 @@
 #include <vector>
 
 #include "scenes/accuracy/certificate.h"
+#include "scenes/job/seed_failure.h"
 #include "scenes/prepare/site.h"
 #include "scenes/write/output_files.h"
+#include "sim/base/provenance.h"
 #include "sim/grow/grow.h"
 #include "sim/light/lighting.h"
 
@@ -18,6 +19,7 @@ namespace espalier::scenes {
 /// What a run says of itself: report.json. All but `run` is the same for the same scene, rules and seed.
 struct Report {
   std::string scene;
+  sim::Provenance made_by;
   std::vector<std::string> warnings;  ///< "path:line:column: text", the path from the scene's file
   sim::Frame frame;
   std::size_t occupied_voxels = 0;  ///< with the plants
@@ -27,8 +29,18 @@ struct Report {
   sim::LightAbout light;
 
   struct Growth {
+    struct Plant {
+      std::string name, planting;
+      std::string rules;  ///< the name of its rule set
+      sim::Vec3 at_m{0.0};
+      std::string
+          key;  ///< of its seed: the name that it was given, or else the number, as sim::hexOf writes it
+      std::size_t segments = 0, elements = 0;
+      sim::Tally tally;
+      std::optional<SeedFailure> failure;
+    };
     int iterations = 0;
-    std::vector<std::pair<std::string, std::array<std::size_t, 2>>> plants;  ///< name, segments and elements
+    std::vector<Plant> plants;
     sim::OutcomeCounts buds{}, trials{};
     std::uint64_t state_hash = 0;
   };
@@ -45,6 +57,7 @@ struct Report {
   std::vector<std::string> files;  ///< that were written, in the output folder
 
   struct Run {
+    std::string scene;  ///< its path, as it was given
     std::vector<std::pair<std::string, double>> stages_s;
     double total_s = 0.0;
     std::uint64_t peak_memory_bytes = 0;
@@ -57,7 +70,7 @@ struct Report {
 /// JSON, two spaces deep, keys in the order above.
 std::string toJson(const Report& report);
 
-/// Fills in what there is to say of a world before anything grows in it.
+/// Fills in what there is to say of a world before anything grows in it, and what it was made from.
 void describeWorld(Report& report, const Scene& scene, const Site& site);
 
 /// Completes the report of a run that wrote these files.

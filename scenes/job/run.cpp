@@ -7,7 +7,9 @@
 #include "render/files/gltf.h"
 #include "render/files/vdb.h"
 #include "render/model/plant_model.h"
+#include "scenes/job/plant_reports.h"
 #include "scenes/job/saved_growth.h"
+#include "scenes/job/seed_failure_words.h"
 #include "scenes/job/stages.h"
 #include "scenes/job/warnings.h"
 #include "scenes/prepare/in_scene.h"
@@ -15,6 +17,7 @@
 #include "scenes/prepare/site.h"
 #include "scenes/prepare/unknown_regions.h"
 #include "scenes/show/light_fields.h"
+#include "scenes/show/picture_memory.h"
 #include "scenes/show/pictures.h"
 #include "scenes/write/output_files.h"
 #include "sim/base/parallel.h"
@@ -36,21 +39,12 @@ std::vector<render::PlantModel> modelPlants(const sim::Frame& frame, const std::
   return models;
 }
 
-std::string glb(const Site& site, const std::vector<render::PlantModel>& models) {
+std::string glb(const Site& site, const std::vector<render::PlantModel>& models,
+                const sim::Provenance& made_by) {
   render::ModelScene scene;
   for (const auto& tiled : site.meshes) scene.meshes.push_back(&tiled.mesh);
   for (const auto& model : models) scene.plants.push_back(&model);
-  return render::glbBytes(scene);
-}
-
-Report::Growth countPlants(const sim::World& world, const sim::Growth& growth) {
-  const sim::Tally tally = sim::total(growth);
-  Report::Growth counts{growth.iterations, {}, tally.sites, tally.trials, sim::stateHash(world, growth)};
-  for (const sim::Plant& plant : growth.plants) {
-    counts.plants.push_back(
-        {plant.name, {static_cast<std::size_t>(plant.skeleton.size() - 1), plant.elements.size()}});
-  }
-  return counts;
+  return render::glbBytes(scene, made_by);
 }
 
 /// The free voxels of the boundary layers, which lie around the scene.
@@ -79,6 +73,7 @@ sim::Lighting lightFor(const Scene& scene, const Site& site, bool vines,
 struct Prepared {
   Site site;
   std::vector<sim::Planting> plantings;
+  std::vector<PlaceLight> seed_lights;
 };
 
 Prepared prepare(const Scene& scene, const RunOptions& options, Report& report, Stages& stages) {
@@ -86,7 +81,8 @@ Prepared prepare(const Scene& scene, const RunOptions& options, Report& report, 
     Site site = makeSite(scene);
     auto plantings = makePlantings(scene, site);
     requireCamerasInTheOpen(scene, site.world);
-    return Prepared{std::move(site), std::move(plantings)};
+    auto lights = lightOfSeeds(plantings, site.world, growthSettings(scene, site).light);
+    return Prepared{std::move(site), std::move(plantings), std::move(lights)};
   });
   describeWorld(report, scene, prepared.site);
   std::vector<Problem> warnings = unknownRegions(scene, prepared.site.world);
@@ -132,6 +128,7 @@ sim::Growth growOn(const Scene& scene, Prepared& prepared, std::optional<sim::Gr
 }  // namespace
 
 Report runScene(const Scene& scene, const RunOptions& options, const Keeping& keeping) {
+  if (options.pictures) requirePicturesFit(scene, picturesOf(scene));
   Report report;
   Stages stages(options, report);
   Prepared prepared = prepare(scene, options, report, stages);
@@ -150,7 +147,7 @@ Report runScene(const Scene& scene, const RunOptions& options, const Keeping& ke
   }
   const sim::Growth growth = stages.run(
       "growing", [&] { return growOn(scene, prepared, std::move(kept), bare, options, keeping, report); });
-  report.growth = countPlants(world, growth);
+  report.growth = growthReport(scene, world, bare, growth, prepared.seed_lights);
   report.occupied_voxels = world.occupied().count();
 
   std::shared_ptr<const sim::VoxelSet> layers;
@@ -161,8 +158,9 @@ Report runScene(const Scene& scene, const RunOptions& options, const Keeping& ke
   report.light = light.about;
   const auto models = stages.run("modelling", [&] { return modelPlants(world.frame(), growth.plants); });
   std::vector<OutputFile> files;
-  files.push_back({"plant.glb", [&] { return glb(site, models); }});
-  files.push_back({"world.vdb", [&] { return render::vdbBytes(world, worldFields(light, *layers)); }});
+  files.push_back({"plant.glb", [&] { return glb(site, models, report.made_by); }});
+  files.push_back(
+      {"world.vdb", [&] { return render::vdbBytes(world, worldFields(light, *layers), report.made_by); }});
   if (keeping.keep) {
     files.push_back(
         {kStateFile, [&] { return sim::stateBytes(inputsOf(scene, site), world, bare, growth); }});
@@ -170,7 +168,8 @@ Report runScene(const Scene& scene, const RunOptions& options, const Keeping& ke
   if (options.pictures) {
     stages.run("drawing", [&] {
       const Finished finished{site.meshes, world, growth.attempts, light, models};
-      auto pictures = inScene(scene, [&] { return drawPictures(picturesOf(scene), finished, options.stop); });
+      auto pictures = inScene(
+          scene, [&] { return drawPictures(picturesOf(scene, report.made_by), finished, options.stop); });
       for (OutputFile& file : pictures) files.push_back(std::move(file));
     });
   }
@@ -187,6 +186,7 @@ Report renderScene(Scene scene, const std::filesystem::path& from, const RunOpti
     throw sim::InputError(
         fmt::format("{}: it has no images to draw; expected at least one", scene.file.string()));
   }
+  requirePicturesFit(scene, picturesOf(scene));
   Report report;
   Stages stages(options, report);
   std::optional<sim::State> state = stages.run("reading", [&] { return readKept(from); });
@@ -198,8 +198,9 @@ Report renderScene(Scene scene, const std::filesystem::path& from, const RunOpti
   scene.seed = seedOf(*state).value_or(scene.seed);
   Prepared prepared = prepare(scene, options, report, stages);
   Site& site = prepared.site;
+  const sim::BitVolume bare = site.world.occupied();
   const sim::Growth growth = takeUp(std::move(*state), from, scene, site, prepared.plantings, Same::plants);
-  report.growth = countPlants(site.world, growth);
+  report.growth = growthReport(scene, site.world, bare, growth, prepared.seed_lights);
   report.occupied_voxels = site.world.occupied().count();
   const sim::Lighting light =
       stages.run("lighting", [&] { return lightFor(scene, site, drawsVines(scene.images), nullptr); });
@@ -207,7 +208,8 @@ Report renderScene(Scene scene, const std::filesystem::path& from, const RunOpti
   const auto models = stages.run("modelling", [&] { return modelPlants(site.world.frame(), growth.plants); });
   std::vector<OutputFile> files = stages.run("drawing", [&] {
     const Finished finished{site.meshes, site.world, growth.attempts, light, models};
-    return inScene(scene, [&] { return drawPictures(picturesOf(scene), finished, options.stop); });
+    return inScene(scene,
+                   [&] { return drawPictures(picturesOf(scene, report.made_by), finished, options.stop); });
   });
   stages.run("writing", [&] { writeAll(options.folder, files); });
   finishReport(files, report);
@@ -223,15 +225,7 @@ std::string fates(const Report::Growth& report) {
       fmt::format("buds that ended: {} found no way, {} too dark, {} too bright, {} in forbidden regions\n",
                   of(sim::Outcome::no_trial), of(sim::Outcome::too_dark), of(sim::Outcome::too_bright),
                   of(sim::Outcome::forbidden));
-  std::vector<std::string> dead;
-  for (const auto& [name, counts] : report.plants) {
-    if (counts[0] == 0) dead.push_back(name);
-  }
-  if (!dead.empty()) {
-    text += fmt::format("note: {} of {} seeds did not grow: {}\n", dead.size(), report.plants.size(),
-                        fmt::join(dead, ", "));
-  }
-  return text;
+  return text + poorPlants(report.plants);
 }
 
 }  // namespace
@@ -239,9 +233,9 @@ std::string fates(const Report::Growth& report) {
 std::string summary(const Report& report, const std::filesystem::path& folder) {
   const Report::Growth& growth = *report.growth;
   std::size_t segments = 0, elements = 0;
-  for (const auto& [name, counts] : growth.plants) {
-    segments += counts[0];
-    elements += counts[1];
+  for (const Report::Growth::Plant& plant : growth.plants) {
+    segments += plant.segments;
+    elements += plant.elements;
   }
   const auto& size = report.frame.size;
   return fmt::format(

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <filesystem>
 
+#include "rules/growth/voxel_widths.h"
+#include "scenes/clean_text.h"
 #include "scenes/import/mesh_import.h"
 #include "scenes/lights.h"
 #include "scenes/prepare/in_scene.h"
@@ -15,7 +17,20 @@
 namespace espalier::scenes {
 namespace {
 
-std::vector<sim::TiledMesh> readMeshes(const Scene& scene) {
+/// Adds a mesh's files, called from the scene's file as the mesh is.
+void addFiles(const SceneMesh& spec, const std::vector<sim::InputFile>& read,
+              std::vector<sim::InputFile>& files) {
+  const std::filesystem::path told =
+      spec.told.empty() ? spec.file.filename() : std::filesystem::path(spec.told);
+  for (const sim::InputFile& file : read) {
+    sim::InputFile named = file;
+    named.name = file.kind == "mesh" ? cleanText(told.generic_string())
+                                     : cleanText((told.parent_path() / file.name).generic_string());
+    if (std::find(files.begin(), files.end(), named) == files.end()) files.push_back(std::move(named));
+  }
+}
+
+std::vector<sim::TiledMesh> readMeshes(const Scene& scene, std::vector<sim::InputFile>& files) {
   for (const SceneMesh& spec : scene.meshes) {
     if (spec.optional && !std::filesystem::exists(spec.file)) {
       throw MeshMissing(fmt::format("{}: the mesh {} is not there", scene.file.string(), spec.file.string()));
@@ -23,8 +38,10 @@ std::vector<sim::TiledMesh> readMeshes(const Scene& scene) {
   }
   std::vector<sim::TiledMesh> meshes;
   for (const SceneMesh& spec : scene.meshes) {
-    sim::Mesh mesh =
-        placeMesh(importMesh(spec.file, spec.regions_from), spec.scale, spec.rotate_deg, spec.translate_m);
+    std::vector<sim::InputFile> read;
+    sim::Mesh mesh = placeMesh(importMesh(spec.file, spec.regions_from, std::nullopt, &read), spec.scale,
+                               spec.rotate_deg, spec.translate_m);
+    addFiles(spec, read, files);
     mesh.name = spec.name;
     if (spec.colour) {
       for (sim::Material& material : mesh.materials) material.colour = *spec.colour;
@@ -72,7 +89,8 @@ sim::Frame frameFor(const Scene& scene, const std::vector<sim::TiledMesh>& meshe
 }  // namespace
 
 Site makeSite(const Scene& scene) {
-  std::vector<sim::TiledMesh> meshes = readMeshes(scene);
+  std::vector<sim::InputFile> files;
+  std::vector<sim::TiledMesh> meshes = readMeshes(scene, files);
   return inScene(scene, [&]() -> Site {
     std::vector<sim::FillReport> fills;
     std::optional<sim::World> world;
@@ -81,7 +99,7 @@ Site makeSite(const Scene& scene) {
     sim::parallelInvoke(
         [&] {
           const sim::Frame frame = frameFor(scene, meshes);
-          world.emplace(sim::buildWorld(frame, meshes, scene.world.layers, &fills));
+          world.emplace(sim::buildWorld(frame, meshes, layersFor(scene, frame), &fills));
         },
         [&] {
           sky = sim::makeSky(skySettings(scene.sky));
@@ -92,8 +110,35 @@ Site makeSite(const Scene& scene) {
             std::move(*world),
             std::move(sky),
             randomSky(scene.sky, scene.seed),
-            std::move(sun)};
+            std::move(sun),
+            std::move(files)};
   });
+}
+
+Site makeSiteForLight(Scene scene) {
+  scene.plants.clear();
+  scene.world.layers = 0;
+  return makeSite(scene);
+}
+
+int layersFor(const Scene& scene, const sim::Frame& frame) {
+  int layers = scene.world.layers;
+  for (const PlantSpec& plant : scene.plants) {
+    const auto needed = rules::layersNeeded(*plant.rules, frame.voxel_m, glm::length(sim::Vec3(frame.size)));
+    if (needed.layers > kMostLayers) {
+      const Place& at = plant.rules_place;
+      const std::string place =
+          at.path ? fmt::format("{}:{}:{}", *at.path, at.line, at.column) : scene.file.string();
+      throw sim::InputError(
+          fmt::format("{}: {} at a voxel of {:.4g} m, which takes {} boundary layers; expected at most {}{}",
+                      place, needed.asked_by, frame.voxel_m, needed.layers, kMostLayers,
+                      std::isfinite(needed.asked_m)
+                          ? fmt::format(", as with a voxel of {:.4g} m", needed.asked_m / (kMostLayers - 1))
+                          : ""));
+    }
+    layers = std::max(layers, needed.layers);
+  }
+  return layers;
 }
 
 void requireCamerasInTheOpen(const Scene& scene, const sim::World& world) {

@@ -18,9 +18,9 @@ class MeshMissing : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// Where plants will stand and light falls: what a scene says of the world, made once and kept. It knows
-/// nothing of the scene's plants, and can be made whether or not they can grow there. Nothing changes it but
-/// growth, where a run lets its plants grow in the site's own world.
+/// Where plants will stand and light falls: what a scene says of the world, made once and kept. Of the
+/// scene's plants it knows how far they feel (world.layers()); whether they can grow there is not asked.
+/// Nothing changes it but growth, where a run lets its plants grow in the site's own world.
 struct Site {
   std::vector<sim::TiledMesh> meshes;  ///< as placed, world metres
   std::vector<sim::FillReport> fills;  ///< of the solid ones
@@ -28,11 +28,20 @@ struct Site {
   sim::Sky sky;
   std::optional<sim::RandomSky> random_sky;  ///< where the scene asks for it: instead of sky's directions
   sim::Sun sun;
+  std::vector<sim::InputFile> mesh_files;  ///< what the meshes were read from, each once
 };
 
-/// Reads a scene's meshes and tiles them. Throws sim::InputError, naming the scene's file where the fault is
-/// the scene's; MeshMissing.
+/// Reads a scene's meshes and tiles them, with layersFor() boundary layers. Throws sim::InputError, naming
+/// the scene's file where the fault is the scene's; MeshMissing.
 Site makeSite(const Scene& scene);
+
+/// The same without boundary layers and without a look at the plants: for light alone.
+Site makeSiteForLight(Scene scene);
+
+/// The boundary layers of a scene's world: as many as it says, or as the rules of its plants need to feel
+/// every distance that they ask for. Throws sim::InputError, with the place in the scene's file, where that
+/// is more than kMostLayers.
+int layersFor(const Scene& scene, const sim::Frame& frame);
 
 /// Throws sim::InputError, naming the scene's file, where a camera's eye lies in an occupied voxel.
 void requireCamerasInTheOpen(const Scene& scene, const sim::World& world);

@@ -2,12 +2,21 @@
 
 #include <fmt/format.h>
 
+#include "scenes/clean_text.h"
 #include "scenes/yaml/yaml_text.h"
 
 namespace espalier::scenes {
 
 std::filesystem::path beside(const YamlNode& node, std::string_view path) {
   return (std::filesystem::path(*node.place.path).parent_path() / path).lexically_normal();
+}
+
+std::string toldFrom(const std::filesystem::path& scene_file, const std::filesystem::path& file,
+                     bool from_root) {
+  const auto folder = std::filesystem::absolute(scene_file).lexically_normal().parent_path();
+  const auto path = std::filesystem::absolute(file).lexically_normal().lexically_proximate(folder);
+  const bool outside = path.is_absolute() || path.begin() == path.end() || *path.begin() == "..";
+  return cleanText((from_root && outside ? file.filename() : path).generic_string());
 }
 
 std::optional<FileKind> headerOf(const YamlNode& root, Problems& problems) {
@@ -40,8 +49,9 @@ std::optional<FileKind> headerOf(const YamlNode& root, Problems& problems) {
 }
 
 std::shared_ptr<const YamlNode> readDocument(const std::string& path, const Place& asker,
-                                             std::optional<FileKind> expected, Problems& problems) {
-  const auto text = readText(path, asker, problems);
+                                             std::optional<FileKind> expected, Problems& problems,
+                                             std::uint64_t* hash) {
+  const auto text = readText(path, asker, problems, hash);
   if (!text) return nullptr;
   auto root = parseYaml(*text, path, problems);
   if (!root) return nullptr;

@@ -68,6 +68,10 @@ Json varying(const Json& one) {
   return anyOf({one, list(one, 2, 2), curve});
 }
 
+Json polygons(const Key& key, const Json& coordinate) {
+  return list(list(list(coordinate, 3, 3), 3, 64), 1, key.most);
+}
+
 Json textOf(const Key& key) {
   Json schema{{"type", "string"}, {"minLength", 1}};
   if (key.most > 0) schema["maxLength"] = key.most;
@@ -115,6 +119,10 @@ Json valueOf(const Key& key) {
       return varying(bounded(key, "number"));
     case Kind::length:
       return varying(anyOf({bounded(key, "number"), lengthText("mm|cm|m|vx")}));
+    case Kind::distance:
+      return anyOf({bounded(key, "number"), lengthText("mm|cm|m|vx")});
+    case Kind::size:
+      return varying(anyOf({bounded(key, "number"), lengthText("mm|cm|m")}));
     case Kind::metres:
       return anyOf({bounded(key, "number"), lengthText("mm|cm|m")});
     case Kind::colour:
@@ -124,7 +132,8 @@ Json valueOf(const Key& key) {
     case Kind::place:
       return list(anyOf({bounded(key, "number"), lengthText("mm|cm|m")}), 3, 3);
     case Kind::polygons:
-      return list(list(list(bounded(key, "number"), 3, 3), 3, 64), 1, key.most);
+      return anyOf({polygons(key, bounded(key, "number")),
+                    polygons(key, anyOf({{{"const", 0}}, lengthText("mm|cm|m")}))});
     case Kind::choice:
       return {{"enum", key.choices}};
     case Kind::date:
@@ -155,6 +164,8 @@ Json defaultOf(const Datum& datum) {
   if (const auto* flag = std::get_if<bool>(&datum)) return *flag;
   if (const auto* whole = std::get_if<std::int64_t>(&datum)) return *whole;
   if (const auto* number = std::get_if<double>(&datum); number && std::isfinite(*number)) return *number;
+  if (const auto* distance = std::get_if<rules::Distance>(&datum); distance && !distance->metres)
+    return defaultOf(distance->number);
   if (const auto* range = std::get_if<rules::WholeRange>(&datum))
     return Json::array({range->low, range->high});
   if (const auto* text = std::get_if<std::string>(&datum); text && !text->empty()) return *text;

@@ -6,6 +6,7 @@
 #include <array>
 #include <system_error>
 
+#include "scenes/clean_text.h"
 #include "scenes/read/document.h"
 #include "scenes/read/read_rules.h"
 #include "scenes/read/read_table.h"
@@ -45,6 +46,7 @@ void findMeshes(Scene& scene, const YamlNode& root, const rules::Check::Complain
     const auto key = fmt::format("meshes[{}].file", i);
     const auto written = mesh.file.string();
     mesh.file = beside(root, written);
+    mesh.told = toldFrom(scene.file, mesh.file, fs::path(written).is_absolute());
     std::error_code error;
     if (!isKnownMesh(mesh.file)) {
       complain(key, fmt::format("{} is no mesh file that is known; expected .obj, .gltf, .glb, .ply or .stl",
@@ -56,7 +58,7 @@ void findMeshes(Scene& scene, const YamlNode& root, const rules::Check::Complain
   }
 }
 
-Scene readRoot(const YamlNode& root, const fs::path& path, Problems& problems) {
+Scene readRoot(const YamlNode& root, const fs::path& path, std::uint64_t hash, Problems& problems) {
   static const auto paths = pathsOf(sceneTable());
   Scene scene;
   scene.file = path;
@@ -79,11 +81,16 @@ Scene readRoot(const YamlNode& root, const fs::path& path, Problems& problems) {
       {{}, [&](const void*, const auto&, const auto& complain) { findMeshes(scene, root, complain); }});
   fillNames(scene);
   scene.region_mentions = loader.mentions();
+  scene.read_files.push_back({cleanText(path.filename().string()), "scene", hash});
+  for (const auto& read : loader.readFiles())
+    scene.read_files.push_back({toldFrom(path, read.path, read.from_root), "rules", read.hash});
   scene.warnings = loader.warnings().sorted();
   for (std::size_t i = 0; i < scene.plants.size(); ++i) {
+    scene.plants[i].rules_place = placeOf({&root}, fmt::format("plants[{}].rules", i));
     auto& scatter = scene.plants[i].scatter;
     if (scatter) scatter->region_place = placeOf({&root}, fmt::format("plants[{}].scatter.region", i));
   }
+  scene.images_place = placeOf({&root}, root.entry("image") != nullptr ? "image" : "images");
   runChecks(checks, &scene, {&root}, reading);
   return scene;
 }
@@ -93,9 +100,10 @@ Scene readRoot(const YamlNode& root, const fs::path& path, Problems& problems) {
 Result<Scene> readScene(const fs::path& path) {
   Problems problems;
   const Place asker{std::make_shared<const std::string>(path.string()), 0, 0};
-  const auto root = readDocument(path.string(), asker, FileKind::scene, problems);
+  std::uint64_t hash = 0;
+  const auto root = readDocument(path.string(), asker, FileKind::scene, problems, &hash);
   if (!root) return problems.sorted();
-  auto scene = readRoot(*root, path, problems);
+  auto scene = readRoot(*root, path, hash, problems);
   if (!problems.empty()) return problems.sorted();
   return scene;
 }

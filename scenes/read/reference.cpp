@@ -25,8 +25,13 @@ How values are written:
 - *value*: a number; or a range `[a, b]`, from which every use draws evenly; or a curve
   `{over: exposure, points: [[0.3, 1], [1, 1.8]]}`, straight between its points and level beyond them. `over` is
   `exposure` (0 to 1), `age` (iterations since the plant was seeded) or `height` (metres above the world's floor).
-- *length*: a value in voxel widths; or text with a unit, `12 cm`, `0.12 m`, `120 mm`, `2.4 vx`, which stays the same
-  when the voxels change.
+- *distance*: a number of voxel widths; or text with a unit, `12 cm`, `0.12 m`, `120 mm`, which stays the same when the
+  voxels change. `2.4 vx` is `2.4`.
+- *length*: a value of such; all of a range's or a curve's numbers have units, or none has.
+- *size*: a value that is a factor; or lengths with units, `6 cm`, `[4 cm, 8 cm]`, each of which is then as long as 1 in
+  the polygons.
+- *polygons*: lists of corners `[x, y, z]`, all of an element's in voxel widths or all with units, `[0, 6 cm, -5 mm]`; 0
+  needs none.
 - *colour*: `"#4f7a2c"`, in quotes, for an unquoted `#` begins a comment; or `[r, g, b]` from 0 to 1. Both sRGB.
 - *rule set*: a rule file's path, relative to this file; or a mapping of keys that change the rule set around it.
 
@@ -77,6 +82,10 @@ std::string kindText(const Key& key) {
     case Kind::length:
     case Kind::metres:
       return "length";
+    case Kind::distance:
+      return "distance";
+    case Kind::size:
+      return "size";
     case Kind::colour:
       return "colour";
     case Kind::point:
@@ -84,7 +93,7 @@ std::string kindText(const Key& key) {
     case Kind::place:
       return "place";
     case Kind::polygons:
-      return "list of polygons";
+      return "polygons";
     case Kind::choice:
       return fmt::format("`{}`", fmt::join(key.choices, "`, `"));
     case Kind::date:

@@ -78,8 +78,9 @@ std::shared_ptr<const Table> worldKeys() {
                {.meaning = "The world's box; without it, the meshes' box plus the margin."})
       .whole("layers", &WorldSpec::layers,
              {.unit = "layers",
-              .limits = {0.0, 64.0},
-              .meaning = "Boundary layers around the scene's objects: as far as plants can feel."})
+              .limits = {0.0, kMostLayers},
+              .meaning = "Least number of boundary layers around the scene's objects; as many more as the "
+                         "rules ask for."})
       .shared();
 }
 

@@ -35,8 +35,10 @@ RulesPointer RuleLoader::file(const fs::path& path, const Place& asker) {
 
 RulesPointer RuleLoader::reference(const YamlNode& node, const std::string& path, const RuleSet& enclosing) {
   if (node.refused) return nullptr;
-  if (node.kind == YamlNode::Kind::scalar && !node.text.empty())
-    return file(beside(node, node.text), node.place);
+  if (node.kind == YamlNode::Kind::scalar && !node.text.empty()) {
+    const File* file = load(node);
+    return file ? file->rules : nullptr;
+  }
   if (node.kind == YamlNode::Kind::map) return inPlace(node, enclosing);
   problems_.add(node.place,
                 fmt::format("{} is {}; expected the path of a rule file, or a mapping of rule keys", path,
@@ -44,7 +46,11 @@ RulesPointer RuleLoader::reference(const YamlNode& node, const std::string& path
   return nullptr;
 }
 
-const RuleLoader::File* RuleLoader::load(const fs::path& path, const Place& asker) {
+const RuleLoader::File* RuleLoader::load(const YamlNode& node) {
+  return load(beside(node, node.text), node.place, fs::path(node.text).is_absolute());
+}
+
+const RuleLoader::File* RuleLoader::load(const fs::path& path, const Place& asker, bool from_root) {
   std::error_code error;
   const auto shown = path.string();
   auto canonical = fs::weakly_canonical(path, error).string();
@@ -61,14 +67,18 @@ const RuleLoader::File* RuleLoader::load(const fs::path& path, const Place& aske
   }
   if (const auto known = files_.find(canonical); known != files_.end()) return &known->second;
   if (!countOne(asker)) return nullptr;
-  auto root = readDocument(shown, asker, FileKind::rules, problems_);
+  std::uint64_t hash = 0;
+  auto root = readDocument(shown, asker, FileKind::rules, problems_, &hash);
   if (!root) return nullptr;
+  from_root = from_root || std::any_of(read_files_.begin(), read_files_.end(), [&](const ReadFile& read) {
+                return read.from_root && read.path == *asker.path;
+              });
+  read_files_.push_back({path, from_root, hash});
   auto& file = files_[canonical];
   file.root = std::move(root);
   open_.emplace_back(canonical, shown);
   if (const auto* base = file.root->entry("base"); base && base->value.kind == YamlNode::Kind::scalar) {
-    if (const auto* under = load(beside(base->value, base->value.text), base->value.place))
-      file.layers = under->layers;
+    if (const auto* under = load(base->value)) file.layers = under->layers;
   }
   file.layers.push_back(file.root.get());
   file.rules = build(file.layers, RuleSet{});
@@ -82,8 +92,7 @@ RulesPointer RuleLoader::inPlace(const YamlNode& map, const RuleSet& enclosing) 
   const auto* base = map.entry("base");
   if (!base || base->value.kind != YamlNode::Kind::scalar) return build({&map}, enclosing);
   Layers layers;
-  if (const auto* under = load(beside(base->value, base->value.text), base->value.place))
-    layers = under->layers;
+  if (const auto* under = load(base->value)) layers = under->layers;
   layers.push_back(&map);
   return build(layers, RuleSet{});
 }

@@ -1,4 +1,5 @@
 #pragma once
+#include <cstdint>
 #include <filesystem>
 #include <map>
 #include <memory>
@@ -29,6 +30,13 @@ class RuleLoader {
                                                   const rules::RuleSet& enclosing);
   /// Every place so far that names a region, in the order of reading.
   const std::vector<RegionMention>& mentions() const { return mentions_; }
+  struct ReadFile {
+    std::filesystem::path path;
+    bool from_root = false;  ///< its path, or one on the way to it, is written from the machine's root
+    std::uint64_t hash = 0;  ///< of its bytes
+  };
+  /// Every file that could be read so far, in the order of reading.
+  const std::vector<ReadFile>& readFiles() const { return read_files_; }
   /// What was written so far and has no effect where it stands.
   const Problems& warnings() const { return warnings_; }
 
@@ -40,7 +48,9 @@ class RuleLoader {
     std::shared_ptr<const rules::RuleSet> rules;
   };
 
-  const File* load(const std::filesystem::path& path, const Place& asker);
+  /// `from_root`: the path is written from the machine's root.
+  const File* load(const std::filesystem::path& path, const Place& asker, bool from_root = false);
+  const File* load(const YamlNode& node);
   std::shared_ptr<const rules::RuleSet> inPlace(const YamlNode& map, const rules::RuleSet& enclosing);
   std::shared_ptr<const rules::RuleSet> build(const Layers& layers, rules::RuleSet rules);
   void addRegions(const Layers& layers, rules::RuleSet& rules);
@@ -55,6 +65,7 @@ class RuleLoader {
   std::map<std::string, File> files_;                      ///< by canonical path
   std::vector<std::pair<std::string, std::string>> open_;  ///< files being read: canonical and shown paths
   std::vector<RegionMention> mentions_;
+  std::vector<ReadFile> read_files_;
   Problems warnings_;
   std::set<std::tuple<const std::string*, int, int>>
       mentioned_;  ///< places: a base is read for each that has it

@@ -51,18 +51,17 @@ NamedCamera overview(const sim::Frame& frame, const std::vector<sim::TiledVoxel>
   return {"overview", {eye, eye - glm::length(sim::Vec3(frame.size)) * frame.voxel_m * back, kFov}};
 }
 
-std::vector<ImageSpec> exposureImages(const Scene& scene, const std::vector<NamedCamera>& cameras,
-                                      const sim::Sun& sun) {
+std::vector<ImageSpec> exposureImages(const Scene& scene, const std::vector<NamedCamera>& cameras, bool sun) {
   std::vector<std::pair<ImageKind, const char*>> kinds = {{ImageKind::sky_exposure, "Sky exposure"}};
-  if (!sun.directions.empty()) {
+  if (sun) {
     kinds.insert(kinds.begin(), {ImageKind::sun_exposure, "Sun exposure"});
     // On an arc, which takes twelve hours by definition, hours would be sun_exposure in another unit.
     if (scene.sun.place) kinds.emplace_back(ImageKind::sun_hours, "Hours of direct sun");
   }
   if (!scene.plants.empty()) kinds.emplace_back(ImageKind::threshold, "Enough light for the plant");
-  if (!sun.directions.empty()) kinds.emplace_back(ImageKind::shadow_matte, "Shadows");
+  if (sun) kinds.emplace_back(ImageKind::shadow_matte, "Shadows");
   kinds.emplace_back(ImageKind::surface_colour, "Surface colour");
-  if (!sun.directions.empty()) kinds.emplace_back(ImageKind::first_pass, "Lit by sun and sky");
+  if (sun) kinds.emplace_back(ImageKind::first_pass, "Lit by sun and sky");
   std::vector<ImageSpec> images;
   for (const NamedCamera& camera : cameras) {
     const std::string end = cameras.size() > 1 ? "_" + camera.name : "";

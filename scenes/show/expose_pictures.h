@@ -13,8 +13,8 @@ namespace espalier::scenes {
 NamedCamera overview(const sim::Frame& frame, const std::vector<sim::TiledVoxel>& surfaces,
                      const sim::Sun& sun, double aspect);
 
-/// The panels that make sense for a scene's light, for each camera, with a contact sheet for each.
-std::vector<ImageSpec> exposureImages(const Scene& scene, const std::vector<NamedCamera>& cameras,
-                                      const sim::Sun& sun);
+/// The panels that make sense for a scene's light, with a sun or without, for each camera, with a contact
+/// sheet for each.
+std::vector<ImageSpec> exposureImages(const Scene& scene, const std::vector<NamedCamera>& cameras, bool sun);
 
 }  // namespace espalier::scenes

@@ -8,6 +8,7 @@
 #include "render/voxels/attempts.h"
 #include "render/voxels/section.h"
 #include "sim/base/error.h"
+#include "sim/base/memory.h"
 
 namespace espalier::scenes {
 namespace {
@@ -22,6 +23,16 @@ std::pair<int, int> picturePlane(int axis) {
     default:
       return {0, 1};
   }
+}
+
+/// A world that is long and narrow makes a picture that is.
+void requireFits(const ImageSpec& image, double width_px, glm::ivec2 size) {
+  const double bytes = 3.0 * sizeof(float) * width_px * (width_px * size.y / size.x);
+  if (bytes <= 0.1 * sim::memoryBudget()) return;
+  throw sim::InputError(
+      fmt::format("image '{}': a picture of {} x {} voxels takes {} of memory; expected a cut "
+                  "that is less narrow",
+                  image.name, size.x, size.y, sim::inGigabytes(bytes)));
 }
 
 }  // namespace
@@ -40,6 +51,7 @@ render::Image drawSection(const sim::World& world, const ImageSpec& image) {
   render::SectionLook look;
   look.size = {frame.size[across], frame.size[up]};
   look.layers = world.layers();
+  requireFits(image, look.width_px, look.size);
   if (!image.caption.empty()) look.title = image.caption;
   return render::drawSection(
       [&, across = across, up = up](glm::ivec2 p) {
@@ -59,7 +71,8 @@ render::Image drawSection(const sim::World& world, const ImageSpec& image) {
       look);
 }
 
-render::Image drawAttempts(const sim::World& world, const std::vector<sim::Attempt>& attempts) {
+render::Image drawAttempts(const sim::World& world, const std::vector<sim::Attempt>& attempts,
+                           const ImageSpec& image) {
   const sim::Voxel size = world.frame().size;
   const int axis = size.x == 1 ? 0 : size.y == 1 ? 1 : 2;
   const auto [across, up] = picturePlane(axis);
@@ -73,6 +86,7 @@ render::Image drawAttempts(const sim::World& world, const std::vector<sim::Attem
   }
   render::AttemptsLook look;
   look.size = {size[across], size[up]};
+  requireFits(image, 2.0 * look.frame_width_px, look.size);
   return render::drawAttempts(drawn, occupied, look);
 }
 

@@ -9,11 +9,13 @@
 /// Pictures that need no camera; display values.
 namespace espalier::scenes {
 
-/// A cut through the world with its boundary layers. Throws sim::InputError where it misses the world.
+/// A cut through the world with its boundary layers. Throws sim::InputError where it misses the world, and,
+/// as all here, where the world is so narrow that the picture would take more memory than is free for it.
 render::Image drawSection(const sim::World& world, const ImageSpec& image);
 
 /// Greene's figure 2: looks along the axis on which the world is flat; a world that is not flat is seen along
 /// z.
-render::Image drawAttempts(const sim::World& world, const std::vector<sim::Attempt>& attempts);
+render::Image drawAttempts(const sim::World& world, const std::vector<sim::Attempt>& attempts,
+                           const ImageSpec& image);
 
 }  // namespace espalier::scenes

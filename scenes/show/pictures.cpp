@@ -16,6 +16,7 @@
 #include "scenes/lights.h"
 #include "scenes/show/flat_pictures.h"
 #include "scenes/show/light_texts.h"
+#include "scenes/show/picture_memory.h"
 #include "sim/base/error.h"
 #include "sim/base/parallel.h"
 #include "sim/world/ray.h"
@@ -48,8 +49,10 @@ std::optional<Panel> panelOf(ImageKind kind) {
 }
 
 /// What an image's numbers are, for its header.
-render::Metadata metadataOf(const std::string& title, const sim::LightAbout& about, const ImageSpec& image) {
-  render::Metadata metadata = {{"Title", title + ": " + image.name}};
+render::Metadata metadataOf(const PicturesWanted& wanted, const sim::LightAbout& about,
+                            const ImageSpec& image) {
+  render::Metadata metadata = {{"Title", wanted.title + ": " + image.name}};
+  for (auto& entry : render::textsOf(wanted.made_by)) metadata.push_back(std::move(entry));
   metadata.emplace_back("espalier:voxel_m", fmt::format("{:.6g}", about.voxel_m));
   for (const auto& [name, text] : texts(about)) metadata.emplace_back("espalier:" + name, text);
   return metadata;
@@ -141,9 +144,10 @@ render::PanelPicture Studio::paint(const ImageSpec& image, Panel panel) {
       const auto kind = panelOf(other.kind);
       if (kind && other.camera == image.camera) panels.push_back(*kind);
     }
-    view = std::make_unique<View>(render::see(finished_.world.frame(), finished_.world.occupied(), bricks_,
-                                              cameraOf(wanted_, image), wanted_.width_px, wanted_.height_px),
-                                  world_, look_, panels);
+    view = std::make_unique<View>(
+        render::see(finished_.world.frame(), finished_.world.occupied(), bricks_, cameraOf(wanted_, image),
+                    wanted_.width_px, wanted_.height_px, mostFragments(wanted_)),
+        world_, look_, panels);
   }
   return view->painter.paint(panel);
 }
@@ -223,9 +227,9 @@ Image contactSheet(const PicturesWanted& wanted, const sim::LightAbout& about, c
 
 }  // namespace
 
-PicturesWanted picturesOf(const Scene& scene) {
+PicturesWanted picturesOf(const Scene& scene, const sim::Provenance& made_by) {
   PicturesWanted wanted{scene.name,   scene.image_width,          scene.image_height, scene.cameras,
-                        scene.images, shadowDirection(scene.sun), std::nullopt};
+                        scene.images, shadowDirection(scene.sun), std::nullopt,       made_by};
   if (!scene.plants.empty()) {
     const rules::RuleSet& rules = *scene.plants.front().rules;
     const double sum = rules.light.sun + rules.light.sky;
@@ -247,7 +251,7 @@ std::vector<OutputFile> drawPictures(const PicturesWanted& wanted, const Finishe
     return kept;
   };
   const auto metadata = [&](const ImageSpec& image) {
-    return metadataOf(wanted.title, finished.light.about, image);
+    return metadataOf(wanted, finished.light.about, image);
   };
   // The two that take time, side by side: each has stretches that keep one core alone busy.
   std::map<std::string, render::PanelPicture> panels;
@@ -289,7 +293,7 @@ std::vector<OutputFile> drawPictures(const PicturesWanted& wanted, const Finishe
       files.push_back(png(image.name, keep(image, drawSection(finished.world, image)), metadata(image)));
     } else if (image.kind == ImageKind::attempts) {
       files.push_back(
-          png(image.name, keep(image, drawAttempts(finished.world, finished.attempts)), metadata(image)));
+          png(image.name, keep(image, drawAttempts(finished.world, finished.attempts, image)), metadata(image)));
     }
   }
   for (const ImageSpec& image : wanted.images) {

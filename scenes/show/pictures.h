@@ -7,6 +7,7 @@
 #include "render/model/plant_model.h"
 #include "scenes/scene.h"
 #include "scenes/write/output_files.h"
+#include "sim/base/provenance.h"
 #include "sim/grow/grow.h"
 #include "sim/light/lighting.h"
 #include "sim/tile/build_world.h"
@@ -29,10 +30,11 @@ struct PicturesWanted {
   sim::Vec3 to_sun{0.0, 1.0, 0.0};  ///< unit: of the shadow matte, the first pass and the vines
   /// Of the plant whose threshold the panels show; none: render::PanelLook's own.
   std::optional<PlantLight> plant_light;
+  sim::Provenance made_by = {};  ///< for the files' headers
 };
 
 /// All that the scene itself asks for. Threshold panels speak of its first plant.
-PicturesWanted picturesOf(const Scene& scene);
+PicturesWanted picturesOf(const Scene& scene, const sim::Provenance& made_by = {});
 
 /// What pictures are made from, once growth is done. Borrowed.
 struct Finished {

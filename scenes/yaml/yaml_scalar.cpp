@@ -49,7 +49,10 @@ std::optional<double> ScalarReader::anyNumber(const Node& node) const {
   if (!isPlain(node)) return std::nullopt;
   std::string wrong;
   const auto number = parseNumber(node.text, wrong);
-  return number ? number : wrongScalar(node, wrong);
+  if (number) return number;
+  std::string not_even;
+  const auto length = parseLength(node.text, not_even);
+  return wrongScalar(node, length && length->unit != Unit::none ? "is a length" : wrong);
 }
 
 std::optional<double> ScalarReader::number(const Node& node) const {

@@ -9,6 +9,8 @@
 #include <cerrno>
 #include <cstring>
 
+#include "sim/base/hasher.h"
+
 namespace espalier::scenes {
 namespace {
 
@@ -76,7 +78,8 @@ bool checkIndents(const std::string& text, const std::shared_ptr<const std::stri
 
 }  // namespace
 
-std::optional<std::string> readText(const std::string& path, const Place& asker, Problems& problems) {
+std::optional<std::string> readText(const std::string& path, const Place& asker, Problems& problems,
+                                    std::uint64_t* hash) {
   const auto refuse = [&](std::string_view why) {
     problems.add(asker, *asker.path == path ? std::string(why) : fmt::format("{}: {}", path, why));
     return std::nullopt;
@@ -101,6 +104,7 @@ std::optional<std::string> readText(const std::string& path, const Place& asker,
     if (text.size() > kMaxTextBytes)
       return refuse(fmt::format("is too large; expected at most {} bytes", kMaxTextBytes));
   }
+  if (hash != nullptr) *hash = sim::hashOf(text);
   if (text.starts_with("\xef\xbb\xbf")) text.erase(0, 3);
   return text;
 }

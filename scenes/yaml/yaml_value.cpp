@@ -12,14 +12,15 @@ namespace espalier::scenes {
 namespace {
 
 using rules::Datum;
+using rules::Distance;
 using rules::Key;
 using rules::Kind;
 using rules::Length;
+using rules::Polygons;
 using rules::Value;
 using rules::WholeRange;
 using Node = YamlNode;
 using Unit = WrittenLength::Unit;
-using Polygon = std::vector<sim::Vec3>;
 
 constexpr std::size_t kMostCorners = 64;
 constexpr std::size_t kMostPointsOfCurve = 256;
@@ -27,10 +28,45 @@ constexpr std::size_t kMostPointsOfCurve = 256;
 template <class T>
 using Maybe = std::optional<T>;
 
+/// Reads the lengths of one value, which are all plain numbers or all have units; where a plain 0 may be
+/// either, as in a polygon's corner, it binds none of the others.
+class LengthReader {
+ public:
+  explicit LengthReader(const ScalarReader& read)
+      : read_(read), is_polygon_(read.key.kind == Kind::polygons) {}
+
+  Maybe<double> next(const Node& node) {
+    const auto length = read_.length(node);
+    if (!length) return std::nullopt;
+    if (length->unit == Unit::voxels && (is_polygon_ || read_.key.kind == Kind::size))
+      return read_.fail(node,
+                        fmt::format("is {}, in voxel widths, which are not written here", described(node)));
+    if (is_polygon_ && length->unit == Unit::none && length->number == 0.0) return 0.0;
+    const auto unit = length->unit == Unit::metres ? Unit::metres : Unit::voxels;
+    if (unit_ != Unit::none && unit_ != unit) return mixed(node);
+    unit_ = unit;
+    return length->number;
+  }
+  bool metres() const { return unit_ == Unit::metres; }
+
+ private:
+  /// Said once: a polygon has many corners.
+  std::nullopt_t mixed(const Node& node) {
+    if (is_mixed_) return std::nullopt;
+    is_mixed_ = is_polygon_;
+    return read_.fail(node, fmt::format("has {} after a number in another unit", described(node)));
+  }
+
+  const ScalarReader& read_;
+  bool is_polygon_;
+  bool is_mixed_ = false;
+  Unit unit_ = Unit::none;  ///< of the numbers so far
+};
+
 /// Reads a constant, a range or a curve, of plain numbers or of lengths.
 class ValueReader {
  public:
-  explicit ValueReader(const ScalarReader& read) : read_(read) {}
+  explicit ValueReader(const ScalarReader& read) : read_(read), lengths_(read) {}
 
   Maybe<Value> value(const Node& node) {
     if (node.kind == Node::Kind::list) return range(node);
@@ -38,19 +74,11 @@ class ValueReader {
     const auto constant = number(node);
     return constant ? Maybe<Value>(*constant) : std::nullopt;
   }
-  bool metres() const { return unit_ == Unit::metres; }
+  bool metres() const { return lengths_.metres(); }
 
  private:
-  /// One number; its unit must be that of the numbers before it.
   Maybe<double> number(const Node& node) {
-    if (read_.key.kind == Kind::value) return read_.number(node);
-    const auto length = read_.length(node);
-    if (!length) return std::nullopt;
-    const auto unit = length->unit == Unit::metres ? Unit::metres : Unit::voxels;
-    if (unit_ != Unit::none && unit_ != unit)
-      return read_.fail(node, fmt::format("has {} after a number in another unit", described(node)));
-    unit_ = unit;
-    return length->number;
+    return read_.key.kind == Kind::value ? read_.number(node) : lengths_.next(node);
   }
 
   Maybe<Value> range(const Node& node) {
@@ -133,10 +161,12 @@ class ValueReader {
   }
 
   const ScalarReader& read_;
-  Unit unit_ = Unit::none;  ///< of the numbers so far
+  LengthReader lengths_;
 };
 
-Maybe<sim::Vec3> triple(const ScalarReader& read, const Node& node, bool in_metres) {
+/// Three numbers, each read by `one`.
+template <class One>
+Maybe<sim::Vec3> triple(const ScalarReader& read, const Node& node, One one) {
   if (node.kind != Node::Kind::list) return read.mismatch(node);
   if (node.items.size() != 3)
     return read.fail(node,
@@ -145,7 +175,7 @@ Maybe<sim::Vec3> triple(const ScalarReader& read, const Node& node, bool in_metr
   bool good = true;
   for (int i = 0; i < 3; ++i) {
     const auto& item = node.items[static_cast<std::size_t>(i)];
-    const auto number = in_metres ? read.metres(item) : read.number(item);
+    const Maybe<double> number = one(item);
     good = good && number;
     point[i] = number.value_or(0.0);
   }
@@ -177,7 +207,7 @@ auto listOf(const ScalarReader& read, const Node& node, std::size_t most, One on
 
 Maybe<sim::Colour> colour(const ScalarReader& read, const Node& node) {
   if (node.kind != Node::Kind::list) return read.hexColour(node);
-  const auto srgb = triple(read, node, false);
+  const auto srgb = triple(read, node, [&](const Node& n) { return read.number(n); });
   return srgb ? Maybe<sim::Colour>(rules::linearFromSrgb(sim::Colour(*srgb))) : std::nullopt;
 }
 
@@ -204,8 +234,24 @@ Maybe<Datum> varying(const ScalarReader& read, const Node& node) {
   ValueReader reader(read);
   auto value = reader.value(node);
   if (!value) return std::nullopt;
-  if (read.key.kind == Kind::length) return Datum{Length{std::move(*value), reader.metres()}};
-  return Datum{std::move(*value)};
+  if (read.key.kind == Kind::value) return Datum{std::move(*value)};
+  return Datum{Length{std::move(*value), reader.metres()}};
+}
+
+Maybe<Distance> distance(const ScalarReader& read, const Node& node) {
+  LengthReader lengths(read);
+  const auto number = lengths.next(node);
+  return number ? Maybe<Distance>(Distance{*number, lengths.metres()}) : std::nullopt;
+}
+
+Maybe<Polygons> polygons(const ScalarReader& read, const Node& node) {
+  LengthReader lengths(read);
+  const auto corner = [&](const Node& n) {
+    return triple(read, n, [&](const Node& c) { return lengths.next(c); });
+  };
+  const auto polygon = [&](const Node& n) { return listOf(read, n, kMostCorners, corner); };
+  auto corners = listOf(read, node, read.key.most, polygon);
+  return corners ? Maybe<Polygons>(Polygons{std::move(*corners), lengths.metres()}) : std::nullopt;
 }
 
 }  // namespace
@@ -214,9 +260,8 @@ std::optional<Datum> readDatum(const Node& node, const Key& key, const std::stri
                                Problems& problems) {
   if (node.refused) return std::nullopt;
   const ScalarReader read{key, path, problems};
-  const auto point = [&](const Node& n) { return triple(read, n, false); };
-  const auto place = [&](const Node& n) { return triple(read, n, true); };
-  const auto polygon = [&](const Node& n) { return listOf(read, n, kMostCorners, point); };
+  const auto number = [&](const Node& n) { return read.number(n); };
+  const auto metres = [&](const Node& n) { return read.metres(n); };
   const auto name = [&](const Node& n) { return read.name(n); };
   switch (key.kind) {
     case Kind::flag:
@@ -229,17 +274,20 @@ std::optional<Datum> readDatum(const Node& node, const Key& key, const std::stri
       return datum(read.number(node));
     case Kind::value:
     case Kind::length:
+    case Kind::size:
       return varying(read, node);
+    case Kind::distance:
+      return datum(distance(read, node));
     case Kind::metres:
       return datum(read.metres(node));
     case Kind::colour:
       return datum(colour(read, node));
     case Kind::point:
-      return datum(point(node));
+      return datum(triple(read, node, number));
     case Kind::place:
-      return datum(place(node));
+      return datum(triple(read, node, metres));
     case Kind::polygons:
-      return datum(listOf(read, node, key.most, polygon));
+      return datum(polygons(read, node));
     case Kind::choice:
       return datum(read.choice(node));
     case Kind::date:

@@ -4,6 +4,10 @@
 
 namespace espalier::sim {
 
+std::uint64_t hashOf(std::string_view bytes) {
+  return XXH3_64bits(bytes.data(), bytes.size());
+}
+
 Hasher::Hasher() : state_(XXH3_createState()) {
   XXH3_64bits_reset(static_cast<XXH3_state_t*>(state_));
 }

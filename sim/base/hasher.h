@@ -9,6 +9,9 @@
 
 namespace espalier::sim {
 
+/// XXH3 (64 bits) of bytes, as it is known everywhere.
+std::uint64_t hashOf(std::string_view bytes);
+
 /// A hash (XXH3) of values fed one by one, each array with its length; padding bytes never reach it.
 class Hasher {
  public:

@@ -11,26 +11,30 @@
 
 namespace espalier::sim {
 
-// Counter words: node; iteration (24 bits) and the high bits of the site's number (8); its low bits (16) and the
-// item (16); the purpose (8), the trial (16) and the block of four numbers (8). Every field has a place of its own,
-// so no stream runs into another.
-Slots::Slots(const RandomKey& key, Purpose purpose, unsigned item, unsigned trial)
-    : counter_{key.node, key.iteration | (key.number >> 16 << 24), (key.number << 16) | item,
-               (static_cast<std::uint32_t>(purpose) << 24) | (trial << 8)},
-      key_{static_cast<std::uint32_t>(key.stream), static_cast<std::uint32_t>(key.stream >> 32)} {
-  if (item >= kItems || trial >= kTrials || key.number >= kNumbers || key.iteration >= kNumbers) {
-    throw BrokenContract(fmt::format(
-        "random numbers for site {}, iteration {}, item {} and trial {}; they are told apart below {}, {}, {} and {}",
-        key.number, key.iteration, item, trial, kNumbers, kNumbers, kItems, kTrials));
+// Counter words: node; iteration (24 bits) and the high bits of the site's number (8); its low bits (16) and
+// the item (16); the purpose (8), the trial (16) and the block of four numbers (8). Every field has a place
+// of its own, so no stream runs into another.
+PhiloxInput philoxInput(const RandomKey& key, Purpose purpose, unsigned item, unsigned trial) {
+  if (item >= Slots::kItems || trial >= Slots::kTrials || key.number >= Slots::kNumbers ||
+      key.iteration >= Slots::kNumbers) {
+    throw BrokenContract(
+        fmt::format("random numbers for site {}, iteration {}, item {} and trial {}; they are told apart "
+                    "below {}, {}, {} and {}",
+                    key.number, key.iteration, item, trial, Slots::kNumbers, Slots::kNumbers, Slots::kItems,
+                    Slots::kTrials));
   }
+  return {{key.node, key.iteration | (key.number >> 16 << 24), (key.number << 16) | item,
+           (static_cast<std::uint32_t>(purpose) << 24) | (trial << 8)},
+          {static_cast<std::uint32_t>(key.stream), static_cast<std::uint32_t>(key.stream >> 32)}};
 }
 
 void Slots::fill(unsigned block) {
   if (block >= kSlots / 4) {
     throw BrokenContract(fmt::format("a trial's random number {}; there are {}", 4 * block, kSlots));
   }
-  const r123::Philox4x32::ctr_type counter{{counter_[0], counter_[1], counter_[2], counter_[3] | block}};
-  const r123::Philox4x32::key_type key{{key_[0], key_[1]}};
+  const auto& [words, keys] = input_;
+  const r123::Philox4x32::ctr_type counter{{words[0], words[1], words[2], words[3] | block}};
+  const r123::Philox4x32::key_type key{{keys[0], keys[1]}};
   const auto numbers = r123::Philox4x32()(counter, key);
   for (std::size_t i = 0; i < 4; ++i) buffer_[i] = numbers[i];
   block_ = block;

@@ -40,6 +40,15 @@ enum class Purpose : std::uint8_t {
   custom = 128
 };
 
+/// Philox's input: what tells a trial's numbers from all others.
+struct PhiloxInput {
+  std::array<std::uint32_t, 4> counter;  ///< the last word holds the trial from bit 8 on, and the block below
+  std::array<std::uint32_t, 2> key;
+};
+
+/// Throws BrokenContract for a number, an iteration, an item or a trial beyond what can be told apart.
+PhiloxInput philoxInput(const RandomKey& key, Purpose purpose, unsigned item = 0, unsigned trial = 0);
+
 /// The numbers of one key, purpose, item and trial, by slot: slot k holds the same number whichever others
 /// are asked for, and four that lie side by side (4k .. 4k + 3) cost as much as one. A quantity that has a
 /// slot of its own suits many trials at once, lane by lane.
@@ -50,8 +59,9 @@ class Slots {
   static constexpr unsigned kTrials = 65536;
   static constexpr unsigned kNumbers = 1u << 24;  ///< sites of a node, and iterations
 
-  /// Throws BrokenContract for a number, an iteration, an item or a trial beyond what can be told apart.
-  Slots(const RandomKey& key, Purpose purpose, unsigned item = 0, unsigned trial = 0);
+  /// See philoxInput.
+  Slots(const RandomKey& key, Purpose purpose, unsigned item = 0, unsigned trial = 0)
+      : input_(philoxInput(key, purpose, item, trial)) {}
 
   /// Throws BrokenContract for a slot from kSlots on: it would be another trial's.
   std::uint32_t bits(unsigned slot) {
@@ -60,12 +70,13 @@ class Slots {
   }
   /// Evenly in [0, 1), in steps of 2^-32.
   double uniform(unsigned slot) { return bits(slot) * 0x1p-32; }
+  /// The same in single precision, in steps of 2^-24.
+  float uniformFloat(unsigned slot) { return static_cast<float>(bits(slot) >> 8) * 0x1p-24f; }
 
  private:
   void fill(unsigned block);
 
-  std::array<std::uint32_t, 4> counter_;
-  std::array<std::uint32_t, 2> key_;
+  PhiloxInput input_;
   std::array<std::uint32_t, 4> buffer_{};
   unsigned block_ = kSlots;  // none
 };

@@ -85,7 +85,7 @@ class Growing {
   void addNode(std::size_t plant, NodeId parent, Vec3 at_vx, std::span<const float> quantities);
   StandView view(std::size_t planting) const;
   std::vector<Site> dueOf(std::size_t planting, Columns& memory, Commons& commons) const;
-  Proposal proposeAt(std::size_t planting, const Site& site, const Light* light, const Columns& memory,
+  Proposal proposeAt(std::size_t planting, const Site& site, const Light* light, const Vec3* brightest, const Columns& memory,
                      const Commons& commons, bool record) const;
   void proposeAll(std::vector<Asked>& asked) const;
   void acceptAll(std::vector<Asked>& asked);
@@ -100,7 +100,7 @@ class Growing {
   std::vector<Kin> kin_;                // of each plant
   std::vector<std::uint64_t> streams_;  // of each plant
   std::optional<LightSensor> sensor_;   // if a process wants light
-  std::optional<SkyTable> sky_table_;   // if a process wants it
+  std::optional<SkySensor> sky_sensor_;  // if a process wants its table
   std::unique_ptr<Claims> claims_;
   std::unique_ptr<PieceGrid> pieces_;
   std::unique_ptr<Nearby> nearby_;  // while pieces are accepted

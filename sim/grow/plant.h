@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "sim/base/vec.h"
+#include "sim/sense/intersection.h"
 #include "sim/world/world.h"
 
 namespace espalier::sim {
@@ -66,5 +67,10 @@ struct Plant {
   std::vector<PartId> element_parts;  ///< a part for each shape
   std::uint64_t key = 0;              ///< its seed's: what its random numbers follow from
 };
+
+/// What its parts call it (Part::plant); kNoPlant where it has none in the world.
+inline int numberOf(const World& world, const Plant& plant) {
+  return plant.stem_part == kFree ? kNoPlant : world.part(plant.stem_part).plant;
+}
 
 }  // namespace espalier::sim

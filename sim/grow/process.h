@@ -124,7 +124,7 @@ struct SiteView {
   const Commons& commons;
   const PieceGrid& pieces;              ///< limbs and elements of all plants, to be tested exactly
   const Light* light = nullptr;         ///< at the site, if the process wants it
-  const SkyTable* sky_table = nullptr;  ///< for those who look for the brightest spot
+  const Vec3* brightest = nullptr;  ///< way of the sky's brightest spot there, if the process wants it
   int iteration = 0;
   bool record_attempts = false;
 };
@@ -132,7 +132,7 @@ struct SiteView {
 /// What must be sensed for a process: nobody pays for what nobody asks for.
 struct Wants {
   bool light = false;
-  bool sky_table = false;
+  bool sky_table = false;  ///< the brightest way by a table of the sky
 };
 
 /// A growth process, with all its parameters: const, and one for a planting. What it knows from one iteration

@@ -11,12 +11,14 @@
 #include "sim/base/error.h"
 #include "sim/base/parallel.h"
 #include "sim/light/exposure.h"
+#include "sim/light/look.h"
 #include "sim/world/field.h"
 
 namespace espalier::sim {
 namespace {
 
 constexpr int kMostRows = 45, kMostColumns = 180;  // cells of two degrees
+constexpr std::size_t kMostLobes = 1024;           // cells of a table whose lobes are kept: 4 MB
 constexpr float kPi = std::numbers::pi_v<float>;
 
 bool isOpen(std::span<const std::uint64_t> open, std::size_t ray) {
@@ -30,13 +32,27 @@ Vec3f directionAt(float elevation, float azimuth) {
   return {across * cosf(azimuth), sinf(elevation), across * sinf(azimuth)};
 }
 
-/// What comes from the open cells in front of a surface that faces this way: the gradient of what the surface
+/// Adds what each cell receives of one of them.
+void addLobe(std::span<const SkyTable::Cell> cells, std::size_t from, float* received) {
+  const Vec3f light = cells[from].light * cells[from].centre;
+  for (std::size_t i = 0; i < cells.size(); ++i)
+    received[i] += std::max(0.0f, glm::dot(cells[i].centre, light));
+}
+
+/// An open cell as a surface sees it.
+struct Source {
+  Vec3 centre, light;
+};
+
+/// What comes from the cells in front of a surface that faces this way: the gradient of what the surface
 /// receives.
-Vec3 lightInFront(const SkyTable& table, std::span<const std::uint64_t> open, Vec3 facing) {
+Vec3 lightInFront(std::span<const Source> sources, Vec3 facing) {
   Vec3 sum(0.0);
-  for (const SkyTable::Cell& cell : table.cells) {
-    if (isOpen(open, cell.ray) && glm::dot(Vec3(cell.centre), facing) > 0.0)
-      sum += static_cast<double>(cell.light) * Vec3(cell.centre);
+  for (const Source& source : sources) {
+    // Nothing in place of what lies behind: no sum of these changes by a zero, and no branch is guessed
+    // wrong.
+    const double in_front = glm::dot(source.centre, facing) > 0.0 ? 1.0 : 0.0;
+    sum += in_front * source.light;
   }
   return sum;
 }
@@ -90,28 +106,45 @@ SkyTable makeSkyTable(int rows, int columns, const Background& background) {
   return table;
 }
 
-std::vector<float> illumination(const SkyTable& table, std::span<const std::uint64_t> open) {
-  std::vector<float> filtered(table.cells.size());
-  for (const SkyTable::Cell& from : table.cells) {
-    if (!isOpen(open, from.ray)) continue;
-    const Vec3f light = from.light * from.centre;
-    for (std::size_t i = 0; i < filtered.size(); ++i)
-      filtered[i] += std::max(0.0f, glm::dot(table.cells[i].centre, light));
+SkyFilter::SkyFilter(const SkyTable& table)
+    : cells_(table.cells),
+      row_((cells_.size() + looking::kRowUnit - 1) / looking::kRowUnit * looking::kRowUnit) {
+  if (cells_.size() > kMostLobes) return;
+  lobes_.resize(cells_.size() * row_);
+  for (std::size_t from = 0; from < cells_.size(); ++from) addLobe(cells_, from, lobes_.data() + from * row_);
+}
+
+std::vector<float> SkyFilter::illumination(std::span<const std::uint64_t> open) const {
+  std::vector<std::uint32_t> sources;
+  for (std::uint32_t i = 0; i < cells_.size(); ++i) {
+    if (isOpen(open, cells_[i].ray)) sources.push_back(i);
   }
+  std::vector<float> filtered(row_);
+  if (lobes_.empty()) {
+    for (const std::uint32_t from : sources) addLobe(cells_, from, filtered.data());
+  } else {
+    looking::sumRows(lobes_.data(), row_, sources, filtered.data());
+  }
+  filtered.resize(cells_.size());
   return filtered;
 }
 
-Vec3 brightest(const SkyTable& table, std::span<const std::uint64_t> open) {
+Vec3 SkyFilter::brightest(std::span<const std::uint64_t> open) const {
   constexpr int kMostSteps = 64;
   constexpr double kArrived = 1.0 - 1e-12;
-  const std::vector<float> filtered = illumination(table, open);
+  const std::vector<float> filtered = illumination(open);
   const auto best = std::max_element(filtered.begin(), filtered.end());
   if (best == filtered.end() || *best <= 0.0f) return Vec3(0.0);
+  std::vector<Source> sources;
+  for (const SkyTable::Cell& cell : cells_) {
+    const Vec3 centre(cell.centre);
+    if (isOpen(open, cell.ray)) sources.push_back({centre, static_cast<double>(cell.light) * centre});
+  }
   // What a surface receives is a convex function of its normal, and homogeneous: facing the light in front of
   // it never loses any.
-  Vec3 way = glm::normalize(Vec3(table.cells[static_cast<std::size_t>(best - filtered.begin())].centre));
+  Vec3 way = glm::normalize(Vec3(cells_[static_cast<std::size_t>(best - filtered.begin())].centre));
   for (int step = 0; step < kMostSteps; ++step) {
-    const Vec3 next = glm::normalize(lightInFront(table, open, way));
+    const Vec3 next = glm::normalize(lightInFront(sources, way));
     const bool arrived = glm::dot(next, way) > kArrived;
     way = next;
     if (arrived) break;
@@ -119,18 +152,40 @@ Vec3 brightest(const SkyTable& table, std::span<const std::uint64_t> open) {
   return way;
 }
 
-Vec3 brightest(const SkyTable& table, const BitVolume& occupied, Voxel p) {
+namespace {
+
+std::vector<std::uint64_t> openRays(const SkyTable& table, const BitVolume& occupied, Voxel p) {
   std::vector<std::uint64_t> open((table.rays.size() + 63) / 64);
   for (std::size_t ray = 0; ray < table.rays.size(); ++ray) {
     if (reachesEdge(occupied, p, table.rays[ray])) open[ray / 64] |= std::uint64_t{1} << (ray % 64);
   }
-  return brightest(table, open);
+  return open;
+}
+
+}  // namespace
+
+Vec3 brightest(const SkyTable& table, const BitVolume& occupied, Voxel p) {
+  return SkyFilter(table).brightest(openRays(table, occupied, p));
 }
 
 std::vector<Vec3f> brightest(const SkyTable& table, const OpenTable& open) {
+  const SkyFilter filter(table);
   std::vector<Vec3f> ways(open.where->count());
   parallelFor(ways.size(), 16, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) ways[i] = Vec3f(brightest(table, open.row(i)));
+    for (std::size_t i = begin; i < end; ++i) ways[i] = Vec3f(filter.brightest(open.row(i)));
+  });
+  return ways;
+}
+
+SkySensor::SkySensor(const BitVolume& shape, const SkyTable& table)
+    : rays_(shape, table.rays), filter_(table) {}
+
+std::vector<Vec3> SkySensor::at(const BitVolume& opaque, std::span<const Voxel> places) const {
+  const std::vector<std::uint64_t> open = rays_.from(opaque, places);
+  std::vector<Vec3> ways(places.size());
+  parallelFor(places.size(), 4, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i)
+      ways[i] = filter_.brightest(std::span(open).subspan(i * rays_.words(), rays_.words()));
   });
   return ways;
 }

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "sim/base/bits.h"
+#include "sim/light/open_rays.h"
 #include "sim/light/sky.h"
 #include "sim/sweep/open_table.h"
 
@@ -42,16 +43,42 @@ struct SkyTable {
 /// Throws InputError for a table that is too small or too large, and for a background without light.
 SkyTable makeSkyTable(int rows, int columns, const Background& background);
 
-/// The table as Greene filters it: what a surface that faces each cell would receive, the light of the open
-/// cells convolved with the cosine lobe. Bit i of `open` is ray i.
-std::vector<float> illumination(const SkyTable& table, std::span<const std::uint64_t> open);
+/// A table made ready to be filtered.
+class SkyFilter {
+ public:
+  explicit SkyFilter(const SkyTable& table);
 
-/// The unit direction in which a surface receives most: the brightest cell of the filtered table, followed
-/// uphill to the maximum beside it, so that it does not jump from cell to cell. Zero where nothing is open.
-Vec3 brightest(const SkyTable& table, std::span<const std::uint64_t> open);
-/// The same from one voxel of a world.
+  /// The table as Greene filters it: what a surface that faces each cell would receive, the light of the open
+  /// cells convolved with the cosine lobe. Bit i of `open` is ray i.
+  std::vector<float> illumination(std::span<const std::uint64_t> open) const;
+
+  /// The unit direction in which a surface receives most: the brightest cell of the filtered table, followed
+  /// uphill to the maximum beside it, so that it does not jump from cell to cell. Zero where nothing is open.
+  Vec3 brightest(std::span<const std::uint64_t> open) const;
+
+ private:
+  std::vector<SkyTable::Cell> cells_;
+  std::size_t row_;           // floats of a row of lobes_
+  std::vector<float> lobes_;  // for each cell what each of all cells receives of it; empty for large tables
+};
+
+/// The brightest direction from one voxel of a world.
 Vec3 brightest(const SkyTable& table, const BitVolume& occupied, Voxel p);
 /// For each of the places of `open`, which must be of the table's rays.
 std::vector<Vec3f> brightest(const SkyTable& table, const OpenTable& open);
+
+/// Asks for the brightest direction at some places, again and again while a world of one shape fills: the
+/// same as brightest gives for each.
+class SkySensor {
+ public:
+  SkySensor(const BitVolume& shape, const SkyTable& table);
+
+  /// `opaque` must have the shape that was given, and the places must lie in it.
+  std::vector<Vec3> at(const BitVolume& opaque, std::span<const Voxel> places) const;
+
+ private:
+  OpenRays rays_;
+  SkyFilter filter_;
+};
 
 }  // namespace espalier::sim

@@ -1,6 +1,7 @@
 #include "sim/light/exposure.h"
 
 #include <algorithm>
+#include <bit>
 #include <limits>
 
 namespace espalier::sim {
@@ -26,13 +27,28 @@ Outlook lookOut(const BitVolume& occupied, Voxel p, const DirectionSet& directio
   return outlook;
 }
 
-Outlook outlook(const OpenTable& open, std::size_t place, std::span<const LatticeDirection> directions,
-                std::size_t first) {
+std::vector<Outlook> sharesOf(const DirectionSet& directions) {
+  std::vector<Outlook> shares;
+  for (const LatticeDirection& direction : directions) {
+    shares.push_back(
+        {direction.weight, static_cast<double>(direction.weight) * glm::normalize(Vec3(direction.v))});
+  }
+  return shares;
+}
+
+Outlook outlook(std::span<const Outlook> shares, std::span<const std::uint64_t> open, std::size_t first,
+                std::size_t count) {
   Outlook outlook;
-  for (std::size_t i = 0; i < directions.size(); ++i) {
-    if (!open.open(place, first + i)) continue;
-    outlook.sum = static_cast<std::uint16_t>(outlook.sum + directions[i].weight);
-    outlook.toward += static_cast<double>(directions[i].weight) * glm::normalize(Vec3(directions[i].v));
+  const std::size_t end = first + count;
+  for (std::size_t word = first / 64; 64 * word < end; ++word) {
+    std::uint64_t left = open[word];
+    if (64 * word < first) left &= ~std::uint64_t{0} << (first % 64);
+    if (64 * (word + 1) > end) left &= (std::uint64_t{1} << (end % 64)) - 1;
+    for (; left != 0; left &= left - 1) {
+      const Outlook& share = shares[64 * word + static_cast<std::size_t>(std::countr_zero(left))];
+      outlook.sum = static_cast<std::uint16_t>(outlook.sum + share.sum);
+      outlook.toward += share.toward;
+    }
   }
   return outlook;
 }

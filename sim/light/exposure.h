@@ -6,7 +6,6 @@
 
 #include "sim/base/bits.h"
 #include "sim/sweep/directions.h"
-#include "sim/sweep/open_table.h"
 #include "sim/world/field.h"
 
 namespace espalier::sim {
@@ -26,12 +25,16 @@ struct Outlook {
 /// Casts every ray of the set: the same sum as sweepExposure gives, for a few places.
 Outlook lookOut(const BitVolume& occupied, Voxel p, const DirectionSet& directions);
 
-/// The same from a table (sim/sweep/sweep.h) whose directions `first`, first + 1 .. these are.
-Outlook outlook(const OpenTable& open, std::size_t place, std::span<const LatticeDirection> directions,
-                std::size_t first = 0);
+/// What each of some directions gives where it alone is open.
+std::vector<Outlook> sharesOf(const DirectionSet& directions);
 
-/// Directions made ready for many looks into worlds of one shape: the same answers as lookOut, several times
-/// as fast.
+/// The sum of those shares `first` .. first + count - 1 whose bits are set in `open`, in their order: what
+/// lookOut gives, to the last bit.
+Outlook outlook(std::span<const Outlook> shares, std::span<const std::uint64_t> open, std::size_t first,
+                std::size_t count);
+
+/// Directions made ready for looks into worlds of one shape, each ray still walked on its own: the same
+/// answers as lookOut, several times as fast.
 class Lookout {
  public:
   Lookout(const BitVolume& shape, const DirectionSet& directions);

@@ -1,9 +1,12 @@
 #pragma once
+#include <cstdint>
+#include <functional>
 #include <optional>
 #include <span>
 #include <vector>
 
 #include "sim/light/exposure.h"
+#include "sim/light/open_rays.h"
 #include "sim/light/random_sky.h"
 #include "sim/light/sky.h"
 
@@ -22,21 +25,29 @@ struct LightSource {
   Weighting weighting = Weighting::uniform;            ///< of the random rays
 };
 
-/// Asks for the light at some places, again and again while a world of one shape fills: by casting each ray
-/// where the places are few, by sweeping the world where they are many. Both give the same answer bit for
-/// bit.
+/// Asks for the light at some places, again and again while a world of one shape fills. There are three ways
+/// to find it, and all give the same answer bit for bit.
 class LightSensor {
  public:
   LightSensor(const BitVolume& shape, const LightSource& source);
 
-  /// `opaque` must have the shape that was given, and the places must lie in it. Random rays are always cast.
+  /// `opaque` must have the shape that was given, and the places must lie in it. Takes the way that costs
+  /// least for so many places. Random rays are always cast.
   std::vector<Light> at(const BitVolume& opaque, std::span<const Voxel> places) const;
+  /// Each ray walked voxel by voxel: the plain way, without random rays.
   std::vector<Light> byRays(const BitVolume& opaque, std::span<const Voxel> places) const;
+  /// As sim/light/open_rays.h does it: for buds.
+  std::vector<Light> byOpenRays(const BitVolume& opaque, std::span<const Voxel> places) const;
+  /// The whole world swept: where light is asked for nearly everywhere.
   std::vector<Light> bySweep(const BitVolume& opaque, std::span<const Voxel> places) const;
 
  private:
-  DirectionSet directions_;  // the sky's, then the sun's
+  std::vector<Light> lightsOf(std::size_t places,
+                              const std::function<std::span<const std::uint64_t>(std::size_t)>& open) const;
+
+  OpenRays rays_;  // the sky's directions, then the sun's
   std::size_t sky_count_;
+  std::vector<Outlook> shares_;  // of each of them, if it alone is open
   Lookout sky_, sun_;
   std::optional<RandomSky> random_sky_;
   Weighting weighting_;

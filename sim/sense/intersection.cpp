@@ -5,12 +5,13 @@
 namespace espalier::sim {
 
 Fit fit(const World& world, std::span<const Voxel> piece, std::span<const Voxel> attachment, Passage passage,
-        std::vector<Voxel>& takes) {
-  const auto& occupied = world.occupied();
+        int gives_way, std::vector<Voxel>& takes) {
+  const BitVolume &occupied = world.occupied(), &solid = world.solid();
+  const auto gives = [&](Voxel v) { return !solid.at(v) && world.part(world.partAt(v)).plant == gives_way; };
   takes.clear();
   for (const Voxel v : piece) {
     if (!contains(occupied.size(), v)) return Fit::outside;
-    if (!occupied.at(v)) {
+    if (!occupied.at(v) || gives(v)) {
       takes.push_back(v);
     } else if (passage == Passage::around &&
                std::find(attachment.begin(), attachment.end(), v) == attachment.end()) {

@@ -10,12 +10,6 @@ double distanceAt(const World& world, Voxel v) {
 
 }  // namespace
 
-double averageProximity(const World& world, std::span<const Voxel> voxels) {
-  double sum = 0.0;
-  for (const Voxel v : voxels) sum += distanceAt(world, v);
-  return sum / static_cast<double>(voxels.size());
-}
-
 Vec3 awayFromScene(const World& world, Voxel v) {
   Vec3 gradient(0.0);
   for (int dy = -1; dy <= 1; ++dy) {

@@ -1,24 +1,18 @@
 #include "sim/tile/memory.h"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <cmath>
 
 #include "sim/base/error.h"
+#include "sim/base/memory.h"
 #include "sim/tile/build_world.h"
 
 namespace espalier::sim {
 namespace {
 
 constexpr double kLongestAxis = 16000;  // what tiling's fixed point can hold, less a rim
-
-/// What a world may take: the rest is for the system and for pictures.
-double budget() {
-  return 0.75 * static_cast<double>(::sysconf(_SC_PHYS_PAGES)) *
-         static_cast<double>(::sysconf(_SC_PAGE_SIZE));
-}
 
 /// Bit volumes: what is occupied, what is solid, what takes light, and three more while a solid is filled or
 /// places are looked at. Surfaces as large as the world's own sides: their grids, taps and places with the
@@ -31,7 +25,7 @@ double worldBytes(Vec3 size, const WorldUse& use) {
 }
 
 bool fits(Vec3 size, const WorldUse& use) {
-  return std::max({size.x, size.y, size.z}) <= kLongestAxis && worldBytes(size, use) <= budget();
+  return std::max({size.x, size.y, size.z}) <= kLongestAxis && worldBytes(size, use) <= memoryBudget();
 }
 
 /// Rounded up to two digits.
@@ -47,11 +41,6 @@ double fittingVoxel(Vec3 size, double voxel_m, const WorldUse& use) {
   while (!fitsAt(high)) high *= 2;
   for (int i = 0; i < 60; ++i) (fitsAt((low + high) / 2) ? high : low) = (low + high) / 2;
   return rounded(high);
-}
-
-std::string amount(double bytes) {
-  const double gib = bytes / (1024.0 * 1024.0 * 1024.0);
-  return gib < 1e6 ? fmt::format("{:.1f} GB", gib) : fmt::format("{:.3g} GB", gib);
 }
 
 }  // namespace
@@ -70,10 +59,10 @@ void requireFits(Vec3 size, double voxel_m, const WorldUse& use) {
                     size.x, size.y, size.z));
   }
   if (fits(size, use)) return;
-  const std::string reason = longest > kLongestAxis
-                                 ? fmt::format("has more than {} voxels along an axis", kLongestAxis)
-                                 : fmt::format("needs {} of memory, and {} are free for it here",
-                                               amount(worldBytes(size, use)), amount(budget()));
+  const std::string reason =
+      longest > kLongestAxis ? fmt::format("has more than {} voxels along an axis", kLongestAxis)
+                             : fmt::format("needs {} of memory, and {} are free for it here",
+                                           inGigabytes(worldBytes(size, use)), inGigabytes(memoryBudget()));
   throw InputError(fmt::format(
       "a world of {:.15g} x {:.15g} x {:.15g} voxels of {:.6g} m {}; a voxel size of {:.6g} m would fit",
       size.x, size.y, size.z, voxel_m, reason, fittingVoxel(size, voxel_m, use)));
@@ -86,11 +75,11 @@ void requireFits(const Frame& frame, const WorldUse& use) {
 void requireFilledFits(std::size_t voxels, const std::string& object) {
   constexpr double kBytesPerVoxel = 50.0;  // grids of surfaces and layers
   const double bytes = static_cast<double>(voxels) * kBytesPerVoxel;
-  if (bytes <= budget()) return;
+  if (bytes <= memoryBudget()) return;
   throw InputError(
       fmt::format("{}: filling it takes {} voxels and {} of memory, and {} are free for it here; expected "
                   "larger voxels or a surface that is not filled",
-                  object, voxels, amount(bytes), amount(budget())));
+                  object, voxels, inGigabytes(bytes), inGigabytes(memoryBudget())));
 }
 
 }  // namespace espalier::sim

@@ -47,7 +47,7 @@ struct Nearness {
 
 /// The distances to the scene for those who read many at once, in lanes: that of nearnessAt in whole steps of
 /// 1/256 voxel width, rounded to nearest. Beyond the boundary layers layers() + 1 voxel widths, as
-/// averageProximity counts it; without layers nothing is near, not even the scene itself. Valid until the
+/// trials count it; without layers nothing is near, not even the scene itself. Valid until the
 /// world ends or its layers are set anew.
 struct NearSteps {
   static constexpr int kInVoxel = 256;  ///< steps in a voxel width

@@ -63,7 +63,7 @@ void benchGrowth(const scenes::Scene& scene, scenes::Site& site, Report& report)
     planting.process = listeners.back();
   }
   const sim::LightSensor sensor(site.world.opaque(), settings.light);
-  double growing = 0.0, asking = 0.0, casting = 0.0, sweeping = 0.0, everywhere = 0.0;
+  double growing = 0.0, asking = 0.0, casting = 0.0, opening = 0.0, sweeping = 0.0, everywhere = 0.0;
   std::size_t iterations = 0, buds = 0;
   auto began = Clock::now();
   settings.progress = [&](const sim::GrowthProgress& progress) {
@@ -78,15 +78,16 @@ void benchGrowth(const scenes::Scene& scene, scenes::Site& site, Report& report)
       const sim::BitVolume& opaque = site.world.opaque();
       const auto medians =
           medianSeconds({[&] { sensor.at(opaque, places); }, [&] { sensor.byRays(opaque, places); },
-                         [&] { sensor.bySweep(opaque, places); },
+                         [&] { sensor.byOpenRays(opaque, places); }, [&] { sensor.bySweep(opaque, places); },
                          [&] {
                            sim::sweepExposure(opaque, settings.light.sky);
                            sim::sweepExposure(opaque, settings.light.sun);
                          }});
       asking += medians[0];
       casting += medians[1];
-      sweeping += medians[2];
-      everywhere += medians[3];
+      opening += medians[2];
+      sweeping += medians[3];
+      everywhere += medians[4];
       buds += places.size();
       ++iterations;
     }
@@ -102,6 +103,7 @@ void benchGrowth(const scenes::Scene& scene, scenes::Site& site, Report& report)
   report.add({kRow, "an iteration, with the light that its buds ask for", mean(growing) * 1e3, "ms", state});
   report.add({kRow, "their light, as growth asks for it", mean(asking) * 1e3, "ms", state});
   report.add({kRow, "  by rays", mean(casting) * 1e3, "ms", state});
+  report.add({kRow, "  by open rays", mean(opening) * 1e3, "ms", state});
   report.add({kRow, "  by a sweep", mean(sweeping) * 1e3, "ms", state});
   report.add({kRow, "every voxel's light, by sweeps", mean(everywhere) * 1e3, "ms", state});
   report.add({kRow, "the buds' light over the rest of the iteration", asking / (growing - asking), "times",

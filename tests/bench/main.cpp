@@ -24,14 +24,16 @@ scenes::Scene courtyard() {
 }  // namespace
 
 int main(int argc, char** argv) {
-  CLI::App app("Measures exposure against other ways to find it, in one run: medians of five.", "bench");
+  CLI::App app("Measures exposure and growth against other ways to do it, in one run: medians of five.",
+               "bench");
   std::string csv = "out/bench.csv", document;
-  double most_voxels = 1.1e9;
+  double most_voxels = 1.1e9, most_segments = 1e6;
   std::set<int> rows;
   app.add_option("--csv", csv, "Where the table goes")->capture_default_str();
   app.add_option("--into", document, "A document whose first block of ``` takes what is printed");
   app.add_option("--most-voxels", most_voxels, "Of the largest world")->capture_default_str();
-  app.add_option("--rows", rows, "Only these of 1 .. 4")->check(CLI::Range(1, 4));
+  app.add_option("--most-segments", most_segments, "Of the largest growth");
+  app.add_option("--rows", rows, "Only these of 1 .. 5")->check(CLI::Range(1, 5));
   CLI11_PARSE(app, argc, argv);
   const auto wanted = [&](int row) { return rows.empty() || rows.contains(row); };
   try {
@@ -43,6 +45,7 @@ int main(int argc, char** argv) {
     if (wanted(2)) bench::benchEveryVoxel(scene, site, report);
     if (wanted(3)) bench::benchLargeWorlds(most_voxels, report);
     if (wanted(4)) bench::benchGrowth(scene, site, report);
+    if (wanted(5)) bench::benchSegments(most_segments, report);
     report.writeCsv(csv);
     if (!document.empty()) report.writeInto(document);
   } catch (const std::exception& error) {

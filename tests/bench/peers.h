@@ -1,6 +1,7 @@
 #pragma once
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -41,5 +42,12 @@ Peers embreePeers(const sim::BitVolume& occupied, const std::vector<sim::Mesh>& 
 /// that looks at every voxel.
 Peers nanovdbPeers(const sim::BitVolume& occupied);
 std::string vdbVersions();
+
+/// Another grower on a wall: the IvyGen add-on of Blender, which judges one candidate a node. Nothing where
+/// no `blender` with it is installed.
+struct IvyGen {
+  double nodes = 0.0, cpu_s = 0.0;
+};
+std::optional<IvyGen> ivyGenNodes();
 
 }  // namespace espalier::bench

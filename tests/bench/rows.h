@@ -17,6 +17,10 @@ void benchLargeWorlds(double most_voxels, Report& report);
 /// What light costs while the scene grows. Grows it in the site's world.
 void benchGrowth(const scenes::Scene& scene, scenes::Site& site, Report& report);
 
+/// Growth on walls that grow with the number of segments, up to so many: speed, memory, other rules, threads
+/// and instruction sets, and another grower.
+void benchSegments(double most_segments, Report& report);
+
 /// A sky of at least so many directions, of equal weight for equal parts.
 sim::DirectionSet skyOf(int directions);
 

@@ -1,6 +1,7 @@
 // The program as a user runs it: what it writes, what it says, and how it ends.
 #include <gtest/gtest.h>
 
+#include <OpenImageIO/imageio.h>
 #include <sys/wait.h>
 #include <unistd.h>
 #include <csignal>
@@ -10,7 +11,12 @@
 #include <set>
 #include <string>
 #include <thread>
+#include <tuple>
 
+#include "scenes/read/read_scene.h"
+#include "scenes/show/picture_memory.h"
+#include "sim/base/hasher.h"
+#include "sim/base/parallel.h"
 #include "tests/cli/plot.h"
 
 namespace espalier {
@@ -61,6 +67,100 @@ TEST_F(Plot, EveryByteIsTheSameOnOneTwoAndFiveThreads) {
       EXPECT_TRUE(one[name] == bytes) << folder << '/' << name;
     }
   }
+}
+
+TEST_F(Plot, EveryFileSaysFromWhatItWasMadeAndNotWhere) {
+  const std::string far_off = std::string(tests::kPlotScene)
+                                  .replace(std::string(tests::kPlotScene).find("[0.3, 0.1, 0.1]"), 15,
+                                           "{at: [0.9, 1.4, 1.0], key: far off}");
+  for (const char* folder : {"one", "another/place"}) {
+    for (const char* name : {"plot.obj", "vine.yaml"})
+      scratch_.write(std::string(folder) + "/" + name, tests::fileText(scratch_.path(name)));
+    scratch_.write(std::string(folder) + "/scene.yaml", far_off);
+  }
+  const std::string root = scratch_.path("").string();
+  for (const auto& [started, scene, out] :
+       {std::tuple{root + "one", std::string("scene.yaml"), root + "a"},
+        {std::string("/"), root + "another/place/scene.yaml", root + "b"}}) {
+    const auto ran =
+        tests::run("cd " + started + " && " + ESPALIER_PROGRAM + " grow " + scene + " -o " + out);
+    ASSERT_EQ(ran.status, 0) << ran.output;
+    EXPECT_NE(ran.output.find("note: 'vine 2' did not grow: "), std::string::npos) << ran.output;
+    const json r = report(fs::path(out).filename().string());
+    EXPECT_EQ(r["run"]["scene"], scene);
+    EXPECT_EQ(r["seed"], 5);
+    EXPECT_TRUE(r["software"].get<std::string>().starts_with("Espalier "));
+    ASSERT_EQ(r["inputs"].size(), 3u);
+    EXPECT_EQ(
+        r["inputs"][2],
+        json({{"file", "plot.obj"}, {"kind", "mesh"}, {"xxh3", sim::hexOf(sim::hashOf(tests::kPlotMesh))}}));
+    const json plants = r["growth"]["plants"];
+    ASSERT_EQ(plants.size(), 2u);
+    EXPECT_FALSE(plants[0].contains("failed"));
+    EXPECT_GT(plants[0]["buds"]["grown"], 10);
+    EXPECT_EQ(plants[1]["seed"]["key"], "far off");
+    EXPECT_NEAR(plants[1]["seed"]["at_m"][1].get<double>(), 1.4, 1e-9);
+    EXPECT_EQ(plants[1]["segments"], 0);
+    EXPECT_EQ(plants[1]["planting"], "vine");
+    EXPECT_NE(ran.output.find(plants[1]["failed"].get<std::string>()), std::string::npos) << ran.output;
+    for (const char* name : {"vines.png", "sky_exposure.png", "sky_exposure.exr", "contact_sheet.png"}) {
+      const auto in = OIIO::ImageInput::open(out + "/" + name);
+      ASSERT_TRUE(in) << name;
+      EXPECT_EQ(in->spec().get_string_attribute("Software"), r["software"].get<std::string>()) << name;
+      EXPECT_EQ(in->spec().get_string_attribute("espalier:seed"), "5") << name;
+      EXPECT_NE(in->spec().get_string_attribute("espalier:inputs").find(" rules vine.yaml"),
+                std::string::npos)
+          << name;
+    }
+  }
+  const auto one = files(root + "a"), other = files(root + "b");
+  ASSERT_EQ(one.size(), other.size());
+  for (const auto& [name, bytes] : one) {
+    if (name != "report.json") {
+      EXPECT_TRUE(other.at(name) == bytes) << name;
+    }
+    if (name.ends_with(".json") || name.ends_with(".state")) continue;
+    EXPECT_EQ(bytes.find(root), std::string::npos) << name;
+  }
+  json a = report("a"), b = report("b");
+  a.erase("run");
+  b.erase("run");
+  EXPECT_EQ(a, b);
+  EXPECT_EQ(a.dump().find(root), std::string::npos);
+}
+
+TEST_F(Plot, PicturesThatTakeTooMuchMemoryAreRefusedBeforeAnythingIsTiled) {
+  std::string scene = tests::kPlotScene;
+  scene.replace(scene.find("width: 160, height: 120"), 23, "width: 16000, height: 16000");
+  scratch_.write("scene.yaml", scene);
+  for (const char* command : {"grow", "expose"}) {
+    const auto ran =
+        tests::run("ulimit -v 8000000; " + std::string(ESPALIER_PROGRAM) + " " + command + " " +
+                   scratch_.path("scene.yaml").string() + " -o " + scratch_.path("out").string());
+    EXPECT_EQ(ran.status, 2);
+    EXPECT_NE(ran.output.find("scene.yaml:16:1: "), std::string::npos) << ran.output;
+    EXPECT_NE(ran.output.find("5.7 GB are free for it here; expected at most "), std::string::npos)
+        << ran.output;
+    EXPECT_EQ(ran.output.find("tiling"), std::string::npos) << ran.output;
+    EXPECT_FALSE(fs::exists(scratch_.path("out")));
+  }
+}
+
+TEST_F(Plot, PicturesTakeNoMoreMemoryThanIsCounted) {
+  std::string scene = tests::kPlotScene;
+  scene.replace(scene.find("width: 160, height: 120"), 23, "width: 1600, height: 1200");
+  scratch_.write("scene.yaml", scene);
+  ASSERT_EQ(grow("--threads 2", "with").status, 0);
+  ASSERT_EQ(grow("--threads 2 --no-pictures", "without").status, 0);
+  const auto peak = [&](const char* folder) {
+    return report(folder)["run"]["peak_memory_bytes"].get<double>();
+  };
+  const auto read = scenes::readScene(scratch_.path("scene.yaml"));
+  ASSERT_TRUE(read);
+  double counted = 0.0;
+  sim::onThreads(2, [&] { counted = scenes::pictureBytes(scenes::picturesOf(*read), 1.0); });
+  EXPECT_LT(peak("with") - peak("without"), counted);
+  EXPECT_GT(peak("with") - peak("without"), 0.25 * counted);
 }
 
 TEST_F(Plot, PicturesDoNotChangeWhatGrows) {

@@ -17,7 +17,7 @@ inline rules::RuleSet lively() {
   rules::RuleSet rules;
   rules.name = "lively";
   rules.random_tree.wander_deg = 30.0;
-  rules.random_tree.trials_min = 8;
+  rules.random_tree.trials_min = 4;
   rules.random_tree.trials_max = 16;
   rules.bias.up = 0.08;
   rules.bias.gravity = 0.02;
@@ -25,9 +25,9 @@ inline rules::RuleSet lively() {
   rules.bias.away = 0.05;
   rules.bias.toward = 0.1;
   rules.bias.twist = 0.2;
-  rules.bias.twist_radius_vx = 5.0;
-  rules.require.proximity_max_vx = 4.5;
-  rules.prefer = {true, 1.8};
+  rules.bias.twist_radius = {5.0};
+  rules.require.proximity_max = {4.5};
+  rules.prefer = {true, {1.8}};
   rules.light = {0.5, 0.5, 1.5};
   rules::Element leaf;
   leaf.per_segment = 1.5;
@@ -41,7 +41,7 @@ inline rules::RuleSet failing() {
   rules::RuleSet rules;
   rules.name = "failing";
   rules.random_tree.trials_min = rules.random_tree.trials_max = 1;
-  rules.require.proximity_max_vx = std::numeric_limits<double>::min();
+  rules.require.proximity_max = {std::numeric_limits<double>::min()};
   return rules;
 }
 

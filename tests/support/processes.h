@@ -54,7 +54,8 @@ class Creeper : public sim::Process {
     for (const sim::Voxel v : passes) {
       if (sim::besides(v, sim::voxelAt(site.at_vx))) attachment.push_back(v);
     }
-    const sim::Fit fit = sim::fit(view.world, passes, attachment, segment.passage, segment.takes);
+    const sim::Fit fit =
+        sim::fit(view.world, passes, attachment, segment.passage, sim::kNoPlant, segment.takes);
     proposal.outcome = fit == sim::Fit::clear     ? sim::Outcome::grown
                        : fit == sim::Fit::blocked ? sim::Outcome::blocked
                                                   : sim::Outcome::out_of_world;
@@ -171,7 +172,7 @@ class Tiler : public sim::Process {
     }
     std::vector<sim::Voxel> passes;
     sim::tilePolygon(corners, passes);
-    if (sim::fit(view.world, passes, {}, tile.passage, tile.takes) == sim::Fit::outside) {
+    if (sim::fit(view.world, passes, {}, tile.passage, sim::kNoPlant, tile.takes) == sim::Fit::outside) {
       proposal.outcome = sim::Outcome::out_of_world;
       return proposal;
     }

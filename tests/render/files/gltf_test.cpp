@@ -116,6 +116,20 @@ TEST_F(Glb, EmptyAndStrangeThings) {
   EXPECT_THROW(glbBytes({{&broken}, {}}), sim::InputError);
 }
 
+TEST_F(Glb, SaysByWhatAndFromWhatItWasMade) {
+  const sim::Provenance made_by{
+      "Espalier 9.8.7", 9007199254740991u, {{"s.yaml", "scene", 0xabcu}, {"caf\xe9", "mesh", 1}}};
+  const auto asset = readBack(glbBytes({{&wall_}, {}}, made_by)).asset;
+  EXPECT_EQ(asset.generator, "Espalier 9.8.7");
+  EXPECT_EQ(asset.extras.Get("seed").Get<std::string>(), "9007199254740991");
+  const auto& inputs = asset.extras.Get("inputs");
+  ASSERT_EQ(inputs.ArrayLen(), 2u);
+  EXPECT_EQ(inputs.Get(0).Get("file").Get<std::string>(), "s.yaml");
+  EXPECT_EQ(inputs.Get(0).Get("kind").Get<std::string>(), "scene");
+  EXPECT_EQ(inputs.Get(0).Get("xxh3").Get<std::string>(), "0000000000000abc");
+  EXPECT_EQ(inputs.Get(1).Get("file").Get<std::string>(), "caf\xef\xbf\xbd");
+}
+
 TEST_F(Glb, TheKhronosValidatorIsContent) {
   const char* modules = std::getenv("ESPALIER_NODE_MODULES");
   const std::string node_path =

@@ -155,5 +155,16 @@ TEST_F(Vdb, AFieldOfAnotherSizeIsRefused) {
   EXPECT_THROW(render::vdbBytes(world_, {field}), sim::InputError);
 }
 
+TEST_F(Vdb, SaysByWhatAndFromWhatItWasMade) {
+  const sim::Provenance made_by{"Espalier 9.8.7", 9007199254740991u, {{"s.yaml", "scene", 0xabcu}}};
+  for (const std::string& bytes :
+       {render::vdbBytes(world_, {}, made_by), render::fieldVdbBytes(world_, fields(), made_by)}) {
+    const ReadBack file = readBack(bytes);
+    EXPECT_EQ(file.about->metaValue<std::string>("software"), "Espalier 9.8.7");
+    EXPECT_EQ(file.about->metaValue<std::int64_t>("seed"), 9007199254740991);
+    EXPECT_EQ(file.about->metaValue<std::string>("inputs"), "0000000000000abc scene s.yaml");
+  }
+}
+
 }  // namespace
 }  // namespace espalier

@@ -109,6 +109,19 @@ TEST(ImageIo, RefusesWhatCannotBeWritten) {
   EXPECT_THROW(encodePng(cut), sim::InputError);
 }
 
+TEST(ImageIo, HeadersSayByWhatAndFromWhatAPictureWasMade) {
+  const sim::Provenance made_by{
+      "Espalier 9.8.7", 42, {{"s.yaml", "scene", 0xabcu}, {"a b.obj", "mesh", ~0ull}}};
+  const Metadata texts = textsOf(made_by);
+  for (const auto& back : {decode(encodePng(ramp(8, 8, 3), texts), "png"),
+                           decode(encodeExr(ramp(8, 8, 1), {"Y"}, texts), "exr")}) {
+    EXPECT_EQ(back.spec.get_string_attribute("Software"), "Espalier 9.8.7");
+    EXPECT_EQ(back.spec.get_string_attribute("espalier:seed"), "42");
+    EXPECT_EQ(back.spec.get_string_attribute("espalier:inputs"),
+              "0000000000000abc scene s.yaml\nffffffffffffffff mesh a b.obj");
+  }
+}
+
 TEST(Tone, SrgbRoundTripsAndTheCurveRisesFromBlackToWhite) {
   EXPECT_NEAR(srgbFromLinear(0.5f), 0.73536f, 1e-5f);  // IEC 61966-2-1
   for (int i = 0; i <= 100; ++i) {

@@ -18,8 +18,8 @@ rules::RuleSet creeper() {
   rules.bias = {};
   rules.bias.toward = 0.1;
   rules.require.exposure_min = 0.0;
-  rules.require.proximity_max_vx = 3.0;
-  rules.prefer = {true, 1.5};
+  rules.require.proximity_max = {3.0};
+  rules.prefer = {true, {1.5}};
   rules.light.boost = 1.0;
   rules.random_tree.wander_deg = 40.0;
   rules.random_tree.branch_age_max = 2;

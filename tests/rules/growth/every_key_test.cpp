@@ -46,21 +46,21 @@ const std::map<std::string, Datum>& otherValues() {
       {"bias.away", Value(0.3)},
       {"bias.toward", Value(0.3)},
       {"bias.twist.amount", Value(-0.5)},
-      {"bias.twist.radius", 2.0},
+      {"bias.twist.radius", Distance{2.0}},
       {"require.clear", false},
-      {"require.proximity.min", 1.6},
-      {"require.proximity.max", 2.2},
+      {"require.proximity.min", Distance{1.6}},
+      {"require.proximity.max", Distance{2.2}},
       {"require.exposure.min", 0.3},
       {"require.exposure.max", 0.6},
-      {"prefer.proximity", 3.0},
+      {"prefer.proximity", Distance{3.0}},
       {"light.blend.sun", 0.05},
       {"light.blend.sky", 0.05},
       {"light.boost", 4.0},
       {"elements[].trials", std::int64_t{1}},
       {"elements[].per_segment", Value(0.4)},
-      {"elements[].size", Value(0.6)},
+      {"elements[].size", Length{0.6}},
       {"elements[].face", Value(0.1)},
-      {"elements[].polygons", square()},
+      {"elements[].polygons", Polygons{square()}},
       // These change how the plant looks, and not how it grows.
       {"elements[].name", std::string("thorn")},
       {"elements[].colour", sim::Colour(0.9f, 0.1f, 0.1f)},
@@ -249,13 +249,13 @@ TEST(Stem, IsThatOfTheTopSet) {
   EXPECT_EQ(grown(red).state, plain.state);
   EXPECT_NE(grown(red).colours, plain.colours);
   RuleSet thick = lively();
-  thick.stem_radius_vx = 0.4;
+  thick.stem_radius = {0.4};
   EXPECT_NE(grown(thick).state, plain.state);  // it takes more light
 
   RuleSet top = failing(), second = lively();
   second.stem_colour = sim::Colour(1.0f, 0.0f, 0.0f);
-  second.stem_radius_vx = 0.4;
-  top.stem_radius_vx = 0.2;
+  second.stem_radius = {0.4};
+  top.stem_radius = {0.2};
   top.otherwise = shared(second);
   const sim::Plant plant = makeProcess(shared(top), 0.04)->seedling();
   EXPECT_EQ(plant.stem_colour, top.stem_colour);

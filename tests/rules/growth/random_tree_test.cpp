@@ -33,8 +33,8 @@ RuleSet vine() {
   rules.random_tree.trials_min = 30;
   rules.random_tree.trials_max = 60;
   rules.bias.up = 0.08;
-  rules.require.proximity_max_vx = 3.0;
-  rules.prefer = {true, 1.5};
+  rules.require.proximity_max = {3.0};
+  rules.prefer = {true, {1.5}};
   rules.light = {0.8, 0.2, 1.8};
   rules::Element leaf;
   leaf.polygons = {{{0, .32, .04}, {-.23, .13, -.01}, {-.36, .44, -.11}, {-.24, .76, -.11}, {0, .99, -.06}},
@@ -77,7 +77,7 @@ TEST(RandomTree, GrowsAlongTheWall) {
   for (const auto& plant : growth.plants) {
     for (std::size_t i = 1; i < plant.skeleton.parent.size(); ++i) {
       const Vec3 from = plant.skeleton.position_vx[static_cast<std::size_t>(plant.skeleton.parent[i])];
-      EXPECT_NEAR(glm::distance(from, plant.skeleton.position_vx[i]), 2.4, 1e-9);
+      EXPECT_NEAR(glm::distance(from, plant.skeleton.position_vx[i]), 2.4, 1e-3);
       EXPECT_LE(plant.skeleton.columns.at("proximity_vx")[i], 3.0f);
     }
   }
@@ -88,7 +88,7 @@ TEST(RandomTree, PrefersTheProximityThatItIsTold) {
   for (const double wanted : {1.2, 1.9, 2.6}) {
     sim::World world = tests::wallPlot();
     RuleSet rules = vine();
-    rules.prefer.proximity_vx = wanted;
+    rules.prefer.proximity = {wanted};
     rules.elements.clear();
     const auto growth = growIn(world, rules, kBothSides, brightSettings(10));
     for (const auto& plant : growth.plants) {
@@ -127,7 +127,7 @@ TEST(RandomTree, NothingIntersectsButAtItsAttachment) {
         sim::tilePolygon(corners, tiled);
         for (const Voxel v : tiled) {
           EXPECT_FALSE(before.at(v));
-          EXPECT_TRUE(world.occupied().at(v));
+          EXPECT_TRUE(world.occupied().at(v));  // by whoever came first
         }
       }
     }
@@ -278,7 +278,7 @@ TEST(RandomTree, BranchesLeaveAtTheirAngleAndAge) {
   rules.random_tree.wander_deg = 0.0;
   rules.random_tree.branch_angle_deg = 60.0;
   rules.bias.up = 0.0;
-  rules.require.proximity_max_vx = rules::kNoLimit;
+  rules.require.proximity_max = {rules::kNoLimit};
   rules.prefer.has_proximity = false;
   sim::World world({Vec3(0.0), 0.04, {120, 120, 120}});
   auto s = brightSettings(7);
@@ -296,7 +296,7 @@ TEST(RandomTree, BranchesLeaveAtTheirAngleAndAge) {
     if (degrees < 1.0) {
       ++straight;
     } else {
-      EXPECT_NEAR(degrees, 60.0, 1e-3);
+      EXPECT_NEAR(degrees, 60.0, 1e-2);
       ++branches;
       ages.insert(skeleton.born[i] - skeleton.born[parent]);
     }
@@ -312,12 +312,12 @@ TEST(RandomTree, UpBiasOfOneGrowsStraightUp) {
   RuleSet rules = vine();
   rules.elements.clear();
   rules.bias.up = 1.0;
-  rules.require.proximity_max_vx = rules::kNoLimit;
+  rules.require.proximity_max = {rules::kNoLimit};
   rules.random_tree.branch_age_min = rules.random_tree.branch_age_max = 100;
   sim::World world({Vec3(0.0), 0.04, {20, 60, 20}});
   const auto growth = growIn(world, rules, {{10, 2, 10}}, brightSettings(10));
   ASSERT_EQ(growth.plants[0].skeleton.size(), 11);
-  EXPECT_NEAR(growth.plants[0].skeleton.position_vx.back().y, 2.0 + 10 * 2.4, 1e-9);
+  EXPECT_NEAR(growth.plants[0].skeleton.position_vx.back().y, 2.0 + 10 * 2.4, 10.0 / 4096);
 }
 
 TEST(RandomTree, TwistWindsAboutTheCentreOfMass) {
@@ -346,7 +346,7 @@ TEST(RandomTree, TwistWindsAboutTheCentreOfMass) {
 TEST(RandomTree, AFlatWorldStaysFlat) {
   RuleSet rules = vine();
   rules.elements.clear();
-  rules.require.proximity_max_vx = rules::kNoLimit;
+  rules.require.proximity_max = {rules::kNoLimit};
   rules.prefer.has_proximity = false;
   sim::World world({Vec3(0.0), 0.04, {60, 60, 1}});
   auto s = brightSettings(10);
@@ -366,7 +366,7 @@ TEST(RandomTree, LengthsInMetresFollowTheVoxel) {
   const auto growth = growIn(world, rules, {{12, 2, 23}}, brightSettings(3));
   EXPECT_NEAR(
       glm::distance(growth.plants[0].skeleton.position_vx[0], growth.plants[0].skeleton.position_vx[1]), 3.0,
-      1e-9);
+      1e-3);
   rules.random_tree.length = {100.0, true};
   EXPECT_THROW(rules::makeProcess(std::make_shared<RuleSet>(rules), 0.04), sim::InputError);
 }

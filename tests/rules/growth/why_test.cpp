@@ -20,9 +20,9 @@ rules::RuleSet climber() {
   rules::RuleSet rules;
   rules.random_tree.trials_min = 20;
   rules.random_tree.trials_max = 40;
-  rules.require.proximity_max_vx = 3.0;
+  rules.require.proximity_max = {3.0};
   rules.require.exposure_min = 0.2;
-  rules.prefer = {true, 1.5};
+  rules.prefer = {true, {1.5}};
   return rules;
 }
 

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <glm/common.hpp>
 
+#include "sim/base/hasher.h"
 #include "tests/scenes/import/mesh_files.h"
 
 namespace espalier::scenes {
@@ -64,6 +65,20 @@ TEST_F(MeshImport, ObjGroupsMaterialsAndDisplayColoursMadeLinear) {
   const sim::Colour red = mesh.materials[mesh.material[0]].colour;
   EXPECT_EQ(red, sim::Colour(1, 0, 0));
   EXPECT_NEAR(mesh.materials[mesh.material[1]].colour.g, 0.21404f, 1e-5f);  // what sRGB 0.5 means as light
+}
+
+TEST_F(MeshImport, TellsTheHashOfEveryFileThatWasRead) {
+  write("paint.mtl", kPaintMtl);
+  std::vector<sim::InputFile> files;
+  importMesh(write("s.obj", kSquareObj), RegionsFrom::group, std::nullopt, &files);
+  EXPECT_EQ(files, (std::vector<sim::InputFile>{{"s.obj", "mesh", sim::hashOf(kSquareObj)},
+                                                {"paint.mtl", "mesh_part", sim::hashOf(kPaintMtl)}}));
+  auto document = gltfDocument();
+  document["buffers"][0]["uri"] = "data.bin";
+  write("data.bin", gltfBuffer());
+  importMesh(write("t.gltf", document.dump()), RegionsFrom::group, std::nullopt, &files);
+  EXPECT_EQ(files, (std::vector<sim::InputFile>{{"t.gltf", "mesh", sim::hashOf(document.dump())},
+                                                {"data.bin", "mesh_part", sim::hashOf(gltfBuffer())}}));
 }
 
 TEST_F(MeshImport, ObjRegionsFromMaterials) {

@@ -80,6 +80,53 @@ TEST(Site, FaultsOfTheSceneNameItsFile) {
   }
 }
 
+/// A plant whose rules ask so far from the scene.
+PlantSpec feeling(rules::Distance max) {
+  auto rules = std::make_shared<rules::RuleSet>();
+  rules->name = "ivy";
+  auto shade = std::make_shared<rules::RuleSet>(*rules);
+  shade->require.proximity_max = max;
+  rules->otherwise = shade;
+  PlantSpec plant;
+  plant.rules = rules;
+  return plant;
+}
+
+TEST(Site, HasTheLayersThatItsPlantsAskForOrTheScene) {
+  Scene scene = emptyScene();
+  EXPECT_EQ(makeSite(scene).world.layers(), 4);
+  scene.plants = {feeling({2.0}), feeling({2.5, true})};  // 5 voxels
+  EXPECT_EQ(makeSite(scene).world.layers(), 6);
+  scene.world.layers = 8;
+  EXPECT_EQ(makeSite(scene).world.layers(), 8);
+  scene.plants = {feeling({1000.0}), feeling({100.0, true})};  // farther than this world is wide
+  EXPECT_EQ(makeSite(scene).world.layers(), 8);
+  scene.plants = {feeling({9.0, true})};
+  EXPECT_EQ(makeSiteForLight(scene).world.layers(), 0);
+}
+
+TEST(Site, MoreLayersThanAreAllowedAreRefusedWithTheVoxelThatFits) {
+  const auto failure = [](const PlantSpec& plant) -> std::string {
+    Scene scene = emptyScene();
+    scene.plants = {plant};
+    try {
+      layersFor(scene, {sim::Vec3(0.0), 0.02, sim::Voxel(200)});
+    } catch (const sim::InputError& error) {
+      return error.what();
+    }
+    return "";
+  };
+  EXPECT_EQ(failure(feeling({1.26, true})), "");
+  PlantSpec plant = feeling({1.89, true});
+  EXPECT_EQ(
+      failure(plant),
+      "garden.yaml: rule set 'ivy', otherwise: require.proximity.max is 94.5 voxel widths at a voxel of "
+      "0.02 m, which takes 96 boundary layers; expected at most 64, as with a voxel of 0.03 m");
+  plant.rules_place = {std::make_shared<const std::string>("garden.yaml"), 7, 12};
+  EXPECT_TRUE(failure(plant).starts_with("garden.yaml:7:12: rule set 'ivy', otherwise: ")) << failure(plant);
+  EXPECT_TRUE(failure(feeling({80.0})).ends_with("which takes 81 boundary layers; expected at most 64"));
+}
+
 TEST(Site, ACameraInAWallIsNamed) {
   const tests::Scratch scratch;
   Scene scene = emptyScene();

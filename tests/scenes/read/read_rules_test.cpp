@@ -35,11 +35,11 @@ TEST(ReadRules, ReadsFigure4) {
   EXPECT_EQ(vine->random_tree.trials_max, 300);
   EXPECT_EQ(vine->bias.up, Value(0.08));
   EXPECT_TRUE(vine->require.clear);
-  EXPECT_EQ(vine->require.proximity_max_vx, 3.0);
+  EXPECT_EQ(vine->require.proximity_max, rules::Distance{3.0});
   EXPECT_EQ(vine->require.exposure_min, 0.3);
   EXPECT_EQ(vine->require.exposure_max, 1.0);
   EXPECT_TRUE(vine->prefer.has_proximity);
-  EXPECT_EQ(vine->prefer.proximity_vx, 1.5);
+  EXPECT_EQ(vine->prefer.proximity, rules::Distance{1.5});
   EXPECT_EQ(vine->light.sun, 0.8);
   EXPECT_EQ(vine->light.sky, 0.2);
   EXPECT_EQ(vine->light.boost, 1.8);
@@ -60,7 +60,7 @@ TEST(ReadRules, LeavesDefaultsWhereAFileIsSilent) {
   const auto rules = goodText("");
   const RuleSet plain;
   EXPECT_EQ(rules->random_tree.length, plain.random_tree.length);
-  EXPECT_EQ(rules->require.proximity_max_vx, plain.require.proximity_max_vx);
+  EXPECT_EQ(rules->require.proximity_max, plain.require.proximity_max);
   EXPECT_FALSE(rules->prefer.has_proximity);
 }
 
@@ -93,6 +93,40 @@ TEST(ReadRules, KeepsLengthsInTheUnitInWhichTheyAreWritten) {
   EXPECT_TRUE(length("{over: age, points: [[0, 8 cm], [10, 4 cm]]}").metres);
 }
 
+TEST(ReadRules, ReadsEveryDistanceWithAUnitOrWithout) {
+  const auto rules = goodText(
+      "bias: {twist: {amount: 0.1, radius: 30 cm}}\n"
+      "require: {proximity: {min: 5 mm, max: \"0.12 m\"}}\nprefer: {proximity: 2 vx}\nstem: {radius: 1.5 "
+      "mm}\n");
+  EXPECT_EQ(rules->bias.twist_radius, (rules::Distance{0.3, true}));
+  EXPECT_EQ(rules->require.proximity_min, (rules::Distance{0.005, true}));
+  EXPECT_EQ(rules->require.proximity_max, (rules::Distance{0.12, true}));
+  EXPECT_EQ(rules->prefer.proximity, rules::Distance{2.0});
+  EXPECT_EQ(rules->stem_radius, (rules::Distance{0.0015, true}));
+  // Which is the greater only the voxel size will tell.
+  EXPECT_EQ(goodText("require: {proximity: {min: 3, max: 2 cm}}")->require.proximity_min,
+            rules::Distance{3.0});
+}
+
+TEST(ReadRules, ReadsSizesAndPolygonsWithAUnitOrWithout) {
+  const auto element = [](const std::string& size, const std::string& corners) {
+    return goodText(fmt::format("elements: [{{size: {}, polygons: [[{}]]}}]", size, corners))->elements[0];
+  };
+  const auto plain = element("0.5", "[0, 0, 0], [1, 0, 0], [0, 1, 0]");
+  EXPECT_FALSE(plain.size_metres || plain.polygons_metres);
+  const auto sized = element("[4 cm, 80 mm]", "[0, 0, 0], [1, 0, 0], [0, 1, 0]");
+  EXPECT_TRUE(sized.size_metres && !sized.polygons_metres);
+  EXPECT_EQ(sized.size.low, 0.04);
+  EXPECT_EQ(sized.size.high, 0.08);
+  const auto curved =
+      element("{over: age, points: [[0, 6 cm], [9, 0.1 m]]}", "[0, 0, 0], [1, 0, 0], [0, 1, 0]");
+  EXPECT_TRUE(curved.size_metres);
+  EXPECT_EQ(curved.size.curve[1].y, 0.1);
+  const auto drawn = element("1.5", "[0, 0, 0], [3 cm, 0, 0], [0, \"6 cm\", -5 mm]");
+  EXPECT_TRUE(!drawn.size_metres && drawn.polygons_metres);
+  EXPECT_EQ(drawn.polygons[0][2], sim::Vec3(0, 0.06, -0.005));
+}
+
 TEST(ReadRules, TakesANumberForATwistsAmount) {
   EXPECT_EQ(goodText("bias: {twist: 0.3}")->bias.twist, Value(0.3));
   EXPECT_EQ(goodText("bias: {twist: [0.1, 0.2]}")->bias.twist.kind, Value::Kind::range);
@@ -100,7 +134,7 @@ TEST(ReadRules, TakesANumberForATwistsAmount) {
             Value::Kind::curve);
   const auto both = goodText("bias: {twist: {amount: 0.3, radius: 5}}");
   EXPECT_EQ(both->bias.twist, Value(0.3));
-  EXPECT_EQ(both->bias.twist_radius_vx, 5.0);
+  EXPECT_EQ(both->bias.twist_radius, rules::Distance{5.0});
 }
 
 TEST(ReadRules, TakesANumberForTheAmountOfTheBiasToLight) {
@@ -137,7 +171,7 @@ TEST(ReadRules, BuildsOnABase) {
   EXPECT_EQ(rules->random_tree.length, rules::Length{5});
   EXPECT_EQ(rules->bias.up, Value(0.2));
   EXPECT_EQ(rules->bias.twist, Value(0.9));
-  EXPECT_EQ(rules->bias.twist_radius_vx, 3.0);
+  EXPECT_EQ(rules->bias.twist_radius, rules::Distance{3.0});
   EXPECT_FALSE(rules->require.clear);
   EXPECT_EQ(rules->elements.size(), 1u);
   const auto fewer = good(scratch.write("fewer.yaml", "espalier: rules\nbase: near.yaml\nelements: []\n"));
@@ -218,12 +252,12 @@ TEST(ReadRules, ReadsWhatToTryOtherwise) {
       "otherwise:\n  require: {proximity: {max: 4}}\n  otherwise: {require: {clear: false}}\n"));
   ASSERT_TRUE(chain->otherwise && chain->otherwise->otherwise);
   EXPECT_EQ(chain->otherwise->bias.up, Value(0.4));
-  EXPECT_EQ(chain->otherwise->require.proximity_max_vx, 4.0);
+  EXPECT_EQ(chain->otherwise->require.proximity_max, rules::Distance{4.0});
   EXPECT_TRUE(chain->otherwise->regions.empty());
-  EXPECT_EQ(chain->otherwise->otherwise->require.proximity_max_vx, 4.0);
+  EXPECT_EQ(chain->otherwise->otherwise->require.proximity_max, rules::Distance{4.0});
   EXPECT_FALSE(chain->otherwise->otherwise->require.clear);
   EXPECT_EQ(chain->otherwise->otherwise->otherwise, nullptr);
-  EXPECT_EQ(chain->regions.at("wall").rules->otherwise->require.proximity_max_vx, 4.0)
+  EXPECT_EQ(chain->regions.at("wall").rules->otherwise->require.proximity_max, rules::Distance{4.0})
       << "a region falls back as the whole does";
 }
 

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "rules/language/colour.h"
+#include "sim/base/hasher.h"
 #include "tests/support/scratch.h"
 
 namespace espalier::scenes {
@@ -82,6 +83,9 @@ images:
   EXPECT_FALSE(scene.world.voxel_m || scene.world.bounds_m);
   EXPECT_EQ(scene.world.margin_m, 0.5);
   EXPECT_EQ(scene.world.layers, 6);
+  ASSERT_EQ(scene.plants.size(), 2u);
+  EXPECT_EQ(scene.plants[0].rules_place.line, 10);
+  EXPECT_EQ(scene.plants[0].rules_place.column, 13);
   EXPECT_EQ(scene.sky.weighting, sim::Weighting::cosine);
   EXPECT_EQ(scene.sky.directions, 500);
   EXPECT_EQ(scene.sun.toward_deg, 90);
@@ -175,6 +179,37 @@ TEST(ReadScene, SaysWhatIsWrongWithTheFileItself) {
             "none.yaml: cannot be opened (No such file or directory); expected a readable file");
   EXPECT_EQ(scratch.shown(readScene(scratch.write("r.yaml", "espalier: rules\n")).problems()),
             "r.yaml:1:11: this is a rule file; expected a scene file (espalier: scene)");
+}
+
+TEST(ReadScene, RemembersEveryFileThatItReadWithTheHashOfItsBytes) {
+  const Scratch scratch;
+  const std::string away =
+      scratch.write("away/ivy.yaml", "espalier: rules\nbase: deep/under.yaml\n").string();
+  scratch.write("away/deep/under.yaml", "espalier: rules\n");
+  scratch.write("garden/plants/ivy.yaml",
+                "espalier: rules\nbase: ../base.yaml\notherwise: dim.yaml\nregions: {wall: brick.yaml}\n");
+  const std::string base =
+      "\xef\xbb\xbf"
+      "espalier: rules\n";
+  const std::string here = scratch.write("garden/base.yaml", base).string();
+  scratch.write("garden/plants/dim.yaml", "espalier: rules\n");
+  scratch.write("garden/plants/brick.yaml", "espalier: rules\nbase: ../base.yaml\n");
+  scratch.write("shared.yaml", "espalier: rules\n");
+  const std::string seeds = "seeds: [[0.5, 0.5, 0.5]]}\n";
+  const auto scene = good(scratch.write(
+      "garden/s.yaml",
+      "espalier: scene\nworld: {voxel: 0.1, bounds: {min: [0, 0, 0], max: [1, 1, 1]}}\nplants:\n"
+      "  - {name: a, rules: plants/ivy.yaml, " +
+          seeds + "  - {name: b, rules: {base: " + here + "}, " + seeds + "  - {name: c, rules: " + away +
+          ", " + seeds + "  - {name: d, rules: ../shared.yaml, " + seeds));
+  std::vector<std::string> names;
+  for (const auto& file : scene.read_files) names.push_back(file.kind + " " + file.name);
+  // What is written from the machine's root and lies elsewhere is called by its last name.
+  EXPECT_EQ(names, (std::vector<std::string>{"scene s.yaml", "rules plants/ivy.yaml", "rules base.yaml",
+                                             "rules plants/dim.yaml", "rules plants/brick.yaml",
+                                             "rules ivy.yaml", "rules under.yaml", "rules ../shared.yaml"}));
+  EXPECT_EQ(scene.read_files.at(2).hash, sim::hashOf(base));
+  EXPECT_EQ(scene.read_files[0].hash, sim::hashOf(tests::fileText(scratch.path("garden/s.yaml"))));
 }
 
 }  // namespace

@@ -67,6 +67,11 @@ inline std::vector<std::string> goodTexts(const rules::Key& key) {
       return {number, range, curve};
     case Kind::length:
       return {number, range, curve, "\"3 cm\"", "[3 mm, 4 mm]", "2 vx"};
+    case Kind::distance:
+      return {number, other, "\"3 cm\"", "40 mm", "2 vx"};
+    case Kind::size:
+      return {number,     range,          curve,
+              "\"3 cm\"", "[3 mm, 4 mm]", "{over: age, points: [[0, 2 cm], [9, 0.05 m]]}"};
     case Kind::metres:
       return {number, "30 cm", "\"250 mm\""};
     case Kind::colour:
@@ -76,7 +81,8 @@ inline std::vector<std::string> goodTexts(const rules::Key& key) {
     case Kind::place:
       return {triple, "[1 cm, 2 mm, 0.1 m]"};
     case Kind::polygons:
-      return {"[[[0, 0, 0], [1, 0, 0], [0, 1, 0]]]", "[[[0, 0, 0], [1, 0, 0], [0, 1, 0.5]]]"};
+      return {"[[[0, 0, 0], [1, 0, 0], [0, 1, 0]]]", "[[[0, 0, 0], [1, 0, 0], [0, 1, 0.5]]]",
+              "[[[0, 0, 0], [1 cm, 0, 0], [0, 20 mm, \"-1 mm\"]]]"};
     case Kind::choice:
       return key.choices;
     case Kind::date:
@@ -150,6 +156,10 @@ inline std::vector<std::string> badTexts(const rules::Key& key) {
                    "{over: age, points: [[0, 0.5]]}"});
     case Kind::length:
       return more(beyond(plain), {"3 yards", "[4 mm, 3 mm]", "[1 vx, 1 m]", "-1 cm", "true"});
+    case Kind::distance:
+      return more(beyond(plain), {"3 yards", "5 kg", "12 cmm", "\"1\"", "[1, 2]", "-1 cm", "true"});
+    case Kind::size:
+      return more(beyond(plain), {"3 yards", "[4 mm, 3 mm]", "[1, 1 m]", "2 vx", "-1 cm", "true"});
     case Kind::metres:
       return more(beyond(plain), {"3 yards", "3 vx", "[]"});
     case Kind::colour:
@@ -159,7 +169,8 @@ inline std::vector<std::string> badTexts(const rules::Key& key) {
     case Kind::place:
       return more(beyond(triple), {"[1, 2]", "1", "[1 vx, 0, 0]"});
     case Kind::polygons:
-      return {"[[0, 0, 0]]", "1", "[[[0, 0, few], [1, 0, 0], [0, 1, 0]]]"};
+      return {"[[0, 0, 0]]", "1", "[[[0, 0, few], [1, 0, 0], [0, 1, 0]]]",
+              "[[[0, 0, 0], [1 cm, 0, 0], [0, 2, 0]]]", "[[[0, 0, 0], [1 vx, 0, 0], [0, 1, 0]]]"};
     case Kind::choice:
       return {"none_of_them", "5", "[]", "{}"};
     case Kind::date:

@@ -146,7 +146,7 @@ TEST(Brightest, NoOtherDirectionReceivesMore) {
       }
       return sum;
     };
-    const Vec3 way = brightest(table, open);
+    const Vec3 way = sim::SkyFilter(table).brightest(open);
     const double most = way == Vec3(0.0) ? 0.0 : received(way);
     for (int i = 0; i < 2000; ++i) {
       const Vec3 other = glm::normalize(Vec3(normal(random), normal(random), normal(random)));
@@ -166,6 +166,38 @@ TEST(Brightest, ForManyPlacesIsWhatEachSees) {
   ASSERT_EQ(ways.size(), voxels.size());
   for (std::size_t i = 0; i < ways.size(); ++i)
     EXPECT_EQ(ways[i], sim::Vec3f(brightest(table, bits, voxels[i])));
+}
+
+// A table whose lobes are kept, and one that is too large for that; where the sum is done plainly here.
+TEST(Brightest, TheFilteredTableIsASumInTheOrderOfTheCells) {
+  for (const auto& table : {sim::makeSkyTable(9, 36, sim::backgroundOf(Weighting::cie_overcast)),
+                            sim::makeSkyTable(20, 60, sim::backgroundOf(Weighting::uniform))}) {
+    std::mt19937_64 random(5);
+    std::vector<std::uint64_t> open((table.rays.size() + 63) / 64);
+    for (auto& word : open) word = random() | random();
+    std::vector<float> expected(table.cells.size());
+    for (const auto& from : table.cells) {
+      if (((open[from.ray / 64] >> (from.ray % 64)) & 1u) == 0) continue;
+      const sim::Vec3f light = from.light * from.centre;
+      for (std::size_t i = 0; i < expected.size(); ++i)
+        expected[i] += std::max(0.0f, glm::dot(table.cells[i].centre, light));
+    }
+    EXPECT_EQ(sim::SkyFilter(table).illumination(open), expected);
+  }
+}
+
+TEST(Brightest, TheSensorFindsWhatEachPlaceSees) {
+  const auto bits = tests::randomBits({70, 30, 44}, 0.003, 4);
+  const auto table = sim::makeSkyTable(9, 36, sim::backgroundOf(Weighting::uniform));
+  const sim::SkySensor sensor(bits, table);
+  std::mt19937 random(6);
+  std::vector<Voxel> places;
+  for (int i = 0; i < 60; ++i)
+    places.emplace_back(static_cast<int>(random() % 70), static_cast<int>(random() % 30),
+                        static_cast<int>(random() % 44));
+  const auto ways = sensor.at(bits, places);
+  for (std::size_t i = 0; i < places.size(); ++i) EXPECT_EQ(ways[i], brightest(table, bits, places[i]));
+  EXPECT_EQ(sensor.at(bits, std::span(places).first(1)).front(), ways.front());
 }
 
 /// Angle between Greene's table and the fast estimate.

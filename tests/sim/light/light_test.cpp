@@ -12,7 +12,7 @@ namespace {
 
 using sim::Voxel;
 
-TEST(Light, IsTheSameByRaysAndBySweep) {
+TEST(Light, IsTheSameEveryWay) {
   const auto bits = tests::randomBits({61, 40, 53}, 0.01, 11);
   const sim::LightSensor sensor(
       bits, {sim::makeSky({.directions = 90}).directions, sim::makeSun(sim::SunArc{}).directions});
@@ -21,12 +21,19 @@ TEST(Light, IsTheSameByRaysAndBySweep) {
   for (int i = 0; i < 500; ++i)
     places.emplace_back(static_cast<int>(random() % 61), static_cast<int>(random() % 40),
                         static_cast<int>(random() % 53));
-  const auto rays = sensor.byRays(bits, places), sweep = sensor.bySweep(bits, places);
-  for (std::size_t i = 0; i < places.size(); ++i) {
-    ASSERT_EQ(rays[i].sky.sum, sweep[i].sky.sum);
-    ASSERT_EQ(rays[i].sun.sum, sweep[i].sun.sum);
-    ASSERT_EQ(rays[i].sky.toward, sweep[i].sky.toward);
-    ASSERT_EQ(rays[i].sun.toward, sweep[i].sun.toward);
+  const auto rays = sensor.byRays(bits, places);
+  for (const auto& other : {sensor.bySweep(bits, places), sensor.byOpenRays(bits, places)}) {
+    for (std::size_t i = 0; i < places.size(); ++i) {
+      ASSERT_EQ(rays[i].sky.sum, other[i].sky.sum);
+      ASSERT_EQ(rays[i].sun.sum, other[i].sun.sum);
+      ASSERT_EQ(rays[i].sky.toward, other[i].sky.toward);
+      ASSERT_EQ(rays[i].sun.toward, other[i].sun.toward);
+    }
+  }
+  for (std::size_t i = 0; i < 50; ++i) {
+    const sim::Outlook plain = sim::lookOut(bits, places[i], sim::makeSky({.directions = 90}).directions);
+    ASSERT_EQ(rays[i].sky.sum, plain.sum);
+    ASSERT_EQ(rays[i].sky.toward, plain.toward);
   }
 }
 

@@ -1,0 +1,240 @@
+#include "rules/growth/ways.h"
+
+#include <cmath>
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "rules/growth/ways.cpp"
+// Vectors whose length is known when compiling.
+#define HWY_DISABLED_TARGETS (HWY_SVE | HWY_SVE2 | HWY_SVE_256 | HWY_SVE2_128 | HWY_RVV)
+#include <hwy/foreach_target.h>
+//
+#include <hwy/highway.h>
+
+#include "sim/base/random_lanes-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace espalier::rules::HWY_NAMESPACE {
+
+namespace hn = hwy::HWY_NAMESPACE;
+using Floats = hn::ScalableTag<float>;
+using Whole = hn::ScalableTag<std::int32_t>;
+using Words = hn::ScalableTag<std::uint32_t>;
+using F = hn::Vec<Floats>;
+
+// Never MulAdd, which rounds once where the processor has it and twice where it has not.
+struct Direction {
+  F x, y, z;
+};
+
+HWY_INLINE F set(float value) {
+  return hn::Set(Floats(), value);
+}
+
+HWY_INLINE Direction set(sim::Vec3f v) {
+  return {set(v.x), set(v.y), set(v.z)};
+}
+
+HWY_INLINE Direction scaled(Direction a, F by) {
+  return {hn::Mul(a.x, by), hn::Mul(a.y, by), hn::Mul(a.z, by)};
+}
+
+HWY_INLINE Direction sum(Direction a, Direction b) {
+  return {hn::Add(a.x, b.x), hn::Add(a.y, b.y), hn::Add(a.z, b.z)};
+}
+
+HWY_INLINE Direction cross(Direction a, Direction b) {
+  return {hn::Sub(hn::Mul(a.y, b.z), hn::Mul(b.y, a.z)), hn::Sub(hn::Mul(a.z, b.x), hn::Mul(b.z, a.x)),
+          hn::Sub(hn::Mul(a.x, b.y), hn::Mul(b.x, a.y))};
+}
+
+HWY_INLINE F length(Direction a) {
+  return hn::Sqrt(hn::Add(hn::Add(hn::Mul(a.x, a.x), hn::Mul(a.y, a.y)), hn::Mul(a.z, a.z)));
+}
+
+HWY_INLINE Direction divided(Direction a, F by) {
+  return {hn::Div(a.x, by), hn::Div(a.y, by), hn::Div(a.z, by)};
+}
+
+template <class Mask>
+HWY_INLINE Direction chosen(Mask mask, Direction yes, Direction no) {
+  return {hn::IfThenElse(mask, yes.x, no.x), hn::IfThenElse(mask, yes.y, no.y),
+          hn::IfThenElse(mask, yes.z, no.z)};
+}
+
+/// Cosine and sine of full turns (not negative), by Taylor's series within an eighth of a turn.
+struct Circle {
+  F cosine, sine;
+};
+HWY_INLINE Circle circle(F turns) {
+  const Floats d;
+  const Whole whole;
+  const F quarters = hn::Floor(hn::Add(hn::Mul(turns, set(4.0f)), set(0.5f)));
+  const F x = hn::Mul(hn::Sub(turns, hn::Mul(quarters, set(0.25f))), set(6.28318530717958648f));
+  const F x2 = hn::Mul(x, x);
+  F s = hn::Mul(x2, set(1.0f / 362880));
+  s = hn::Mul(hn::Add(s, set(-1.0f / 5040)), x2);
+  s = hn::Mul(hn::Add(s, set(1.0f / 120)), x2);
+  s = hn::Mul(hn::Add(s, set(-1.0f / 6)), x2);
+  s = hn::Add(x, hn::Mul(x, s));
+  F c = hn::Mul(x2, set(1.0f / 40320));
+  c = hn::Mul(hn::Add(c, set(-1.0f / 720)), x2);
+  c = hn::Mul(hn::Add(c, set(1.0f / 24)), x2);
+  c = hn::Mul(hn::Add(c, set(-1.0f / 2)), x2);
+  c = hn::Add(c, set(1.0f));
+  const auto quarter = hn::ConvertTo(whole, quarters);
+  const auto bit = [&](int k) { return hn::Set(whole, k); };
+  const auto odd = hn::RebindMask(d, hn::TestBit(quarter, bit(1)));
+  const auto half = hn::RebindMask(d, hn::TestBit(quarter, bit(2)));
+  const auto turned = hn::RebindMask(d, hn::TestBit(hn::Add(quarter, bit(1)), bit(2)));
+  const F across = hn::IfThenElse(odd, s, c), up = hn::IfThenElse(odd, c, s);
+  return {hn::IfThenElse(turned, hn::Neg(across), across), hn::IfThenElse(half, hn::Neg(up), up)};
+}
+
+HWY_INLINE Direction perpendicular(Direction unit) {
+  const F x = hn::Abs(unit.x), y = hn::Abs(unit.y), z = hn::Abs(unit.z), none = set(0.0f);
+  const Direction with_x{none, unit.z, hn::Neg(unit.y)}, with_y{hn::Neg(unit.z), none, unit.x},
+      with_z{unit.y, hn::Neg(unit.x), none};
+  const Direction across =
+      chosen(hn::And(hn::Le(x, y), hn::Le(x, z)), with_x, chosen(hn::Le(y, z), with_y, with_z));
+  return divided(across, length(across));
+}
+
+/// The unit vector at an angle to a unit axis, on the side that a turn about it gives.
+HWY_INLINE Direction leaning(Direction axis, F along, F across, F turn) {
+  const Direction u = perpendicular(axis), v = cross(axis, u);
+  const Circle side = circle(turn);
+  return sum(scaled(axis, along), scaled(sum(scaled(u, side.cosine), scaled(v, side.sine)), across));
+}
+
+/// The numbers of a batch of trials, drawn four at a time where somebody asks.
+struct Numbers {
+  const Ways& ways;
+  hn::Vec<Words> trials;
+  sim::HWY_NAMESPACE::FourNumbers<Words> four[3];
+  bool drawn[3] = {};
+
+  HWY_INLINE F uniform(TrialSlot slot) {
+    const auto number = static_cast<unsigned>(slot), block = number / 4;
+    if (!drawn[block]) four[block] = sim::HWY_NAMESPACE::fourNumbers(Words(), ways.numbers, trials, block);
+    drawn[block] = true;
+    return sim::HWY_NAMESPACE::uniformOf(Floats(), four[block].of[number % 4]);
+  }
+  HWY_INLINE F value(Spread spread, TrialSlot slot) {
+    if (spread.span == 0.0f) return set(spread.low);
+    return hn::Add(set(spread.low), hn::Mul(set(spread.span), uniform(slot)));
+  }
+};
+
+HWY_INLINE Direction bent(Direction direction, const Pull& pull, Numbers& numbers) {
+  const F signed_weight = numbers.value(pull.weight, pull.slot), weight = hn::Abs(signed_weight);
+  Direction towards = set(pull.towards);
+  towards = chosen(hn::Lt(signed_weight, set(0.0f)),
+                   Direction{hn::Neg(towards.x), hn::Neg(towards.y), hn::Neg(towards.z)}, towards);
+  const Direction mixed = sum(scaled(direction, hn::Sub(set(1.0f), weight)), scaled(towards, weight));
+  const F long_ = length(mixed);
+  const auto bends = hn::And(hn::Gt(long_, set(1e-6f)), hn::Gt(weight, set(0.0f)));
+  return chosen(bends, divided(mixed, long_), direction);
+}
+
+HWY_INLINE Direction directionOf(const Ways& ways, hn::Vec<Whole> trial, Numbers& numbers) {
+  const Floats d;
+  const Whole whole;
+  Direction axis = set(ways.axis);
+  if (ways.branch) {
+    const Circle angle =
+        circle(hn::Mul(numbers.value(ways.side_angle_deg, TrialSlot::side_angle), set(1.0f / 360)));
+    axis = leaning(axis, angle.cosine, angle.sine, numbers.uniform(TrialSlot::side_turn));
+  }
+  const F beyond = hn::ConvertTo(d, hn::Sub(trial, hn::Set(whole, ways.narrow - 1)));
+  const F widening = hn::Add(
+      set(1.0f),
+      hn::Max(set(0.0f), hn::Div(beyond, set(static_cast<float>(std::max(1, ways.widest - ways.narrow))))));
+  const F wander = hn::Min(set(180.0f), hn::Mul(widening, numbers.value(ways.wander_deg, TrialSlot::wander)));
+  const F cosine = circle(hn::Mul(wander, set(1.0f / 360))).cosine;
+  // Even in height is even on the sphere (Archimedes).
+  const F along =
+      hn::Sub(set(1.0f), hn::Mul(numbers.uniform(TrialSlot::cone_height), hn::Sub(set(1.0f), cosine)));
+  const F across = hn::Sqrt(hn::Max(set(0.0f), hn::Sub(set(1.0f), hn::Mul(along, along))));
+  Direction direction = leaning(axis, along, across, numbers.uniform(TrialSlot::cone_turn));
+  for (std::size_t i = 0; i < ways.pull_count; ++i) direction = bent(direction, ways.pulls[i], numbers);
+  if (ways.flat[0] || ways.flat[1] || ways.flat[2]) {
+    if (ways.flat[0]) direction.x = set(0.0f);
+    if (ways.flat[1]) direction.y = set(0.0f);
+    if (ways.flat[2]) direction.z = set(0.0f);
+    const F left = length(direction);
+    direction = chosen(hn::Gt(left, set(1e-6f)), divided(direction, left), set(sim::Vec3f(0.0f)));
+  }
+  return direction;
+}
+
+void TrialEnds(const Ways& ways, unsigned first, std::size_t count, sim::Offsets& ends) {
+  const Whole whole;
+  const Words words;
+  for (std::size_t i = 0; i < count; i += hn::Lanes(whole)) {
+    const auto trial = hn::Iota(whole, static_cast<std::int32_t>(first + i));
+    Numbers numbers{
+        ways,
+        hn::Or(hn::Set(words, ways.numbers.counter[3]), hn::ShiftLeft<8>(hn::BitCast(words, trial))),
+        {}};
+    const Direction direction = directionOf(ways, trial, numbers);
+    const F length = hn::Mul(numbers.value(ways.length_vx, TrialSlot::length), set(sim::Offsets::kToAVoxel));
+    hn::Store(hn::NearestInt(hn::Mul(direction.x, length)), whole, ends.x + i);
+    hn::Store(hn::NearestInt(hn::Mul(direction.y, length)), whole, ends.y + i);
+    hn::Store(hn::NearestInt(hn::Mul(direction.z, length)), whole, ends.z + i);
+  }
+}
+
+}  // namespace espalier::rules::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace espalier::rules {
+
+HWY_EXPORT(TrialEnds);
+
+Spread spreadOf(const Value& value, const Circumstance& at) {
+  if (value.kind == Value::Kind::range)
+    return {static_cast<float>(value.low), static_cast<float>(value.high - value.low)};
+  return {static_cast<float>(evaluate(value, at, 0.0)), 0.0f};
+}
+
+Ways waysOf(const RuleSet& rules, const Surroundings& around, const Senses& senses, const sim::RandomKey& key,
+            unsigned set, sim::Voxel world_size) {
+  const RandomTree& tree = rules.random_tree;
+  Ways ways;
+  ways.numbers = sim::philoxInput(key, sim::Purpose::trial, set);
+  if (around.heading == sim::Vec3(0.0)) {
+    // A seed has no way of its own yet: a shoot makes for the open above, or along the wall that it stands
+    // at.
+    ways.wander_deg = {60.0f, 0.0f};
+    ways.narrow = tree.trials_max;
+  } else {
+    ways.axis = sim::Vec3f(around.heading);
+    ways.branch = key.number != 0;
+    ways.side_angle_deg = spreadOf(tree.branch_angle_deg, senses.circumstance);
+    ways.wander_deg = spreadOf(tree.wander_deg, senses.circumstance);
+    ways.narrow = tree.trials_min;
+  }
+  ways.widest = tree.trials_max;
+  ways.length_vx = spreadOf(tree.length.value, senses.circumstance);
+  const auto pull = [&](sim::Vec3 towards, const Value& weight, TrialSlot slot) {
+    const Spread spread = spreadOf(weight, senses.circumstance);
+    if (towards == sim::Vec3(0.0) || (spread.low == 0.0f && spread.span == 0.0f)) return;
+    ways.pulls[ways.pull_count++] = {sim::Vec3f(towards), spread, slot};
+  };
+  pull({0, 1, 0}, rules.bias.up, TrialSlot::up);
+  pull({0, -1, 0}, rules.bias.gravity, TrialSlot::gravity);
+  pull(senses.light, rules.bias.light, TrialSlot::light);
+  pull(around.away, rules.bias.away, TrialSlot::away);
+  pull(-around.away, rules.bias.toward, TrialSlot::toward);
+  pull(senses.twist, rules.bias.twist, TrialSlot::twist);
+  for (int axis = 0; axis < 3; ++axis) ways.flat[static_cast<std::size_t>(axis)] = world_size[axis] == 1;
+  return ways;
+}
+
+void trialEnds(const Ways& ways, unsigned first, std::size_t count, sim::Offsets& ends) {
+  HWY_DYNAMIC_DISPATCH(TrialEnds)(ways, first, count, ends);
+}
+
+}  // namespace espalier::rules
+#endif

@@ -1,0 +1,48 @@
+#include "scenes/job/plant_reports.h"
+
+#include <iterator>
+#include <span>
+#include <utility>
+
+#include "sim/base/provenance.h"
+
+namespace espalier::scenes {
+namespace {
+
+Report::Growth::Plant plantReport(const PlantSpec& spec, const sim::Frame& frame, const sim::Plant& plant,
+                                  std::size_t number, const sim::Tally& tally) {
+  Report::Growth::Plant report;
+  report.name = plant.name;
+  report.planting = spec.name;
+  report.rules = spec.rules->name;
+  report.at_m = sim::worldFromVoxel(frame, plant.skeleton.position_vx.front());
+  const bool named = number < spec.seeds.size() && !spec.seeds[number].key.empty();
+  report.key = named ? spec.seeds[number].key : sim::hexOf(plant.key);
+  report.segments = static_cast<std::size_t>(plant.skeleton.size()) - 1;
+  report.elements = plant.elements.size();
+  report.tally = tally;
+  return report;
+}
+
+}  // namespace
+
+Report::Growth growthReport(const Scene& scene, const sim::World& grown, const sim::BitVolume& scene_voxels,
+                            const sim::Growth& growth, const std::vector<PlaceLight>& lights) {
+  const sim::Tally tally = sim::total(growth);
+  Report::Growth report{growth.iterations, {}, tally.sites, tally.trials, sim::stateHash(grown, growth)};
+  for (std::size_t i = 0; i < growth.stands.size(); ++i) {
+    const PlantSpec& spec = scene.plants[i];
+    const auto [first, count] = std::pair(growth.stands[i].first, growth.stands[i].count);
+    auto failures = seedFailures(
+        spec.rules, grown, scene_voxels, std::span(growth.plants).subspan(first, count),
+        std::span(growth.tallies).subspan(first, count), std::span(lights).subspan(first, count));
+    for (std::size_t k = 0; k < count; ++k) {
+      report.plants.push_back(
+          plantReport(spec, grown.frame(), growth.plants[first + k], k, growth.tallies[first + k]));
+      report.plants.back().failure = std::move(failures[k]);
+    }
+  }
+  return report;
+}
+
+}  // namespace espalier::scenes

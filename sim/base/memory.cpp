@@ -1,0 +1,75 @@
+#include "sim/base/memory.h"
+
+#include <fmt/format.h>
+#include <sys/resource.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <iterator>
+
+namespace espalier::sim {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// The number in a control group's file; infinity where there is no file, or no limit ("max").
+double limitIn(const fs::path& file) {
+  std::ifstream in(file);
+  double bytes = INFINITY;
+  return in >> bytes ? bytes : INFINITY;
+}
+
+/// The least number in a folder and those around it up to the root.
+double leastAbove(const fs::path& root, std::string_view group, const char* name) {
+  fs::path folder = fs::path(group).relative_path().lexically_normal();
+  double least = limitIn(root / name);
+  while (!folder.empty() && folder != "." && *folder.begin() != "..") {
+    least = std::min(least, limitIn(root / folder / name));
+    folder = folder.parent_path();
+  }
+  return least;
+}
+
+double findBudget() {
+  double least =
+      static_cast<double>(::sysconf(_SC_PHYS_PAGES)) * static_cast<double>(::sysconf(_SC_PAGE_SIZE));
+  rlimit addresses{};
+  if (::getrlimit(RLIMIT_AS, &addresses) == 0 && addresses.rlim_cur != RLIM_INFINITY)
+    least = std::min(least, static_cast<double>(addresses.rlim_cur));
+  std::ifstream in("/proc/self/cgroup");
+  const std::string about{std::istreambuf_iterator<char>(in), {}};
+  return 0.75 * std::min(least, controlGroupLimit(about, "/sys/fs/cgroup"));
+}
+
+}  // namespace
+
+double memoryBudget() {
+  static const double budget = findBudget();
+  return budget;
+}
+
+// Lines of "number:controllers:path"; of version 2 "0::path".
+double controlGroupLimit(std::string_view about, const fs::path& root) {
+  double least = INFINITY;
+  while (!about.empty()) {
+    const std::string_view line = about.substr(0, about.find('\n'));
+    about.remove_prefix(std::min(about.size(), line.size() + 1));
+    const std::size_t first = line.find(':'), second = line.find(':', first + 1);
+    if (first == line.npos || second == line.npos) continue;
+    const std::string controllers = "," + std::string(line.substr(first + 1, second - first - 1)) + ",";
+    const std::string_view group = line.substr(second + 1);
+    if (controllers == ",,") least = std::min(least, leastAbove(root, group, "memory.max"));
+    if (controllers.find(",memory,") != controllers.npos)
+      least = std::min(least, leastAbove(root / "memory", group, "memory.limit_in_bytes"));
+  }
+  return least;
+}
+
+std::string inGigabytes(double bytes) {
+  const double gib = bytes / (1024.0 * 1024.0 * 1024.0);
+  return gib < 1e6 ? fmt::format("{:.1f} GB", gib) : fmt::format("{:.3g} GB", gib);
+}
+
+}  // namespace espalier::sim

@@ -1,0 +1,22 @@
+#pragma once
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <string_view>
+
+namespace espalier::sim {
+
+/// Bytes that a job may plan to use: three quarters of the least of the machine's memory, the limits of this
+/// process's control group (Linux) and RLIMIT_AS. The rest is for the system, libraries and the stack. Found
+/// once.
+double memoryBudget();
+
+/// The least limit on memory, in bytes, of a control group and those around it; infinity where there is none.
+/// `about` is what /proc/self/cgroup says, `root` where control groups are mounted (version 2, or 1 with its
+/// `memory` folder).
+double controlGroupLimit(std::string_view about, const std::filesystem::path& root);
+
+/// An amount of memory in words: "1.4 GB" (1024^3 bytes).
+std::string inGigabytes(double bytes);
+
+}  // namespace espalier::sim

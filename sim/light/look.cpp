@@ -1,0 +1,288 @@
+#include "sim/light/look.h"
+
+#include <algorithm>
+#include <bit>
+#include <cstring>
+#include <limits>
+
+// Vectors whose length is known when compiling: they are kept in arrays.
+#define HWY_DISABLED_TARGETS (HWY_SVE | HWY_SVE2 | HWY_SVE_256 | HWY_SVE2_128 | HWY_RVV)
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "sim/light/look.cpp"
+#include <hwy/foreach_target.h>
+//
+#include <hwy/highway.h>
+
+HWY_BEFORE_NAMESPACE();
+namespace espalier::sim::looking::HWY_NAMESPACE {
+
+namespace hn = hwy::HWY_NAMESPACE;
+
+constexpr std::size_t kWords = ClearBricks::kWords;
+constexpr int kSide = ClearBricks::kSide;
+
+/// A group's mask in as many vectors as it takes.
+constexpr std::size_t kLanes = HWY_MIN(kWords, HWY_LANES(std::uint64_t)), kParts = kWords / kLanes;
+using Words = hn::CappedTag<std::uint64_t, kLanes>;
+using Vector = hn::Vec<Words>;
+
+HWY_INLINE Vector part(const Mask& mask, std::size_t i) {
+  return hn::Load(Words(), mask.words.data() + kLanes * i);
+}
+
+HWY_INLINE Mask maskOf(const Vector (&parts)[kParts]) {
+  Mask mask;
+  for (std::size_t i = 0; i < kParts; ++i) hn::Store(parts[i], Words(), mask.words.data() + kLanes * i);
+  return mask;
+}
+
+/// The directions that are blocked near a place.
+HWY_INLINE Mask blockedNear(const BitVolume& occupied, const Group& group, Voxel p) {
+  const Voxel size = occupied.size();
+  const int x = p.x - kNear;
+  const int shift = x & 63;
+  const std::ptrdiff_t line = occupied.rowWords();
+  Vector blocked[kParts];
+  for (Vector& words : blocked) words = hn::Zero(Words());
+  const auto* crossing = group.crossing.data();
+  for (int dy = group.lowest; dy <= kNear; ++dy, crossing += 2 * kNear + 1) {
+    if (p.y + dy < 0 || p.y + dy >= size.y) continue;
+    const int first = std::max(-kNear, -p.z), last = std::min(kNear, size.z - 1 - p.z);
+    const std::uint64_t* row = occupied.row(p.y + dy, p.z + first) + (x >> 6);
+    for (int dz = first; dz <= last; ++dz, row += line) {
+      const std::uint64_t bits = (row[0] >> shift) | (row[1] << 1 << (63 - shift));
+      const auto& fours = crossing[dz + kNear];
+      for (std::size_t n = 0; n < kFours; ++n) {
+        const Mask& mask = fours[n][(bits >> (4 * n)) & 15u];
+        for (std::size_t i = 0; i < kParts; ++i) blocked[i] = hn::Or(blocked[i], part(mask, i));
+      }
+    }
+  }
+  return maskOf(blocked);
+}
+
+/// The directions that meet nothing any more beyond what is near.
+HWY_INLINE Mask clearBeyondNear(const Group& group, const ClearBricks& clear, Voxel p) {
+  const auto& in_x = group.leaving[0][static_cast<std::size_t>(p.x % kSide)];
+  const auto& in_y = group.leaving[1][static_cast<std::size_t>(p.y % kSide)];
+  const auto& in_z = group.leaving[2][static_cast<std::size_t>(p.z % kSide)];
+  Vector found[kParts];
+  for (Vector& words : found) words = hn::Zero(Words());
+  for (std::size_t y = group.lowest < 0 ? 0 : 1; y < 3; ++y) {
+    for (std::size_t z = 0; z < 3; ++z) {
+      for (std::size_t x = 0; x < 3; ++x) {
+        const std::uint64_t* const row = clear.ofBrick(p / kSide + Voxel(x, y, z) - 1);
+        for (std::size_t i = 0; i < kParts; ++i) {
+          const Vector here = hn::And(hn::And(part(in_x[x], i), part(in_z[z], i)),
+                                      hn::And(part(in_y[y], i), hn::LoadU(Words(), row + kLanes * i)));
+          found[i] = hn::Or(found[i], here);
+        }
+      }
+    }
+  }
+  return maskOf(found);
+}
+
+/// Whether one of the first `count` of the next kAtOnce steps is occupied. If that is not all of them, others
+/// may lie outside of the volume's words.
+template <bool kSome>
+HWY_INLINE bool anyOf(const std::uint64_t* words, std::ptrdiff_t start, const std::int64_t* steps,
+                      std::size_t count) {
+  const hn::CappedTag<std::int64_t, kAtOnce> d;
+  const hn::RebindToUnsigned<decltype(d)> du;
+  auto hit = hn::Zero(du);
+  for (std::size_t k = 0; k < kAtOnce; k += hn::Lanes(d)) {
+    auto at = hn::Add(hn::LoadU(d, steps + k), hn::Set(d, start));
+    if (kSome) {  // the first word holds zeros
+      const auto meant =
+          hn::Lt(hn::Iota(d, static_cast<std::int64_t>(k)), hn::Set(d, static_cast<std::int64_t>(count)));
+      at = hn::IfThenElseZero(meant, at);
+    }
+    const auto read = hn::GatherIndex(du, words, hn::ShiftRight<6>(at));
+    hit = hn::Or(hit, hn::Shr(read, hn::And(hn::BitCast(du, at), hn::Set(du, 63))));
+  }
+  return !hn::AllTrue(du, hn::Eq(hn::And(hit, hn::Set(du, 1)), hn::Zero(du)));
+}
+
+/// How many whole periods of v fit between p and the edge of the world.
+int periodsInside(Voxel size, Voxel p, Voxel v) {
+  int periods = std::numeric_limits<int>::max();
+  for (int axis = 0; axis < 3; ++axis) {
+    if (v[axis] > 0) periods = std::min(periods, (size[axis] - 1 - p[axis]) / v[axis]);
+    if (v[axis] < 0) periods = std::min(periods, p[axis] / -v[axis]);
+  }
+  return periods;
+}
+
+/// From where the legs end, with a look ahead from time to time.
+HWY_INLINE bool walkOn(const BitVolume& occupied, const Group& group, const ClearBricks& clear, Voxel p,
+                       std::size_t i) {
+  const LatticeDirection& direction = group.directions[i];
+  const std::size_t period = direction.crossed.size(), done = group.rays[i].near + kSteps;
+  const std::uint64_t* const words = occupied.words().data();
+  const std::int64_t* const steps = group.period_steps.data() + group.first_step[i];
+  std::size_t k = done % period;
+  Voxel base = p + static_cast<int>(done / period) * direction.v;
+  std::ptrdiff_t start = (occupied.row(base.y, base.z) - words) * BitVolume::kWordBits + base.x;
+  for (int left = periodsInside(occupied.size(), base, direction.v); left > 0; --left) {
+    for (std::size_t next; k < period; k = next) {
+      next = std::min(period, k + kAtOnce);
+      if (next - k == kAtOnce ? anyOf<false>(words, start, steps + k, kAtOnce)
+                              : anyOf<true>(words, start, steps + k, next - k))
+        return false;
+      if (clear.is(i, base + direction.crossed[next - 1])) return true;
+    }
+    k = 0;
+    base += direction.v;
+    start += steps[period - 1];
+  }
+  for (; k < period; ++k) {
+    const Voxel q = base + direction.crossed[k];
+    if (!contains(occupied.size(), q)) return true;
+    if (occupied.at(q)) return false;
+  }
+  return true;
+}
+
+/// What the legs are walked in.
+struct Around {
+  const std::uint64_t* words;
+  std::ptrdiff_t start;                  // the place, in bits from the first word
+  bool rim;                              // a step may lie above, below, before or behind the world
+  std::size_t up, down, before, behind;  // voxels from the place to the rim
+};
+
+/// Whether one of the leg's first steps, those before `within`, is occupied.
+HWY_INLINE bool hits(const Around& around, const Ray& ray, std::size_t within, std::size_t leg) {
+  for (std::size_t s = kLegs[leg - 1]; s < kLegs[leg]; s += kAtOnce) {
+    const std::int64_t* const steps = ray.steps.data() + s;
+    if (within >= s + kAtOnce ? anyOf<false>(around.words, around.start, steps, kAtOnce)
+                              : anyOf<true>(around.words, around.start, steps, within > s ? within - s : 0))
+      return true;
+  }
+  return false;
+}
+
+template <bool kRim>
+HWY_INLINE std::uint64_t walkLegs(const BitVolume& occupied, const Group& group, const ClearBricks& clear,
+                                  const Around& around, Voxel p, std::size_t first, std::uint64_t ask) {
+  std::uint64_t found = 0;
+  for (std::size_t leg = 1; leg < kLegs.size() && ask != 0; ++leg) {
+    std::uint64_t next = 0;
+    for (; ask != 0; ask &= ask - 1) {
+      const auto i = static_cast<std::size_t>(std::countr_zero(ask));
+      const Ray& ray = group.rays[first + i];
+      std::size_t within = kSteps;
+      if (kRim) {
+        const Voxel v = group.directions[first + i].v;
+        within = std::min(ray.within_y[v.y < 0 ? around.down : around.up],
+                          ray.within_z[v.z < 0 ? around.before : around.behind]);
+      }
+      const std::uint64_t free = hits(around, ray, within, leg) ? 0 : 1;
+      const std::uint64_t ends = clear.is(first + i, p + ray.beyond[leg]) ? 1 : 0;
+      found |= (free & ends) << i;
+      next |= (free & ~ends) << i;
+    }
+    ask = next;
+  }
+  for (; ask != 0; ask &= ask - 1) {
+    const auto i = static_cast<std::size_t>(std::countr_zero(ask));
+    if (walkOn(occupied, group, clear, p, first + i)) found |= std::uint64_t{1} << i;
+  }
+  return found;
+}
+
+void Look(const BitVolume& occupied, const Group& group, const ClearBricks& clear,
+          std::span<const Voxel> places, std::uint64_t* open, std::size_t stride) {
+  const Voxel size = occupied.size();
+  const std::size_t columns = (group.directions.size() + 63) / 64;
+  const auto capped = [](int voxels) { return static_cast<std::size_t>(std::min(voxels, kFar - 1)); };
+  for (std::size_t n = 0; n < places.size(); ++n, open += stride) {
+    const Voxel p = places[n];
+    if (n > 0 && p == places[n - 1]) {  // a node's buds
+      std::copy_n(open - stride, columns, open);
+      continue;
+    }
+    const Mask blocked = blockedNear(occupied, group, p), at_once = clearBeyondNear(group, clear, p);
+    Around around{occupied.words().data(), 0, false, capped(size.y - 1 - p.y), capped(p.y), capped(p.z),
+                  capped(size.z - 1 - p.z)};
+    around.start = (occupied.row(p.y, p.z) - around.words) * BitVolume::kWordBits + p.x;
+    around.rim = std::min({around.up, around.down, around.before, around.behind}) < kFar - 1;
+    for (std::size_t k = 0; k < columns; ++k) {
+      const std::size_t left = group.directions.size() - 64 * k;
+      const std::uint64_t unblocked =
+          ~blocked.words[k] & (left >= 64 ? ~std::uint64_t{0} : (std::uint64_t{1} << left) - 1);
+      const std::uint64_t ask = unblocked & ~at_once.words[k];
+      open[k] = (unblocked & at_once.words[k]) |
+                (around.rim ? walkLegs<true>(occupied, group, clear, around, p, 64 * k, ask)
+                            : walkLegs<false>(occupied, group, clear, around, p, 64 * k, ask));
+    }
+  }
+}
+
+void SumRows(const float* rows, std::size_t apart, std::span<const std::uint32_t> chosen, float* sums) {
+  const hn::ScalableTag<float> d;
+  constexpr std::size_t kVectors = 8;  // of sums, in registers
+  static_assert(kVectors * HWY_LANES(float) <= kRowUnit);
+  for (std::size_t at = 0; at < apart; at += kVectors * hn::Lanes(d)) {
+    hn::Vec<decltype(d)> all[kVectors];
+    for (auto& sum : all) sum = hn::Zero(d);
+    for (const std::uint32_t row : chosen) {
+      const float* const from = rows + row * apart + at;
+      for (std::size_t i = 0; i < kVectors; ++i)
+        all[i] = hn::Add(all[i], hn::LoadU(d, from + i * hn::Lanes(d)));
+    }
+    for (std::size_t i = 0; i < kVectors; ++i) hn::StoreU(all[i], d, sums + at + i * hn::Lanes(d));
+  }
+}
+
+template <typename Shifted>
+HWY_INLINE void uniteLines(std::uint8_t* target, const std::uint8_t* source, Lines lines,
+                           const Shifted& shifted) {
+  for (std::size_t line = 0; line < lines.count; ++line, target += lines.apart, source += lines.apart) {
+    for (std::size_t i = 0; i < lines.bytes; i += 8) {
+      std::uint64_t from, to;
+      std::memcpy(&from, source + i, 8);
+      std::memcpy(&to, target + i, 8);
+      to |= shifted(from);
+      std::memcpy(target + i, &to, 8);
+    }
+  }
+}
+
+void UniteShifted(std::uint8_t* target, const std::uint8_t* source, Lines lines, int by, std::uint64_t mask) {
+  if (by >= 0) {
+    uniteLines(target, source, lines,
+               [by, mask](std::uint64_t word) HWY_ATTR { return (word >> by) & mask; });
+  } else {
+    uniteLines(target, source, lines,
+               [by, mask](std::uint64_t word) HWY_ATTR { return (word << -by) & mask; });
+  }
+}
+
+}  // namespace espalier::sim::looking::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace espalier::sim::looking {
+
+HWY_EXPORT(Look);
+HWY_EXPORT(UniteShifted);
+HWY_EXPORT(SumRows);
+
+void look(const BitVolume& occupied, const Group& group, const ClearBricks& clear,
+          std::span<const Voxel> places, std::uint64_t* open, std::size_t stride) {
+  HWY_DYNAMIC_DISPATCH(Look)(occupied, group, clear, places, open, stride);
+}
+
+void uniteShifted(std::uint8_t* target, const std::uint8_t* source, Lines lines, int by, std::uint64_t mask) {
+  HWY_DYNAMIC_DISPATCH(UniteShifted)(target, source, lines, by, mask);
+}
+
+void sumRows(const float* rows, std::size_t apart, std::span<const std::uint32_t> chosen, float* sums) {
+  HWY_DYNAMIC_DISPATCH(SumRows)(rows, apart, chosen, sums);
+}
+
+}  // namespace espalier::sim::looking
+#endif

@@ -1,0 +1,77 @@
+#pragma once
+// Internal to the wing: loops that are compiled for each instruction set and chosen when the program runs.
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "sim/base/bits.h"
+#include "sim/light/clear_bricks.h"
+#include "sim/sweep/directions.h"
+
+namespace espalier::sim::looking {
+
+inline constexpr int kNear = 6;  ///< voxels to each side that are looked at for all directions at once
+/// A row of them is read by four voxels.
+inline constexpr std::size_t kFours = (2 * kNear + 4) / 4;
+/// Beyond what is near, a ray's steps are tested leg by leg: how many there are up to the end of each.
+inline constexpr std::array<std::size_t, 5> kLegs{0, 8, 16, 32, 56};
+inline constexpr std::size_t kSteps = kLegs.back();
+inline constexpr std::size_t kAtOnce = 8;                          ///< steps that are read together
+inline constexpr int kFar = kNear + 1 + static_cast<int>(kSteps);  ///< no step lies farther away
+static_assert(kNear < ClearBricks::kSide);
+static_assert(kFar < BitVolume::kWordBits);  // beyond the ends of a row lies a word of zeros
+
+/// A bit for each direction of a group.
+struct alignas(32) Mask {
+  std::array<std::uint64_t, ClearBricks::kWords> words{};
+};
+
+/// One direction beyond what is near.
+struct Ray {
+  std::array<std::int64_t, kSteps> steps;  ///< from the place, in bits of the volume
+  std::array<Voxel, kLegs.size()> beyond;  ///< the voxel behind what is near, and behind each leg
+  /// How many steps lie within so many voxels of the place along y, and along z.
+  std::array<std::uint8_t, kFar> within_y, within_z;
+  std::uint32_t near;  ///< steps before these
+};
+
+/// As many directions as a mask has bits, made ready.
+struct Group {
+  std::span<const LatticeDirection> directions;
+  int lowest;  ///< of the directions' near voxels, along y from the place: 0 or -kNear
+  /// For each row of near voxels, from (lowest, -kNear) to (kNear, kNear) along (y, z), and each pattern of
+  /// four of its voxels the directions that cross one of the pattern's.
+  std::vector<std::array<std::array<Mask, 16>, kFours>> crossing;
+  /// By axis and by the place's way into its brick: the directions that leave what is near in the brick
+  /// before, in the same, and in the one behind.
+  std::array<std::array<std::array<Mask, 3>, ClearBricks::kSide>, 3> leaving;
+  std::vector<Ray> rays;
+  /// From a place to the voxels of a period, in bits of the volume; those of direction i from first_step[i]
+  /// on. As many steps as are read at once lie behind the last.
+  std::vector<std::int64_t> period_steps;
+  std::vector<std::size_t> first_step;
+};
+
+/// For each place a row of bits, `stride` words apart: the group's directions that reach the world's edge.
+void look(const BitVolume& occupied, const Group& group, const ClearBricks& clear,
+          std::span<const Voxel> places, std::uint64_t* open, std::size_t stride);
+
+/// Lines of bytes, `apart` from one to the next, of which `bytes` are meant.
+struct Lines {
+  std::size_t count, bytes, apart;
+};
+
+/// target |= source, each word shifted down by 0 <= `by` < 64 (up by -by) and masked. Reads and writes whole
+/// words.
+void uniteShifted(std::uint8_t* target, const std::uint8_t* source, Lines lines, int by, std::uint64_t mask);
+
+/// Rows of floats are as long as a multiple of this.
+inline constexpr std::size_t kRowUnit = 128;
+
+/// The sum of the chosen rows, in the order in which they are chosen. Rows lie `apart` floats from each
+/// other, and each has so many.
+void sumRows(const float* rows, std::size_t apart, std::span<const std::uint32_t> chosen, float* sums);
+
+}  // namespace espalier::sim::looking

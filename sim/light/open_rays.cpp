@@ -1,0 +1,110 @@
+#include "sim/light/open_rays.h"
+
+#include <algorithm>
+#include <cstdlib>
+#include <utility>
+
+#include "sim/base/parallel.h"
+#include "sim/light/look.h"
+
+namespace espalier::sim {
+namespace {
+
+using looking::kFar;
+using looking::kLegs;
+using looking::kNear;
+using looking::kSteps;
+
+constexpr std::size_t kGroup = 64 * ClearBricks::kWords;
+
+int farthest(Voxel o) {
+  return std::max({std::abs(o.x), std::abs(o.y), std::abs(o.z)});
+}
+
+/// Voxel i of a ray from voxel 0.
+Voxel crossed(const LatticeDirection& direction, std::size_t i) {
+  const std::size_t period = direction.crossed.size();
+  return direction.crossed[i % period] + static_cast<int>(i / period) * direction.v;
+}
+
+/// In bits of the volume.
+std::int64_t stepOf(const BitVolume& shape, Voxel o) {
+  const std::int64_t row = std::int64_t{o.y} * shape.size().z + o.z;
+  return row * shape.rowWords() * BitVolume::kWordBits + o.x;
+}
+
+looking::Ray rayOf(const BitVolume& shape, const LatticeDirection& direction) {
+  looking::Ray ray{};
+  while (farthest(crossed(direction, ray.near)) <= kNear) ++ray.near;
+  for (std::size_t i = 0; i < kSteps; ++i) {
+    const Voxel o = crossed(direction, ray.near + i);
+    ray.steps[i] = stepOf(shape, o);
+    for (std::size_t within = 0; within < kFar; ++within) {
+      if (std::abs(o.y) <= static_cast<int>(within)) ray.within_y[within] = static_cast<std::uint8_t>(i + 1);
+      if (std::abs(o.z) <= static_cast<int>(within)) ray.within_z[within] = static_cast<std::uint8_t>(i + 1);
+    }
+  }
+  for (std::size_t leg = 0; leg < kLegs.size(); ++leg)
+    ray.beyond[leg] = crossed(direction, ray.near + kLegs[leg]);
+  return ray;
+}
+
+looking::Group groupOf(const BitVolume& shape, std::span<const LatticeDirection> directions) {
+  const bool down =
+      std::any_of(directions.begin(), directions.end(), [](const auto& d) { return d.v.y < 0; });
+  constexpr int kAcross = 2 * kNear + 1;
+  looking::Group group{directions, down ? -kNear : 0, {}, {}, {}, {}, {}};
+  group.crossing.resize(static_cast<std::size_t>(kAcross * (kNear + 1 - group.lowest)));
+  for (std::size_t i = 0; i < directions.size(); ++i) {
+    const auto include = [&](looking::Mask& mask) { mask.words[i / 64] |= std::uint64_t{1} << (i % 64); };
+    const looking::Ray ray = rayOf(shape, directions[i]);
+    for (std::size_t k = 0; k < ray.near; ++k) {
+      const Voxel o = crossed(directions[i], k);
+      const int row = (o.y - group.lowest) * kAcross + o.z + kNear;
+      const auto x = static_cast<std::size_t>(o.x + kNear);
+      for (std::size_t pattern = 0; pattern < 16; ++pattern) {
+        if (((pattern >> (x % 4)) & 1u) != 0)
+          include(group.crossing[static_cast<std::size_t>(row)][x / 4][pattern]);
+      }
+    }
+    for (int axis = 0; axis < 3; ++axis) {
+      for (int in = 0; in < ClearBricks::kSide; ++in) {
+        const int to = (in + ray.beyond[0][axis] + ClearBricks::kSide) / ClearBricks::kSide;
+        include(group.leaving[static_cast<std::size_t>(axis)][static_cast<std::size_t>(in)]
+                             [static_cast<std::size_t>(to)]);
+      }
+    }
+    group.rays.push_back(ray);
+    group.first_step.push_back(group.period_steps.size());
+    for (const Voxel o : directions[i].crossed) group.period_steps.push_back(stepOf(shape, o));
+  }
+  group.period_steps.resize(group.period_steps.size() + looking::kAtOnce);
+  return group;
+}
+
+}  // namespace
+
+OpenRays::OpenRays(const BitVolume& shape, const DirectionSet& directions)
+    : directions_(std::make_shared<const DirectionSet>(directions)) {
+  std::vector<looking::Group> groups;
+  for (std::size_t first = 0; first < directions.size(); first += kGroup) {
+    groups.push_back(
+        groupOf(shape, std::span(*directions_).subspan(first, std::min(directions.size() - first, kGroup))));
+  }
+  groups_ = std::make_shared<const std::vector<looking::Group>>(std::move(groups));
+}
+
+std::vector<std::uint64_t> OpenRays::from(const BitVolume& occupied, std::span<const Voxel> places) const {
+  std::vector<std::uint64_t> open(places.size() * words());
+  for (std::size_t g = 0; g < groups_->size(); ++g) {
+    const looking::Group& group = (*groups_)[g];
+    const ClearBricks clear(occupied, group.directions);
+    parallelFor(places.size(), 16, [&](std::size_t begin, std::size_t end) {
+      looking::look(occupied, group, clear, places.subspan(begin, end - begin),
+                    open.data() + begin * words() + g * ClearBricks::kWords, words());
+    });
+  }
+  return open;
+}
+
+}  // namespace espalier::sim

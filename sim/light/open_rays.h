@@ -1,0 +1,36 @@
+#pragma once
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "sim/base/bits.h"
+#include "sim/sweep/directions.h"
+
+namespace espalier::sim {
+
+namespace looking {
+struct Group;
+}
+
+/// Directions made ready to be looked along from many places, again and again in worlds of one shape. The
+/// answer is that of reachesEdge for each of them; what is near is found for many directions at once, and
+/// rays end where nothing lies ahead any more.
+class OpenRays {
+ public:
+  OpenRays(const BitVolume& shape, const DirectionSet& directions);
+
+  const DirectionSet& directions() const { return *directions_; }
+  /// Of a place's row of bits.
+  std::size_t words() const { return (directions_->size() + 63) / 64; }
+  /// A row of bits for each place, one after another: bit i says whether direction i reaches the world's
+  /// edge. `occupied` must have the shape that was given, and the places must lie in it.
+  std::vector<std::uint64_t> from(const BitVolume& occupied, std::span<const Voxel> places) const;
+
+ private:
+  std::shared_ptr<const DirectionSet> directions_;  // the groups refer to them
+  std::shared_ptr<const std::vector<looking::Group>> groups_;
+};
+
+}  // namespace espalier::sim

@@ -1,0 +1,229 @@
+#include <fmt/format.h>
+#include <sys/resource.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <random>
+
+#include "rules/growth/make_process.h"
+#include "scenes/read/read_rules.h"
+#include "sim/base/error.h"
+#include "sim/base/parallel.h"
+#include "sim/grow/grow.h"
+#include "sim/light/sky.h"
+#include "sim/light/sun.h"
+#include "sim/sweep/lanes.h"
+#include "sim/tile/tiling.h"
+#include "tests/bench/peers.h"
+#include "tests/bench/rows.h"
+
+namespace espalier::bench {
+namespace {
+
+constexpr double kVoxel_m = 0.02;
+/// A cover of the wall that still grows: so many segments on a square metre.
+constexpr double kSegmentsToASquareMetre = 1000.0;
+constexpr double kSeedsToASquareMetre = 2.0;
+
+double cpuSeconds() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  const auto seconds = [](timeval t) {
+    return static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec);
+  };
+  return seconds(usage.ru_utime) + seconds(usage.ru_stime);
+}
+
+/// Bytes that this process holds.
+double residentBytes() {
+  long pages = 0;
+  if (std::FILE* const file = std::fopen("/proc/self/statm", "r")) {
+    if (std::fscanf(file, "%*s %ld", &pages) != 1) pages = 0;
+    std::fclose(file);
+  }
+  return static_cast<double>(pages) * 4096.0;
+}
+
+/// A wall twice as wide as it is high, 20 cm thick, with half a metre of air before it.
+sim::World wallFor(double segments) {
+  const double height_m = std::sqrt(segments / kSegmentsToASquareMetre / 2.0);
+  const auto voxels = [](double metres) { return static_cast<int>(std::lround(metres / kVoxel_m)); };
+  const sim::Voxel size(voxels(2.0 * height_m), voxels(height_m), voxels(0.7));
+  sim::World world({sim::Vec3(0.0), kVoxel_m, size});
+  const sim::PartId wall = world.addPart({"wall", "brick", sim::PartKind::scene, -1});
+  std::vector<sim::TiledVoxel> row;
+  for (int y = 0; y < size.y; ++y) {
+    row.clear();
+    for (int z = 0; z < voxels(0.2); ++z) {
+      for (int x = 0; x < size.x; ++x) row.push_back({{x, y, z}, {wall, sim::Colour(0.5f), 1.0f}});
+    }
+    world.occupy(row);
+  }
+  world.setLayers(4);
+  return world;
+}
+
+std::vector<sim::Seed> seedsOn(const sim::World& world) {
+  const sim::Voxel size = world.frame().size;
+  const double area_m2 = size.x * size.y * kVoxel_m * kVoxel_m;
+  std::mt19937 random(1989);
+  std::vector<sim::Vec3> places;
+  for (int i = 0; i < std::max(1, static_cast<int>(area_m2 * kSeedsToASquareMetre)); ++i) {
+    const auto x = random() % static_cast<unsigned>(size.x), y = random() % static_cast<unsigned>(size.y);
+    places.emplace_back(x, y, 11.0);
+  }
+  return sim::seedsAt(world.frame(), places);
+}
+
+/// Figure 4's vine with every bias, every requirement, ranges, and a table of the sky.
+rules::RuleSet withEverything(rules::RuleSet rules) {
+  const auto range = [](double low, double high) {
+    rules::Value value(low);
+    value.kind = rules::Value::Kind::range;
+    value.high = high;
+    return value;
+  };
+  rules.random_tree.length.value = range(2.0, 8.0);
+  rules.random_tree.wander_deg = range(10.0, 40.0);
+  rules.random_tree.branch_angle_deg = range(40.0, 70.0);
+  rules.bias.up = range(0.02, 0.1);
+  rules.bias.gravity = 0.02;
+  rules.bias.light = range(0.05, 0.15);
+  rules.bias.brightest = rules::Brightest::table;
+  rules.bias.away = 0.02;
+  rules.bias.toward = range(0.05, 0.1);
+  rules.bias.twist = range(-0.2, 0.2);
+  return rules;
+}
+
+rules::RuleSet figureFour() {
+  auto rules = scenes::readRules(ESPALIER_SOURCE_DIR "/rules/library/courtyard_vine.yaml");
+  if (!rules) throw sim::InputError(scenes::format(rules.problems()));
+  return **rules;
+}
+
+sim::GrowthSettings settingsFor() {
+  sim::GrowthSettings settings;
+  settings.iterations = 100'000;
+  settings.light.sky = sim::makeSky({.directions = 128}).directions;
+  settings.light.sun = sim::makeSun({20.0, 180.0, 48}).directions;
+  settings.sky_table = [] { return sim::makeSkyTable(9, 36, sim::backgroundOf(sim::Weighting::uniform)); };
+  return settings;
+}
+
+struct Grown {
+  std::size_t segments = 0, elements = 0, inside = 0;
+  std::uint64_t trials = 0, state = 0;
+  double cpu_s = 0.0, wall_s = 0.0, bytes = 0.0;
+};
+
+/// Segments that cross a voxel of the scene.
+std::size_t segmentsInside(const sim::BitVolume& scene, const sim::Growth& growth) {
+  std::size_t inside = 0;
+  std::vector<sim::Voxel> voxels;
+  for (const sim::Plant& plant : growth.plants) {
+    const sim::Skeleton& s = plant.skeleton;
+    for (std::size_t i = 1; i < s.parent.size(); ++i) {
+      voxels.clear();
+      sim::tileSegment(s.position_vx[static_cast<std::size_t>(s.parent[i])], s.position_vx[i], voxels);
+      inside += std::any_of(voxels.begin(), voxels.end(), [&](sim::Voxel v) { return scene.at(v); });
+    }
+  }
+  return inside;
+}
+
+/// Grows until there are so many segments, or nothing grows any more.
+Grown growOn(sim::World& world, const rules::RuleSet& rules, double segments) {
+  const sim::BitVolume scene = world.occupied();
+  const std::vector<sim::Planting> plantings = {
+      {"vine", rules::makeProcess(std::make_shared<rules::RuleSet>(rules), kVoxel_m), seedsOn(world)}};
+  Grown grown;
+  sim::GrowthSettings settings = settingsFor();
+  settings.progress = [&](const sim::GrowthProgress& progress) { grown.segments = progress.segments; };
+  const double bytes = residentBytes(), cpu_s = cpuSeconds();
+  const auto began = std::chrono::steady_clock::now();
+  sim::Growing growing(world, plantings, settings);
+  while (static_cast<double>(grown.segments) < segments && growing.step()) {
+  }
+  grown.wall_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
+  grown.cpu_s = cpuSeconds() - cpu_s;
+  grown.bytes = residentBytes() - bytes;
+  const sim::Growth growth = growing.take();
+  for (const sim::Plant& plant : growth.plants) grown.elements += plant.elements.size();
+  for (const std::uint64_t count : sim::total(growth).trials) grown.trials += count;
+  grown.inside = segmentsInside(scene, growth);
+  grown.state = sim::stateHash(world, growth);
+  return grown;
+}
+
+}  // namespace
+
+void benchSegments(double most_segments, Report& report) {
+  constexpr const char* kRow = "5 growth";
+  const rules::RuleSet figure_four = figureFour();
+  report.title(
+      "5. Growth on plain walls of 2 cm voxels, figure 4's rules (segments of 2.4 voxel widths, leaves), sky "
+      "of "
+      "128 and sun of 48 directions, light included");
+  std::vector<double> bytes;
+  for (double segments = 1e4; segments <= most_segments; segments *= 10.0) {
+    sim::World world = wallFor(segments);
+    const Grown g = growOn(world, figure_four, segments);
+    const auto count = static_cast<double>(g.segments);
+    report.note(fmt::format("{} x {} x {} voxels: {} segments, {} leaves, {} trials", world.frame().size.x,
+                            world.frame().size.y, world.frame().size.z, g.segments, g.elements, g.trials));
+    bytes.push_back(g.bytes / count);
+    report.add({kRow, "  segments a CPU second", count / g.cpu_s, "", g.state,
+                Target{sim::lanes::level().starts_with("AVX3") ? 50'000.0 : 20'000.0}});
+    report.add({kRow, "  trials a segment", static_cast<double>(g.trials) / count, "", g.state});
+    report.add({kRow, "  memory a segment, its voxels included", bytes.back(), "bytes", g.state,
+                Target{2000.0, false}});
+    report.add({kRow, "  segments that cross the wall", static_cast<double>(g.inside), "", g.state,
+                Target{0.0, false}});
+  }
+  report.add({kRow, "memory a segment: the most over the least",
+              *std::max_element(bytes.begin(), bytes.end()) / *std::min_element(bytes.begin(), bytes.end()),
+              "times", 0, Target{1.5, false}});
+
+  constexpr double kSegments = 3e4;
+  const auto onOneThread = [&](const rules::RuleSet& rules) {
+    sim::World world = wallFor(kSegments);
+    Grown grown;
+    sim::onThreads(1, [&] { grown = growOn(world, rules, kSegments); });
+    return grown;
+  };
+  report.title("   The same wall of 30,000 segments in other ways");
+  const Grown all_threads = [&] {
+    sim::World world = wallFor(kSegments);
+    return growOn(world, figure_four, kSegments);
+  }();
+  const Grown one_thread = onOneThread(figure_four);
+  const auto speed = [](const Grown& g) { return static_cast<double>(g.segments) / g.cpu_s; };
+  report.add({kRow, fmt::format("{} threads: a second of one thread over theirs", sim::threadCount()),
+              one_thread.wall_s / all_threads.wall_s, "times", all_threads.state});
+  report.add({kRow, "one thread, segments a CPU second", speed(one_thread), "", one_thread.state});
+  const Grown everything = onOneThread(withEverything(figure_four));
+  report.add({kRow, "every bias and requirement, segments of 2 to 8 voxel widths", speed(everything), "",
+              everything.state});
+  report.add({kRow, "  a trial's time over that of figure 4's",
+              everything.cpu_s / static_cast<double>(everything.trials) *
+                  static_cast<double>(one_thread.trials) / one_thread.cpu_s,
+              "times", everything.state, Target{2.0, false}});
+  const std::string best = sim::lanes::level();
+  for (const std::string& level : sim::lanes::levels()) {
+    sim::lanes::useLevel(level);
+    const Grown g = onOneThread(figure_four);
+    report.add({kRow, fmt::format("segments a CPU second by {}", level), speed(g), "", g.state});
+  }
+  sim::lanes::useLevel(best);
+  if (const auto ivy = ivyGenNodes()) {
+    report.add({kRow, "IvyGen in Blender, one candidate a node: nodes a CPU second", ivy->nodes / ivy->cpu_s,
+                "", 0});
+  } else {
+    report.note("  IvyGen: no blender here");
+  }
+}
+
+}  // namespace espalier::bench

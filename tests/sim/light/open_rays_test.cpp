@@ -1,0 +1,148 @@
+#include "sim/light/open_rays.h"
+
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "sim/light/clear_bricks.h"
+#include "sim/light/exposure.h"
+#include "sim/light/sky.h"
+#include "sim/light/sun.h"
+#include "sim/sweep/lanes.h"
+#include "tests/support/bit_worlds.h"
+
+namespace espalier {
+namespace {
+
+using sim::Voxel;
+
+/// Up, level and down, from along an axis to as long as there are.
+sim::DirectionSet allKinds() {
+  sim::DirectionSet set = sim::makeSky({.directions = 128}).directions;
+  const auto sun = sim::makeSun(sim::SunArc{}).directions;
+  set.insert(set.end(), sun.begin(), sun.end());
+  for (const Voxel v : {Voxel(1, 0, 0), Voxel(-1, 0, 0), Voxel(0, 1, 0), Voxel(0, -1, 0), Voxel(0, 0, 1),
+                        Voxel(0, 0, -1), Voxel(63, 62, -61), Voxel(-63, 1, 0), Voxel(1, -63, 62),
+                        Voxel(1, 1, -1), Voxel(-1, 1, 1), Voxel(-2, 0, 1), Voxel(0, -3, 2), Voxel(5, -7, -6)})
+    set.push_back({v, sim::crossedVoxels(v), 1});
+  return set;
+}
+
+/// Corners, places beside the rim, and others; some of them twice.
+std::vector<Voxel> placesIn(Voxel size, int count, unsigned seed) {
+  std::mt19937 random(seed);
+  const auto below = [&](int n) { return static_cast<int>(random() % static_cast<unsigned>(n)); };
+  std::vector<Voxel> places;
+  for (int corner = 0; corner < 8; ++corner) {
+    places.emplace_back((corner & 1) != 0 ? size.x - 1 : 0, (corner & 2) != 0 ? size.y - 1 : 0,
+                        (corner & 4) != 0 ? size.z - 1 : 0);
+  }
+  for (int i = 0; i < count; ++i) {
+    places.emplace_back(below(size.x), below(size.y), below(size.z));
+    if (i % 3 == 0) places.push_back(places.back());
+  }
+  return places;
+}
+
+void expectWhatRaysMeet(const sim::BitVolume& bits, const sim::DirectionSet& set,
+                        const std::vector<Voxel>& places) {
+  const sim::OpenRays rays(bits, set);
+  const auto open = rays.from(bits, places);
+  ASSERT_EQ(open.size(), places.size() * rays.words());
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    for (std::size_t d = 0; d < 64 * rays.words(); ++d) {
+      const bool is_open = ((open[i * rays.words() + d / 64] >> (d % 64)) & 1u) != 0;
+      ASSERT_EQ(is_open, d < set.size() && sim::reachesEdge(bits, places[i], set[d]))
+          << "place " << i << " direction " << d;
+    }
+  }
+}
+
+TEST(OpenRays, AreThoseThatReachTheEdge) {
+  const auto set = allKinds();
+  for (const Voxel size :
+       {Voxel(61, 40, 53), Voxel(64, 64, 64), Voxel(1, 90, 70), Voxel(90, 1, 70), Voxel(90, 70, 1),
+        Voxel(1, 1, 1), Voxel(300, 20, 9), Voxel(9, 20, 300), Voxel(20, 300, 9), Voxel(129, 77, 7)}) {
+    for (const double chance : {0.0, 0.0003, 0.01, 0.2}) {
+      const auto bits = tests::randomBits(size, chance, 11);
+      expectWhatRaysMeet(bits, set, placesIn(size, 60, 5));
+    }
+  }
+}
+
+// Long ways: beyond the legs, and with bricks that are clear or not.
+TEST(OpenRays, AreThoseThatReachTheEdgeOfALargeWorld) {
+  sim::BitVolume bits({270, 260, 210});
+  tests::addBox(bits, {0, 0, 0}, {269, 5, 209});        // ground
+  tests::addBox(bits, {40, 6, 100}, {220, 200, 109});   // a wall
+  tests::addBox(bits, {100, 230, 0}, {120, 232, 209});  // a beam above it
+  std::vector<Voxel> places = placesIn(bits.size(), 100, 6);
+  for (int i = 0; i < 100; ++i) places.emplace_back(30 + 2 * i, 7 + i, 110 + i % 3);
+  expectWhatRaysMeet(bits, allKinds(), places);
+}
+
+// More bricks along every axis than a word has bits.
+TEST(OpenRays, AreThoseThatReachTheEdgeOfAVeryLargeWorld) {
+  sim::BitVolume bits({530, 521, 540});
+  std::mt19937 random(3);
+  for (int i = 0; i < 3000; ++i)
+    bits.set({static_cast<int>(random() % 530), static_cast<int>(random() % 300),
+              static_cast<int>(random() % 540)});
+  expectWhatRaysMeet(bits, allKinds(), placesIn(bits.size(), 60, 6));
+}
+
+// More directions than a group holds, and down alone.
+TEST(OpenRays, TakeAnyNumberOfDirections) {
+  const auto bits = tests::randomBits({70, 33, 41}, 0.004, 8);
+  auto many = sim::makeSky({.directions = 700}).directions;
+  expectWhatRaysMeet(bits, many, placesIn(bits.size(), 20, 7));
+  for (auto& direction : many) {
+    direction.v = -direction.v;
+    for (Voxel& o : direction.crossed) o = -o;
+  }
+  expectWhatRaysMeet(bits, many, placesIn(bits.size(), 20, 8));
+  expectWhatRaysMeet(bits, {}, placesIn(bits.size(), 20, 9));
+  expectWhatRaysMeet(bits, allKinds(), {});
+}
+
+TEST(OpenRays, AreTheSameAtEveryLevel) {
+  const auto best = sim::lanes::level();
+  const auto bits = tests::randomBits({75, 50, 66}, 0.003, 12);
+  for (const std::string& level : sim::lanes::levels()) {
+    sim::lanes::useLevel(level);
+    expectWhatRaysMeet(bits, allKinds(), placesIn(bits.size(), 30, 9));
+  }
+  sim::lanes::useLevel(best);
+}
+
+// A brick is clear along a direction only if no ray that comes through it, on whatever line, meets anything
+// there or later.
+TEST(ClearBricks, NoRayThroughOneMeetsAnything) {
+  auto set = allKinds();
+  set.resize(std::min<std::size_t>(set.size(), 64 * sim::ClearBricks::kWords));
+  for (const Voxel size : {Voxel(40, 33, 30), Voxel(17, 40, 25), Voxel(530, 515, 513)}) {
+    const auto bits = tests::randomBits(size, size.x > 100 ? 1e-7 : 0.0005, 13);
+    const sim::ClearBricks clear(bits, set);
+    std::size_t clear_ones = 0;
+    for (std::size_t d = 0; d < set.size(); ++d) {
+      for (const Voxel from : placesIn(size, 150, 14)) {
+        // What is met from each voxel of the ray on.
+        std::vector<Voxel> ray;
+        for (Voxel base = from; sim::contains(size, base); base += set[d].v) {
+          for (const Voxel o : set[d].crossed) ray.push_back(base + o);
+        }
+        bool free = true;
+        for (std::size_t i = ray.size(); i-- > 0;) {
+          free = free && !bits.at(ray[i]);
+          if (!clear.is(d, ray[i])) continue;
+          ++clear_ones;
+          ASSERT_TRUE(free) << "direction " << d;
+        }
+      }
+    }
+    EXPECT_GT(clear_ones, 1000u);
+  }
+}
+
+}  // namespace
+}  // namespace espalier

@@ -37,22 +37,26 @@ void describe(openvdb::GridBase& grid, const About& about, const sim::Frame& fra
   grid.insertMeta("voxel_m", openvdb::DoubleMetadata(frame.voxel_m));
 }
 
-/// Shares the grid's tree but not its metadata.
-template <class Grid>
-typename Grid::Ptr shown(const typename Grid::Ptr& grid, const About& about, const sim::Frame& frame,
-                         openvdb::GridClass grid_class = openvdb::GRID_UNKNOWN) {
-  auto result = Grid::create(grid->treePtr());
-  result->setTransform(grid->transform().copy());
+/// A grid with this tree, in a world's place.
+template <class Tree>
+typename openvdb::Grid<Tree>::Ptr shown(const std::shared_ptr<Tree>& tree, const About& about,
+                                        const sim::World& world,
+                                        openvdb::GridClass grid_class = openvdb::GRID_UNKNOWN) {
+  auto result = openvdb::Grid<Tree>::create(tree);
+  result->setTransform(world.grids().part->transform().copy());
   result->setGridClass(grid_class);
-  describe(*result, about, frame);
+  describe(*result, about, world.frame());
   return result;
 }
 
-openvdb::FloatGrid::Ptr density(const sim::World::Grids& grids) {
-  auto tree = std::make_shared<openvdb::FloatTree>(grids.part->tree(), 0.0f, 1.0f, openvdb::TopologyCopy());
-  auto grid = openvdb::FloatGrid::create(tree);
-  grid->setTransform(grids.part->transform().copy());
-  return grid;
+/// The scene's voxels, and in the same tree the plants'.
+template <class Tree, class ValueOf>
+std::shared_ptr<Tree> withPlants(std::shared_ptr<Tree> scene, const sim::World& world, ValueOf valueOf) {
+  openvdb::tree::ValueAccessor<Tree> access(*scene);
+  world.grids().plants.forEach([&](sim::Voxel v, const sim::Surface& surface) {
+    access.setValueOn(sim::coordOf(v), valueOf(surface));
+  });
+  return scene;
 }
 
 constexpr int kLeafSide = 8;
@@ -205,45 +209,50 @@ std::string vdbBytes(const sim::World& world, const std::vector<VdbField>& field
   openvdb::initialize();
   using openvdb::FloatGrid, openvdb::Int32Grid, openvdb::Vec3SGrid;
   const sim::World::Grids& grids = world.grids();
-  const sim::Frame& frame = world.frame();
   const auto fog = openvdb::GRID_FOG_VOLUME;
 
   std::vector<MakeGrid> out;
   const auto add = [&](auto make) { out.emplace_back(make); };
   add([&] {
-    return shown<FloatGrid>(density(grids), {"density", "1 where a voxel is occupied", "1"}, frame, fog);
+    const auto scene =
+        std::make_shared<openvdb::FloatTree>(grids.part->tree(), 0.0f, 1.0f, openvdb::TopologyCopy());
+    return shown(withPlants(scene, world, [](const sim::Surface&) { return 1.0f; }),
+                 {"density", "1 where a voxel is occupied", "1"}, world, fog);
+  });
+  const auto addSurface = [&](const auto& grid, auto valueOf, const About& about, auto finish) {
+    using Tree = typename std::decay_t<decltype(*grid)>::TreeType;
+    add([&world, &grid, valueOf, about, finish] {
+      auto result = shown(withPlants(std::make_shared<Tree>(grid->tree()), world, valueOf), about, world);
+      finish(*result);
+      return result;
+    });
+  };
+  const auto nothing = [](openvdb::GridBase&) {};
+  addSurface(
+      grids.part, [](const sim::Surface& s) { return s.part; },
+      {"part", "number of the part that occupies a voxel, as listed in the file's metadata", "1"}, nothing);
+  addSurface(
+      grids.colour, [](const sim::Surface& s) { return toVdb(s.colour); },
+      {"colour", "mean surface colour, linear RGB", "1"}, nothing);
+  addSurface(
+      grids.coverage, [](const sim::Surface& s) { return s.coverage; },
+      {"coverage", "area inside a voxel over a face's area, 1 inside solids", "1"},
+      [fog](openvdb::GridBase& grid) { grid.setGridClass(fog); });
+  addSurface(
+      grids.normal, [](const sim::Surface& s) { return toVdb(s.normal); },
+      {"normal", "mean surface normal, zero where there is none", "1"},
+      [](openvdb::GridBase& grid) { grid.setVectorType(openvdb::VEC_COVARIANT_NORMALIZE); });
+  add([&] {
+    return shown(grids.layer->treePtr(),
+                 {"layer", "boundary layer: 0 on the scene, k voxels away from it in layer k", "1"}, world);
   });
   add([&] {
-    return shown<Int32Grid>(
-        grids.part,
-        {"part", "number of the part that occupies a voxel, as listed in the file's metadata", "1"}, frame);
+    return shown(grids.nearest->treePtr(), {"nearest", "part of the nearest scene voxel", "1"}, world);
   });
   add([&] {
-    return shown<Vec3SGrid>(grids.colour, {"colour", "mean surface colour, linear RGB", "1"}, frame);
-  });
-  add([&] {
-    return shown<FloatGrid>(grids.coverage,
-                            {"coverage", "area inside a voxel over a face's area, 1 inside solids", "1"},
-                            frame, fog);
-  });
-  add([&] {
-    auto normal = shown<Vec3SGrid>(grids.normal,
-                                   {"normal", "mean surface normal, zero where there is none", "1"}, frame);
-    normal->setVectorType(openvdb::VEC_COVARIANT_NORMALIZE);
-    return normal;
-  });
-  add([&] {
-    return shown<Int32Grid>(
-        grids.layer, {"layer", "boundary layer: 0 on the scene, k voxels away from it in layer k", "1"},
-        frame);
-  });
-  add([&] {
-    return shown<Int32Grid>(grids.nearest, {"nearest", "part of the nearest scene voxel", "1"}, frame);
-  });
-  add([&] {
-    return shown<FloatGrid>(
-        grids.distance_vx,
-        {"distance", "distance to the nearest scene voxel, centre to centre", "voxel widths"}, frame);
+    return shown(grids.distance_vx->treePtr(),
+                 {"distance", "distance to the nearest scene voxel, centre to centre", "voxel widths"},
+                 world);
   });
   addFields(out, fields, world);
   return Writer().bytes(out, aboutFile(world, made_by));

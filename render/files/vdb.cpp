@@ -11,8 +11,11 @@
 #include <bit>
 #include <concepts>
 #include <functional>
+#include <memory>
 #include <sstream>
+#include <string_view>
 
+#include "sim/base/byte_sink.h"
 #include "sim/base/error.h"
 #include "sim/world/world_grids.h"
 
@@ -165,23 +168,64 @@ openvdb::MetaMap aboutFile(const sim::World& world, const sim::Provenance& made_
   return file;
 }
 
-/// An id in the shape that OpenVDB expects (a version 8 UUID: its own scheme), from the bytes around it.
-void setId(std::string& bytes) {
-  bytes.replace(kIdAt, kIdLength, kIdLength, '0');
-  const XXH128_hash_t hash = XXH3_128bits(bytes.data(), bytes.size());
+/// An id in the shape that OpenVDB expects (a version 8 UUID: its own scheme).
+std::string idOf(XXH128_hash_t hash) {
   std::string hex = fmt::format("{:016x}{:016x}", hash.high64, hash.low64);
   hex[12] = '8';
   hex[16] = '8';
   for (const std::size_t at : {8u, 13u, 18u, 23u}) hex.insert(at, 1, '-');
-  bytes.replace(kIdAt, kIdLength, hex);
+  return hex;
 }
+
+/// Passes a file on with zeros for OpenVDB's random id, and puts one in its place that follows from all the
+/// bytes around it.
+class OwnId {
+ public:
+  explicit OwnId(std::ostream& file)
+      : file_(file),
+        begin_(file.tellp()),
+        hash_(XXH3_createState(), XXH3_freeState),
+        sink_([this](std::string_view bytes) { pass(bytes); }) {
+    XXH3_128bits_reset(hash_.get());
+  }
+
+  std::streambuf& sink() { return sink_; }
+  void finish() {
+    const auto end = file_.tellp();
+    file_.seekp(begin_ + static_cast<std::streamoff>(kIdAt));
+    file_ << idOf(XXH3_128bits_digest(hash_.get()));
+    file_.seekp(end);
+  }
+
+ private:
+  void pass(std::string_view bytes) {
+    std::string head;
+    if (passed_ < kIdAt + kIdLength) {
+      head = bytes;
+      for (std::size_t i = 0; i < head.size(); ++i) {
+        if (passed_ + i >= kIdAt && passed_ + i < kIdAt + kIdLength) head[i] = '0';
+      }
+      bytes = head;
+    }
+    XXH3_128bits_update(hash_.get(), bytes.data(), bytes.size());
+    file_.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+    passed_ += bytes.size();
+  }
+
+  std::ostream& file_;
+  std::ostream::pos_type begin_;
+  std::unique_ptr<XXH3_state_t, decltype(&XXH3_freeState)> hash_;
+  std::size_t passed_ = 0;
+  sim::ByteSink sink_;
+};
 
 /// Writes what openvdb::io::Stream would, but makes each grid only when its turn has come: of a large world
 /// no two of them need to be in memory.
 class Writer : public openvdb::io::Archive {
  public:
-  std::string bytes(const std::vector<MakeGrid>& grids, const openvdb::MetaMap& about) const {
-    std::ostringstream out(std::ios::binary);
+  void write(std::ostream& file, const std::vector<MakeGrid>& grids, const openvdb::MetaMap& about) const {
+    OwnId id(file);
+    std::ostream out(&id.sink());
     out.exceptions(std::ios::failbit | std::ios::badbit);
     writeHeader(out, false);
     about.writeMeta(out);
@@ -196,16 +240,21 @@ class Writer : public openvdb::io::Archive {
       writeGrid(descriptor, grid, out, false);
       openvdb::io::setDataCompression(out, compression());  // a grid's own settings end with it
     }
-    std::string bytes = std::move(out).str();
-    setId(bytes);
-    return bytes;
+    out.flush();
+    id.finish();
   }
 };
 
+std::string inMemory(const std::function<void(std::ostream&)>& write) {
+  std::ostringstream out(std::ios::binary);
+  write(out);
+  return std::move(out).str();
+}
+
 }  // namespace
 
-std::string vdbBytes(const sim::World& world, const std::vector<VdbField>& fields,
-                     const sim::Provenance& made_by) {
+void writeVdb(std::ostream& file, const sim::World& world, const std::vector<VdbField>& fields,
+              const sim::Provenance& made_by) {
   openvdb::initialize();
   using openvdb::FloatGrid, openvdb::Int32Grid, openvdb::Vec3SGrid;
   const sim::World::Grids& grids = world.grids();
@@ -255,15 +304,25 @@ std::string vdbBytes(const sim::World& world, const std::vector<VdbField>& field
                  world);
   });
   addFields(out, fields, world);
-  return Writer().bytes(out, aboutFile(world, made_by));
+  Writer().write(file, out, aboutFile(world, made_by));
+}
+
+void writeFieldVdb(std::ostream& file, const sim::World& world, const std::vector<VdbField>& fields,
+                   const sim::Provenance& made_by) {
+  openvdb::initialize();
+  std::vector<MakeGrid> out;
+  addFields(out, fields, world);
+  Writer().write(file, out, aboutFile(world, made_by));
+}
+
+std::string vdbBytes(const sim::World& world, const std::vector<VdbField>& fields,
+                     const sim::Provenance& made_by) {
+  return inMemory([&](std::ostream& out) { writeVdb(out, world, fields, made_by); });
 }
 
 std::string fieldVdbBytes(const sim::World& world, const std::vector<VdbField>& fields,
                           const sim::Provenance& made_by) {
-  openvdb::initialize();
-  std::vector<MakeGrid> out;
-  addFields(out, fields, world);
-  return Writer().bytes(out, aboutFile(world, made_by));
+  return inMemory([&](std::ostream& out) { writeFieldVdb(out, world, fields, made_by); });
 }
 
 }  // namespace espalier::render

@@ -54,6 +54,9 @@ class FileBuffer : public std::streambuf {
  public:
   explicit FileBuffer(Descriptor& file) : file_(file) { setp(room_.data(), room_.data() + room_.size()); }
 
+  /// Why the first failure was one (errno); 0: there was none.
+  int reason() const { return reason_; }
+
  protected:
   int_type overflow(int_type c) override {
     if (sync() != 0) return traits_type::eof();
@@ -66,13 +69,13 @@ class FileBuffer : public std::streambuf {
       pbump(static_cast<int>(count));
       return count;
     }
-    if (sync() != 0 || !file_.write({bytes, static_cast<std::size_t>(count)})) return 0;
+    if (sync() != 0 || !put({bytes, static_cast<std::size_t>(count)})) return 0;
     begin_ += count;
     return count;
   }
   int sync() override {
     const std::string_view waiting(pbase(), static_cast<std::size_t>(pptr() - pbase()));
-    if (!file_.write(waiting)) return -1;
+    if (!put(waiting)) return -1;
     begin_ += pptr() - pbase();
     setp(room_.data(), room_.data() + room_.size());
     return 0;
@@ -90,9 +93,15 @@ class FileBuffer : public std::streambuf {
   }
 
  private:
+  bool put(std::string_view bytes) {
+    if (reason_ == 0 && !file_.write(bytes)) reason_ = errno;
+    return reason_ == 0;
+  }
+
   Descriptor& file_;
   std::array<char, 65536> room_;
   off_type begin_ = 0;  // of the bytes that wait, in the file
+  int reason_ = 0;
 };
 
 /// Whether the process that writes a temporary file still lives: its number is the end of the name.
@@ -126,12 +135,17 @@ NewFile::NewFile(const std::filesystem::path& path, const std::function<void(std
   try {
     write(out);
   } catch (const std::ios_base::failure&) {  // from writers that want to hear of it at once
+    errno = buffer.reason();
     fail("write the file");
   } catch (...) {
     remove();
     throw;
   }
-  if (!out.flush() || !file.sync() || !file.close()) fail("write the file");
+  if (!out.flush()) {
+    errno = buffer.reason();
+    fail("write the file");
+  }
+  if (!file.sync() || !file.close()) fail("write the file");
 }
 
 NewFile::~NewFile() {

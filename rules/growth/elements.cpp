@@ -113,7 +113,8 @@ std::vector<sim::ProposedElement> proposeElements(const sim::SiteView& view, con
   Voxels own = segment, tiled;
   std::sort(own.begin(), own.end(), before);
   const sim::Vec3 stem = glm::normalize(to_vx - around.at_vx);
-  sim::Nearby nearby;  // what stands, and elements of this very proposal
+  thread_local sim::Nearby nearby;  // what stands, and elements of this very proposal; it keeps its memory
+  nearby.clear();
   if (!rules.elements.empty())
     view.pieces.gather(reachOf(view, rules, senses.vigour, first_shape, around.at_vx, to_vx), 0, -1, nearby);
   sim::Facets facets;

@@ -25,13 +25,14 @@ std::uint64_t bytesThatHoldAnything(std::uint64_t word) {
   return ((word & 0x0101010101010101u) * 0x0102040810204080u) >> 56;
 }
 
-/// Calls visit(brick) for each brick that holds anything.
-template <typename Visit>
-void forEachFilled(const BitVolume& occupied, const Visit& visit) {
+/// The bricks that hold anything, by their y.
+std::vector<std::vector<Voxel>> filledBricks(const BitVolume& occupied) {
   const Voxel size = occupied.size();
   const auto words = static_cast<std::size_t>(occupied.rowWords() - 1);
-  std::vector<std::uint64_t> united(words);
-  for (int y = 0; y * kSide < size.y; ++y) {
+  std::vector<std::vector<Voxel>> filled(static_cast<std::size_t>((size.y + kSide - 1) / kSide));
+  parallelForEach(filled.size(), [&](std::size_t slab) {
+    const int y = static_cast<int>(slab);
+    std::vector<std::uint64_t> united(words);
     for (int z = 0; z * kSide < size.z; ++z) {
       std::fill(united.begin(), united.end(), 0);
       for (int dy = kSide * y; dy < std::min(size.y, kSide * (y + 1)); ++dy) {
@@ -42,10 +43,11 @@ void forEachFilled(const BitVolume& occupied, const Visit& visit) {
       }
       for (std::size_t w = 0; w < words; ++w) {
         for (std::uint64_t bricks = bytesThatHoldAnything(united[w]); bricks != 0; bricks &= bricks - 1)
-          visit(Voxel(static_cast<int>(8 * w) + std::countr_zero(bricks), y, z));
+          filled[slab].emplace_back(static_cast<int>(8 * w) + std::countr_zero(bricks), y, z);
       }
     }
-  }
+  });
+  return filled;
 }
 
 /// How often bricks are to be halved in number along each axis until a row along the shortest fits into a
@@ -60,13 +62,14 @@ int halvings(Voxel bricks) {
   }
 }
 
-/// Bricks' bits so that all bricks of a row along the world's shortest axis lie in one lane, and lanes lie
-/// densely: a step along that axis is a shift, one along the others a step in memory.
+/// Bricks' bits so that all bricks of a row along the world's shortest axis lie in one lane, and the lanes of
+/// a line side by side: a step along that axis is a shift, one along the others a step in memory.
 struct Layout {
-  int lane, row, column;   // axes: bits of a lane, lanes of a line, lines
+  int lane, column, row;   // axes: bits of a lane, lines, lanes of a line
   std::size_t lane_bytes;  // 1, 2, 4 or 8
   int lanes, lines;
-  std::size_t line_bytes;  // whole words, and one more
+  std::size_t bytes;    // of a line, in whole words
+  std::size_t between;  // zeros between the lines of what is read: a step may lead as far
 
   explicit Layout(Voxel bricks) {
     std::array<int, 3> axes{0, 1, 2};
@@ -74,49 +77,99 @@ struct Layout {
     lane = axes[0], column = axes[1], row = axes[2];
     lane_bytes = std::bit_ceil((static_cast<std::size_t>(bricks[lane]) + 7) / 8);
     lanes = bricks[row], lines = bricks[column];
-    line_bytes = (static_cast<std::size_t>(lanes) * lane_bytes + 15) / 8 * 8;
+    bytes = (static_cast<std::size_t>(lanes) * lane_bytes + 7) / 8 * 8;
+    between = bytes + looking::kMostBytesAtOnce;
   }
-  std::size_t bytes() const { return static_cast<std::size_t>(lines) * line_bytes; }
-  std::size_t byteOf(Voxel brick) const {
-    return static_cast<std::size_t>(brick[column]) * line_bytes +
-           static_cast<std::size_t>(brick[row]) * lane_bytes;
+  std::size_t allBytes() const { return static_cast<std::size_t>(lines) * bytes; }
+  std::size_t apart() const { return bytes + between; }  // of lines that are read
+
+  looking::Step step(Voxel o) const {
+    const std::size_t bits = 8 * lane_bytes;
+    const std::uint64_t whole = bits == 64 ? ~std::uint64_t{0} : (std::uint64_t{1} << bits) - 1;
+    const std::uint64_t kept = o[lane] >= 0 ? whole >> o[lane] : (whole << -o[lane]) & whole;
+    std::uint64_t mask = 0;
+    for (std::size_t at = 0; at < 64; at += bits) mask |= kept << at;
+    return {o[column],
+            static_cast<std::ptrdiff_t>(o[column]) * static_cast<std::ptrdiff_t>(apart()) +
+                static_cast<std::ptrdiff_t>(o[row]) * static_cast<std::ptrdiff_t>(lane_bytes),
+            o[lane], mask};
   }
 };
 
-using Plane = std::vector<std::uint8_t>;
+using Plane = std::vector<std::uint8_t>;  // a bit for each brick
 
-std::uint64_t load(const std::uint8_t* from) {
+/// Lines with zeros before, between and behind them.
+class ReadPlane {
+ public:
+  explicit ReadPlane(const Layout& layout)
+      : layout_(layout), bytes_(layout.between + static_cast<std::size_t>(layout.lines) * layout.apart()) {}
+
+  void set(Voxel brick) {
+    const auto bit = static_cast<std::size_t>(brick[layout_.lane]);
+    std::uint8_t& byte =
+        bytes_[layout_.between + static_cast<std::size_t>(brick[layout_.column]) * layout_.apart() +
+               static_cast<std::size_t>(brick[layout_.row]) * layout_.lane_bytes + bit / 8];
+    byte = static_cast<std::uint8_t>(byte | (1u << (bit % 8)));
+  }
+  /// For each brick, whether any is set at one of the steps from it.
+  void unite(std::span<const looking::Step> steps, Plane& into) const {
+    into.resize(layout_.allBytes() + looking::kMostBytesAtOnce);
+    looking::uniteSteps(into.data(), layout_.bytes, bytes_.data() + layout_.between, layout_.apart(),
+                        layout_.lines, layout_.bytes, steps);
+  }
+  /// Takes over what lies in the lines of a plane.
+  void take(const Plane& plane) {
+    for (std::size_t line = 0; line < static_cast<std::size_t>(layout_.lines); ++line) {
+      std::copy_n(plane.begin() + static_cast<std::ptrdiff_t>(line * layout_.bytes),
+                  static_cast<std::size_t>(layout_.lanes) * layout_.lane_bytes,
+                  bytes_.begin() + static_cast<std::ptrdiff_t>(layout_.between + line * layout_.apart()));
+    }
+  }
+
+ private:
+  Layout layout_;
+  std::vector<std::uint8_t> bytes_;
+};
+
+/// Where a brick's low corner comes to lie while it moves along v, up to the edge of the world; nearer ones
+/// first.
+std::vector<looking::Step> wayOf(const Layout& layout, Voxel size, Voxel v) {
+  const Voxel way = glm::abs(v), sign = glm::sign(v);
+  std::vector<looking::Step> steps;
+  for (Voxel o(0); o.x < size.x && o.y < size.y && o.z < size.z;) {
+    steps.push_back(layout.step(o * sign));
+    int next = -1;  // the axis along which the next plane between bricks is met: the least (o + 1) / v
+    for (int axis = 0; axis < 3; ++axis) {
+      if (way[axis] != 0 && (next < 0 || (o[axis] + 1) * way[next] < (o[next] + 1) * way[axis])) next = axis;
+    }
+    const int planes = o[next] + 1, length = way[next];
+    for (int axis = 0; axis < 3; ++axis) {
+      if (way[axis] != 0 && (o[axis] + 1) * length == planes * way[axis]) ++o[axis];
+    }
+  }
+  return steps;
+}
+
+/// The bricks that a brick overlaps at once on its way, from the one that holds its low corner on.
+std::vector<looking::Step> overlapped(const Layout& layout, Voxel sign) {
+  std::vector<looking::Step> steps;
+  for (const bool across : {false, true}) {  // those in the same line first
+    if (across && sign[layout.column] == 0) break;
+    for (int corner = 0; corner < 4; ++corner) {
+      Voxel o(0);
+      if (across) o[layout.column] = sign[layout.column];
+      if ((corner & 1) != 0) o[layout.lane] = sign[layout.lane];
+      if ((corner & 2) != 0) o[layout.row] = sign[layout.row];
+      steps.push_back(layout.step(o));
+    }
+  }
+  return steps;
+}
+
+std::uint64_t wordAt(const Plane& plane, std::size_t byte) {
   std::uint64_t word;
-  std::memcpy(&word, from, 8);
+  std::memcpy(&word, plane.data() + byte, sizeof(word));
   return word;
-}
-
-/// The bits of a word's lanes that a shift of `by` leaves in their lane.
-std::uint64_t kept(std::size_t lane_bytes, int by) {
-  const std::size_t bits = 8 * lane_bytes;
-  const std::uint64_t lane = bits == 64 ? ~std::uint64_t{0} : (std::uint64_t{1} << bits) - 1;
-  const std::uint64_t mask = by >= 0 ? lane >> by : (lane << -by) & lane;
-  std::uint64_t all = 0;
-  for (std::size_t at = 0; at < 64; at += bits) all |= mask << at;
-  return all;
-}
-
-/// into(b) |= from(b + step).
-void unite(const Layout& layout, const Plane& from, Voxel step, Plane& into) {
-  const int by = step[layout.lane];
-  if (std::abs(by) >= static_cast<int>(8 * layout.lane_bytes)) return;
-  const std::uint64_t mask = kept(layout.lane_bytes, by);
-  const int along = step[layout.row], across = step[layout.column];
-  const int lanes = layout.lanes - std::abs(along), lines = layout.lines - std::abs(across);
-  if (lanes <= 0 || lines <= 0) return;
-  const auto at = [&](int line, int lane) {
-    return static_cast<std::size_t>(std::max(0, line)) * layout.line_bytes +
-           static_cast<std::size_t>(std::max(0, lane)) * layout.lane_bytes;
-  };
-  looking::uniteShifted(into.data() + at(-across, -along), from.data() + at(across, along),
-                        {static_cast<std::size_t>(lines), static_cast<std::size_t>(lanes) * layout.lane_bytes,
-                         layout.line_bytes},
-                        by, mask);
 }
 
 }  // namespace
@@ -125,61 +178,38 @@ ClearBricks::ClearBricks(const BitVolume& occupied, std::span<const LatticeDirec
     : size_(occupied.size()), bricks_((size_ + (kSide - 1)) / kSide), coarser_(halvings(bricks_)) {
   const Voxel size = ((bricks_ - 1) >> Voxel(coarser_)) + 1;
   const Layout layout(size);
-  for (int axis = 0; axis < 3; ++axis) {
-    Voxel one(0);
-    one[axis] = 1;
-    step_[static_cast<std::size_t>(axis)] = axis == layout.lane ? 1 : 8 * layout.byteOf(one);
+  step_[static_cast<std::size_t>(layout.lane)] = 1;
+  step_[static_cast<std::size_t>(layout.row)] = 8 * layout.lane_bytes;
+  step_[static_cast<std::size_t>(layout.column)] = 8 * layout.bytes;
+  ReadPlane filled(layout);
+  for (const auto& slab : filledBricks(occupied)) {
+    for (const Voxel brick : slab) filled.set(brick >> Voxel(coarser_));
   }
-  Plane filled(layout.bytes() + 8);
-  forEachFilled(occupied, [&](Voxel brick) {
-    const Voxel judged = brick >> Voxel(coarser_);
-    const auto bit = static_cast<std::size_t>(judged[layout.lane]);
-    std::uint8_t& byte = filled[layout.byteOf(judged) + bit / 8];
-    byte = static_cast<std::uint8_t>(byte | (1u << (bit % 8)));
-  });
-  // A brick on its way overlaps up to eight others at once: those from the one that holds its low corner on.
-  std::map<std::tuple<int, int, int>, Plane> ahead;
-  const auto sign = [](Voxel v) { return glm::sign(v); };
+  std::map<std::tuple<int, int, int>, ReadPlane> met;  // by a brick whose low corner lies here, by v's signs
   for (const LatticeDirection& direction : directions) {
-    const Voxel s = sign(direction.v);
-    const auto [at, is_new] = ahead.try_emplace({s.x, s.y, s.z}, filled);
+    const Voxel sign = glm::sign(direction.v);
+    const auto [at, is_new] = met.try_emplace({sign.x, sign.y, sign.z}, layout);
     if (!is_new) continue;
-    for (int axis = 0; axis < 3; ++axis) {
-      Voxel step(0);
-      step[axis] = s[axis];
-      const Plane before = at->second;
-      if (s[axis] != 0) unite(layout, before, step, at->second);
-    }
+    Plane plane;
+    filled.unite(overlapped(layout, sign), plane);
+    at->second.take(plane);
   }
-  rows_.resize(kWords * 8 * layout.bytes(), ~std::uint64_t{0});
-  const std::size_t groups = (directions.size() + 63) / 64;
-  parallelForEach(groups, [&](std::size_t group) {
+  rows_.resize(kWords * 8 * layout.allBytes(), ~std::uint64_t{0});
+  parallelForEach((directions.size() + 63) / 64, [&](std::size_t column) {
     const auto mine =
-        directions.subspan(64 * group, std::min<std::size_t>(64, directions.size() - 64 * group));
-    std::vector<Plane> blocked(mine.size(), Plane(layout.bytes() + 8));
+        directions.subspan(64 * column, std::min<std::size_t>(64, directions.size() - 64 * column));
+    std::vector<Plane> blocked(mine.size());
     for (std::size_t i = 0; i < mine.size(); ++i) {
-      const Voxel v = glm::abs(mine[i].v), s = sign(mine[i].v);
-      const Plane& from = ahead.at({s.x, s.y, s.z});
-      for (Voxel o(0); o.x < size.x && o.y < size.y && o.z < size.z;) {
-        unite(layout, from, o * s, blocked[i]);
-        // The next plane between bricks: the least (o + 1) / v.
-        int next = -1;
-        for (int axis = 0; axis < 3; ++axis) {
-          if (v[axis] != 0 && (next < 0 || (o[axis] + 1) * v[next] < (o[next] + 1) * v[axis])) next = axis;
-        }
-        const int time = o[next] + 1, length = v[next];
-        for (int axis = 0; axis < 3; ++axis) {
-          if (v[axis] != 0 && (o[axis] + 1) * length == time * v[axis]) ++o[axis];
-        }
-      }
+      const Voxel v = mine[i].v, sign = glm::sign(v);
+      met.at({sign.x, sign.y, sign.z}).unite(wayOf(layout, size, v), blocked[i]);
     }
-    for (std::size_t byte = 0; byte < layout.bytes(); byte += 8) {
+    for (std::size_t byte = 0; byte < layout.allBytes(); byte += 8) {
       std::array<std::uint64_t, 64> square{};
       std::uint64_t any = 0;
-      for (std::size_t i = 0; i < mine.size(); ++i) any |= square[i] = load(blocked[i].data() + byte);
+      for (std::size_t i = 0; i < mine.size(); ++i) any |= square[i] = wordAt(blocked[i], byte);
       if (any == 0) continue;
       lanes::transpose(square.data());
-      for (std::size_t bit = 0; bit < 64; ++bit) rows_[kWords * (8 * byte + bit) + group] = ~square[bit];
+      for (std::size_t bit = 0; bit < 64; ++bit) rows_[kWords * (8 * byte + bit) + column] = ~square[bit];
     }
   });
 }

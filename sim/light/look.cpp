@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <bit>
-#include <cstring>
 #include <limits>
 
 // Vectors whose length is known when compiling: they are kept in arrays.
@@ -237,27 +236,54 @@ void SumRows(const float* rows, std::size_t apart, std::span<const std::uint32_t
   }
 }
 
-template <typename Shifted>
-HWY_INLINE void uniteLines(std::uint8_t* target, const std::uint8_t* source, Lines lines,
-                           const Shifted& shifted) {
-  for (std::size_t line = 0; line < lines.count; ++line, target += lines.apart, source += lines.apart) {
-    for (std::size_t i = 0; i < lines.bytes; i += 8) {
-      std::uint64_t from, to;
-      std::memcpy(&from, source + i, 8);
-      std::memcpy(&to, target + i, 8);
-      to |= shifted(from);
-      std::memcpy(target + i, &to, 8);
+using Line = hn::ScalableTag<std::uint64_t>;  // words that lie at any byte
+
+HWY_INLINE hn::Vec<Line> wordsAt(const std::uint8_t* bytes) {
+#if HWY_TARGET == HWY_SCALAR
+  std::uint64_t word;
+  hwy::CopyBytes<sizeof(word)>(bytes, &word);
+  return hn::Set(Line(), word);
+#else
+  return hn::BitCast(Line(), hn::LoadU(hn::Repartition<std::uint8_t, Line>(), bytes));
+#endif
+}
+
+HWY_INLINE void putWords(hn::Vec<Line> words, std::uint8_t* bytes) {
+#if HWY_TARGET == HWY_SCALAR
+  const std::uint64_t word = hn::GetLane(words);
+  hwy::CopyBytes<sizeof(word)>(&word, bytes);
+#else
+  const hn::Repartition<std::uint8_t, Line> d;
+  hn::StoreU(hn::BitCast(d, words), d, bytes);
+#endif
+}
+
+template <bool kDown>
+HWY_INLINE void uniteLine(std::uint8_t* target, const std::uint8_t* source, std::size_t bytes,
+                          std::span<const Step> steps) {
+  const Line d;
+  constexpr std::size_t kBytes = HWY_LANES(std::uint64_t) * sizeof(std::uint64_t);
+  static_assert(kBytes <= kMostBytesAtOnce);
+  for (std::size_t at = 0; at < bytes; at += kBytes) {
+    auto all = hn::Zero(d);
+    for (const Step& step : steps) {
+      const auto read = wordsAt(source + step.bytes + static_cast<std::ptrdiff_t>(at));
+      const auto shifted = kDown ? hn::ShiftRightSame(read, step.down) : hn::ShiftLeftSame(read, -step.down);
+      all = hn::Or(all, hn::And(shifted, hn::Set(d, step.mask)));
     }
+    putWords(all, target + at);
   }
 }
 
-void UniteShifted(std::uint8_t* target, const std::uint8_t* source, Lines lines, int by, std::uint64_t mask) {
-  if (by >= 0) {
-    uniteLines(target, source, lines,
-               [by, mask](std::uint64_t word) HWY_ATTR { return (word >> by) & mask; });
-  } else {
-    uniteLines(target, source, lines,
-               [by, mask](std::uint64_t word) HWY_ATTR { return (word << -by) & mask; });
+void UniteSteps(std::uint8_t* target, std::size_t target_apart, const std::uint8_t* source,
+                std::size_t source_apart, int lines, std::size_t bytes, std::span<const Step> steps) {
+  const bool down = std::all_of(steps.begin(), steps.end(), [](const Step& step) { return step.down >= 0; });
+  for (int line = 0; line < lines; ++line, target += target_apart, source += source_apart) {
+    std::size_t inside = 0;
+    while (inside < steps.size() && line + steps[inside].lines >= 0 && line + steps[inside].lines < lines)
+      ++inside;
+    down ? uniteLine<true>(target, source, bytes, steps.first(inside))
+         : uniteLine<false>(target, source, bytes, steps.first(inside));
   }
 }
 
@@ -268,7 +294,7 @@ HWY_AFTER_NAMESPACE();
 namespace espalier::sim::looking {
 
 HWY_EXPORT(Look);
-HWY_EXPORT(UniteShifted);
+HWY_EXPORT(UniteSteps);
 HWY_EXPORT(SumRows);
 
 void look(const BitVolume& occupied, const Group& group, const ClearBricks& clear,
@@ -276,8 +302,9 @@ void look(const BitVolume& occupied, const Group& group, const ClearBricks& clea
   HWY_DYNAMIC_DISPATCH(Look)(occupied, group, clear, places, open, stride);
 }
 
-void uniteShifted(std::uint8_t* target, const std::uint8_t* source, Lines lines, int by, std::uint64_t mask) {
-  HWY_DYNAMIC_DISPATCH(UniteShifted)(target, source, lines, by, mask);
+void uniteSteps(std::uint8_t* target, std::size_t target_apart, const std::uint8_t* source,
+                std::size_t source_apart, int lines, std::size_t bytes, std::span<const Step> steps) {
+  HWY_DYNAMIC_DISPATCH(UniteSteps)(target, target_apart, source, source_apart, lines, bytes, steps);
 }
 
 void sumRows(const float* rows, std::size_t apart, std::span<const std::uint32_t> chosen, float* sums) {

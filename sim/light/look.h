@@ -16,7 +16,7 @@ inline constexpr int kNear = 6;  ///< voxels to each side that are looked at for
 /// A row of them is read by four voxels.
 inline constexpr std::size_t kFours = (2 * kNear + 4) / 4;
 /// Beyond what is near, a ray's steps are tested leg by leg: how many there are up to the end of each.
-inline constexpr std::array<std::size_t, 5> kLegs{0, 8, 16, 32, 56};
+inline constexpr std::array<std::size_t, 4> kLegs{0, 16, 32, 56};
 inline constexpr std::size_t kSteps = kLegs.back();
 inline constexpr std::size_t kAtOnce = 8;                          ///< steps that are read together
 inline constexpr int kFar = kNear + 1 + static_cast<int>(kSteps);  ///< no step lies farther away
@@ -58,14 +58,21 @@ struct Group {
 void look(const BitVolume& occupied, const Group& group, const ClearBricks& clear,
           std::span<const Voxel> places, std::uint64_t* open, std::size_t stride);
 
-/// Lines of bytes, `apart` from one to the next, of which `bytes` are meant.
-struct Lines {
-  std::size_t count, bytes, apart;
+/// Bits in lines of bytes, all of which are to be read at a step from where they are wanted.
+struct Step {
+  int lines;
+  std::ptrdiff_t bytes;  ///< in all, those of the lines too
+  int down;              ///< bits by which words are shifted: up if negative, and then in every step
+  std::uint64_t mask;    ///< of a word's bits after the shift
 };
+inline constexpr std::size_t kMostBytesAtOnce = 64;
 
-/// target |= source, each word shifted down by 0 <= `by` < 64 (up by -by) and masked. Reads and writes whole
-/// words.
-void uniteShifted(std::uint8_t* target, const std::uint8_t* source, Lines lines, int by, std::uint64_t mask);
+/// Each of `lines` lines of `bytes` bytes of target becomes the union of what the steps read from it. A step
+/// that leads to no line of the source reads nothing; the farther ones come last. Other reads lie up to
+/// `bytes` + kMostBytesAtOnce before or behind their line. Up to kMostBytesAtOnce behind a line are
+/// overwritten, before the next line is.
+void uniteSteps(std::uint8_t* target, std::size_t target_apart, const std::uint8_t* source,
+                std::size_t source_apart, int lines, std::size_t bytes, std::span<const Step> steps);
 
 /// Rows of floats are as long as a multiple of this.
 inline constexpr std::size_t kRowUnit = 128;

@@ -103,12 +103,17 @@ bool overlap(const Triangle<Int>& a, const Triangle<Int>& b, int axis) {
 }
 
 template <typename Int>
-bool crossAbout(LatticePoint origin, const LatticeTriangle& first, const LatticeTriangle& second) {
+Point<Int> normalOf(const LatticeTriangle& t) {
+  const Triangle<Int> at = about<Int>(t[0], t);
+  return cross(at[1], at[2]);
+}
+
+template <typename Int>
+bool crossAbout(LatticePoint origin, const LatticeTriangle& first, const Point<Int>& normal_a,
+                const LatticeTriangle& second, const Point<Int>& normal_b) {
   Triangle<Int> a = about<Int>(origin, first), b = about<Int>(origin, second);
-  const Point<Int> normal_b = cross(b[1] - b[0], b[2] - b[0]);
   const Sides a_of_b = sidesOf(normal_b, b[0], a);
   if (a_of_b.apart() && !a_of_b.flat()) return false;
-  const Point<Int> normal_a = cross(a[1] - a[0], a[2] - a[0]);
   const Sides b_of_a = sidesOf(normal_a, a[0], b);
   if (b_of_a.apart() && !b_of_a.flat()) return false;
   const auto area = [](const Point<Int>& n) { return n.x != 0 || n.y != 0 || n.z != 0; };
@@ -138,14 +143,14 @@ bool piercesAbout(LatticePoint origin, LatticePoint from, LatticePoint to, const
   return (s0 >= 0 && s1 >= 0 && s2 >= 0) || (s0 <= 0 && s1 <= 0 && s2 <= 0);
 }
 
-/// Whether 64 bits hold every product: with an extent E a volume's reach 6 E^3.
-bool small(const LatticeBox& a, const LatticeBox& b) {
-  constexpr int kExtent = 1 << 20;  // 256 voxels
+}  // namespace
+
+bool near(const LatticeBox& a, const LatticeBox& b) {
+  // With an extent E the products of a volume reach 6 E^3, which 64 bits hold.
+  constexpr int kExtent = 1 << 20;
   const LatticePoint span = glm::max(a.high, b.high) - glm::min(a.low, b.low);
   return std::max({span.x, span.y, span.z}) < kExtent;
 }
-
-}  // namespace
 
 LatticePoint latticePoint(Vec3 p_vx) {
   return LatticePoint(fixedFromVoxel(p_vx));
@@ -154,14 +159,26 @@ LatticePoint latticePoint(Vec3 p_vx) {
 bool cross(const LatticeTriangle& a, const LatticeTriangle& b) {
   const LatticeBox box_a = boxOf(a), box_b = boxOf(b);
   if (!meet(box_a, box_b)) return false;
-  return small(box_a, box_b) ? crossAbout<std::int64_t>(b[0], a, b) : crossAbout<Int128>(b[0], a, b);
+  if (near(box_a, box_b)) return crossNear(a, normalOf(a), b, normalOf(b));
+  return crossAbout<Int128>(b[0], a, normalOf<Int128>(a), b, normalOf<Int128>(b));
+}
+
+glm::i64vec3 normalOf(const LatticeTriangle& triangle) {
+  const Point<std::int64_t> normal = normalOf<std::int64_t>(triangle);
+  return {normal.x, normal.y, normal.z};
+}
+
+bool crossNear(const LatticeTriangle& a, const glm::i64vec3& normal_a, const LatticeTriangle& b,
+               const glm::i64vec3& normal_b) {
+  return crossAbout<std::int64_t>(b[0], a, {normal_a.x, normal_a.y, normal_a.z}, b,
+                                  {normal_b.x, normal_b.y, normal_b.z});
 }
 
 bool pierces(LatticePoint from, LatticePoint to, const LatticeTriangle& triangle) {
   const LatticeBox line = boxOf(from, to), box = boxOf(triangle);
   if (!meet(line, box)) return false;
-  return small(line, box) ? piercesAbout<std::int64_t>(triangle[0], from, to, triangle)
-                          : piercesAbout<Int128>(triangle[0], from, to, triangle);
+  return near(line, box) ? piercesAbout<std::int64_t>(triangle[0], from, to, triangle)
+                         : piercesAbout<Int128>(triangle[0], from, to, triangle);
 }
 
 }  // namespace espalier::sim

@@ -1,7 +1,7 @@
 #pragma once
 #include <array>
-
 #include <glm/common.hpp>
+
 #include "sim/base/vec.h"
 
 /// Whether triangles and straight lines cross. Points lie on tiling's lattice (sim/tile/tiling.h: 1/4096 of a
@@ -35,6 +35,14 @@ LatticePoint latticePoint(Vec3 p_vx);
 /// that only touch, at a corner or with an edge from one side, do not; a triangle without area crosses
 /// nothing. (Orientations alone, after Guigue and Devillers 2003.)
 bool cross(const LatticeTriangle& a, const LatticeTriangle& b);
+
+/// Whether two boxes lie within 256 voxel widths together.
+bool near(const LatticeBox& a, const LatticeBox& b);
+/// cross(b - a, c - a) of a triangle's corners; it must lie within 256 voxel widths.
+glm::i64vec3 normalOf(const LatticeTriangle& triangle);
+/// The same as cross, of triangles that are near, with their normals.
+bool crossNear(const LatticeTriangle& a, const glm::i64vec3& normal_a, const LatticeTriangle& b,
+               const glm::i64vec3& normal_b);
 
 /// Whether a straight line pierces a triangle: its ends lie on different sides of the plane, and it passes
 /// the triangle's inside or its edge. An end in the plane counts as lying behind it, so that of the limbs of

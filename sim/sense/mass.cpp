@@ -24,11 +24,14 @@ std::int64_t sumOfPlaces(std::uint64_t word) {
 class BitCounts {
  public:
   void add(std::uint64_t word) {
-    for (std::size_t k = 0; word != 0; ++k) {
-      const std::uint64_t carry = planes_[k] & word;
-      planes_[k] ^= word;
-      word = carry;
-    }
+    std::size_t k = 0;
+    const auto carry = [&] {
+      const std::uint64_t both = planes_[k] & word;
+      planes_[k++] ^= word;
+      word = both;
+    };
+    for (int always = 0; always < 4; ++always) carry();  // seldom is anything left after these
+    while (word != 0) carry();
   }
   /// Of all bits that came.
   std::int64_t sumOfPlaces() const {

@@ -59,6 +59,9 @@ Nearby::Slab Nearby::slabOf(std::span<const Facet> facets) {
   return slab;
 }
 
+Nearby::Facet::Facet(const LatticeBox& box, const LatticeTriangle& t)
+    : bounds(box), corners(t), normal(near(box, box) ? normalOf(t) : glm::i64vec3(0)) {}
+
 void Nearby::clear() {
   limb_bounds_.clear();
   limbs_.clear();
@@ -73,7 +76,7 @@ void Nearby::add(const Facets& element) {
   body.first = static_cast<std::uint32_t>(facets_.size());
   for (std::size_t i = 0; i < element.shape->triangles.size(); ++i) {
     const LatticeTriangle corners = triangleOf(element, i);
-    facets_.push_back({Bounds(boxOf(corners)), corners});
+    facets_.emplace_back(boxOf(corners), corners);
   }
   body.last = static_cast<std::uint32_t>(facets_.size());
   body.slab = slabOf(std::span(facets_).subspan(body.first));
@@ -89,13 +92,16 @@ void Nearby::open(Body& body) {
   body.slab = slabOf(std::span(facets_).subspan(body.first));
 }
 
-/// Whether the element that is asked of crosses one that is open.
-bool Nearby::cross(const Body& body) const {
+/// Whether the element that is asked of crosses one that is open; both may be near each other.
+bool Nearby::cross(const Body& body, bool near) const {
   const auto facets = std::span(facets_).subspan(body.first, body.last - body.first);
   if (apart(asked_slab_, facets) || apart(body.slab, asked_)) return false;
   for (const Facet& mine : asked_) {
     for (const Facet& other : facets) {
-      if (!apart(mine.bounds, other.bounds) && sim::cross(mine.corners, other.corners)) return true;
+      if (apart(mine.bounds, other.bounds)) continue;
+      if (near ? crossNear(mine.corners, mine.normal, other.corners, other.normal)
+               : sim::cross(mine.corners, other.corners))
+        return true;
     }
   }
   return false;
@@ -117,12 +123,13 @@ bool Nearby::clash(const Facets& element, const Attachment& attachment) {
     if (asked_.empty()) {
       for (std::size_t k = 0; k < facets; ++k) {
         const LatticeTriangle corners = triangleOf(element, k);
-        asked_.push_back({Bounds(boxOf(corners)), corners});
+        asked_.emplace_back(boxOf(corners), corners);
       }
       asked_slab_ = slabOf(asked_);
     }
     open(bodies_[i]);
-    if (!cross(bodies_[i])) continue;
+    const LatticeBox other{body_bounds_[i].low, body_bounds_[i].high};
+    if (!cross(bodies_[i], near(element.box, other))) continue;
     // What is in the way once is likely to be so again: it is asked first.
     std::swap(bodies_[i], bodies_[i / 2]);
     std::swap(body_bounds_[i], body_bounds_[i / 2]);

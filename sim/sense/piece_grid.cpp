@@ -192,7 +192,7 @@ void PieceGrid::unpack(std::uint32_t number, std::vector<Nearby::Facet>& facets)
   };
   for (const auto& t : shape.triangles) {
     const LatticeTriangle corners = {corner(t[0]), corner(t[1]), corner(t[2])};
-    facets.push_back({Nearby::Bounds(boxOf(corners)), corners});
+    facets.emplace_back(boxOf(corners), corners);
   }
 }
 

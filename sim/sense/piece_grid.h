@@ -66,8 +66,10 @@ class Nearby {
     alignas(16) glm::ivec4 high{0};
   };
   struct Facet {
+    Facet(const LatticeBox& box, const LatticeTriangle& t);
     Bounds bounds;
     LatticeTriangle corners;
+    glm::i64vec3 normal;
   };
   // All corners lie between two planes.
   struct Slab {
@@ -84,7 +86,7 @@ class Nearby {
   static bool apart(const Slab& slab, std::span<const Facet> facets);
   static Slab slabOf(std::span<const Facet> facets);
   void open(Body& body);
-  bool cross(const Body& body) const;
+  bool cross(const Body& body, bool near) const;
 
   const PieceGrid* grid_ = nullptr;
   std::vector<Bounds> limb_bounds_;

@@ -17,7 +17,7 @@ inline rules::RuleSet lively() {
   rules::RuleSet rules;
   rules.name = "lively";
   rules.random_tree.wander_deg = 30.0;
-  rules.random_tree.trials_min = 8;
+  rules.random_tree.trials_min = 4;
   rules.random_tree.trials_max = 16;
   rules.bias.up = 0.08;
   rules.bias.gravity = 0.02;

@@ -56,7 +56,7 @@ TEST_F(SeedFailures, NothingIsSaidOfOneThatGrew) {
 }
 
 TEST_F(SeedFailures, TooFarNamesTheDistanceOfTheNearestWall) {
-  rules_.require.proximity_max_vx = 3.0;
+  rules_.require.proximity_max = {3.0};
   const SeedFailure failure = failureAt({20, 13, 37});
   EXPECT_EQ(failure.reason, Outcome::too_far);
   EXPECT_EQ(failure.region, "");  // beyond the boundary layers
@@ -67,7 +67,7 @@ TEST_F(SeedFailures, TooFarNamesTheDistanceOfTheNearestWall) {
   SeedFailure written_in_metres = failure;
   written_in_metres.sets.front().proximity_max.metres = true;
   EXPECT_EQ(startOf(whyItDidNotGrow(written_in_metres)),
-            "no trial stayed within 0.12 m of the scene: the nearest wall is 0.52 m away");
+            "no trial stayed within 12 cm of the scene: the nearest wall is 52 cm away");
   SeedFailure lost = failure;
   lost.wall_vx.reset();
   EXPECT_EQ(startOf(whyItDidNotGrow(lost)),
@@ -75,7 +75,7 @@ TEST_F(SeedFailures, TooFarNamesTheDistanceOfTheNearestWall) {
 }
 
 TEST_F(SeedFailures, TooNearNamesItToo) {
-  rules_.require.proximity_min_vx = 9.0;
+  rules_.require.proximity_min = {9.0};
   rules_.random_tree.length = {1.0};
   const SeedFailure failure = failureAt({20, 2, 30});
   EXPECT_EQ(failure.reason, Outcome::too_near);

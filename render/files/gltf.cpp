@@ -7,10 +7,13 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <functional>
+#include <initializer_list>
 #include <limits>
 #include <map>
 #include <span>
 #include <sstream>
+#include <string_view>
 
 #include "sim/base/error.h"
 
@@ -19,6 +22,9 @@ namespace {
 
 using Colour4 = std::array<std::uint8_t, 4>;
 constexpr std::uint32_t kUnused = std::numeric_limits<std::uint32_t>::max();
+
+// A .glb's header of three words, and that of a chunk of two.
+constexpr std::size_t kWord = 4, kHeader = 12, kChunkHeader = 8;
 
 constexpr double kStoneRoughness = 0.9, kLeafRoughness = 0.6;
 
@@ -44,22 +50,26 @@ tinygltf::Value extras(const sim::Provenance& made_by) {
                                                  {"inputs", tinygltf::Value(std::move(inputs))}});
 }
 
+/// Writes the buffer, and knows what the file says of it. Without a stream it measures alone.
 class GlbWriter {
  public:
-  explicit GlbWriter(const sim::Provenance& made_by) {
+  GlbWriter(const sim::Provenance& made_by, std::ostream* buffer) : buffer_(buffer) {
     model_.asset.version = "2.0";
     model_.asset.generator = made_by.software.empty() ? "Espalier" : validUtf8(made_by.software);
     if (!made_by.software.empty()) model_.asset.extras = extras(made_by);
-    model_.buffers.resize(1);
     model_.scenes.resize(1);
     model_.defaultScene = 0;
   }
 
   void addMesh(const sim::Mesh& mesh);
   void addPlant(const PlantModel& plant);
-  std::string bytes();
+  /// Fills the buffer up to whole words.
+  void finish() { align(); }
+  std::size_t bufferBytes() const { return bytes_; }
+  std::string json() const;
 
  private:
+  void align();
   template <class T>
   int accessor(std::span<const T> data, int component_type, int type, int target, bool normalized = false);
   int positions(std::span<const sim::Vec3f> data);
@@ -67,21 +77,29 @@ class GlbWriter {
   int node(const std::string& name, int mesh);
   int surface(const ModelMesh& mesh, const std::string& material_name, bool double_sided);
 
+  std::ostream* buffer_;
+  std::size_t bytes_ = 0;  // of the buffer
   tinygltf::Model model_;
   std::map<std::tuple<std::string, float, float, float, bool>, int> materials_;
 };
 
+void GlbWriter::align() {
+  for (; bytes_ % 4 != 0; ++bytes_) {
+    if (buffer_ != nullptr) buffer_->put('\0');
+  }
+}
+
 template <class T>
 int GlbWriter::accessor(std::span<const T> data, int component_type, int type, int target, bool normalized) {
-  std::vector<unsigned char>& bytes = model_.buffers[0].data;
-  bytes.resize((bytes.size() + 3) / 4 * 4, 0);  // glTF aligns every accessor to its component's size
+  align();  // glTF aligns every accessor to its component's size
   tinygltf::BufferView view;
   view.buffer = 0;
-  view.byteOffset = bytes.size();
+  view.byteOffset = bytes_;
   view.byteLength = data.size_bytes();
   view.target = target;
-  bytes.resize(bytes.size() + data.size_bytes());
-  std::memcpy(bytes.data() + view.byteOffset, data.data(), data.size_bytes());
+  if (buffer_ != nullptr)
+    buffer_->write(reinterpret_cast<const char*>(data.data()), static_cast<std::streamsize>(view.byteLength));
+  bytes_ += view.byteLength;
   model_.bufferViews.push_back(std::move(view));
 
   tinygltf::Accessor result;
@@ -219,26 +237,69 @@ void GlbWriter::addPlant(const PlantModel& plant) {
   model_.scenes[0].nodes.push_back(parent);
 }
 
-std::string GlbWriter::bytes() {
-  if (model_.nodes.empty()) {  // glTF forbids empty buffers and scenes of nothing
-    model_.buffers.clear();
-    model_.scenes.clear();
-    model_.defaultScene = -1;
+/// As tinygltf writes it, with our buffer for one of its own.
+std::string GlbWriter::json() const {
+  tinygltf::Model model = model_;
+  if (model.nodes.empty()) {  // glTF forbids empty buffers and scenes of nothing
+    model.scenes.clear();
+    model.defaultScene = -1;
+  } else {
+    model.buffers.resize(1);
+    model.buffers[0].data.resize(kWord);
   }
-  tinygltf::TinyGLTF writer;
   std::ostringstream out;
-  if (!writer.WriteGltfSceneToStream(&model_, out, false, true))
+  if (!tinygltf::TinyGLTF().WriteGltfSceneToStream(&model, out, false, true))
     throw sim::InputError("the glTF writer failed");
-  return std::move(out).str();
+  const std::string file = std::move(out).str();
+  std::uint32_t length = 0;
+  std::memcpy(&length, file.data() + kHeader, sizeof length);
+  auto json = nlohmann::json::parse(std::string_view(file).substr(kHeader + kChunkHeader, length));
+  if (!model.buffers.empty()) json["buffers"][0]["byteLength"] = bytes_;
+  return json.dump();
+}
+
+void putWords(std::ostream& out, std::initializer_list<std::size_t> words) {
+  for (const std::size_t word : words) {
+    for (unsigned byte = 0; byte < kWord; ++byte) out.put(static_cast<char>(word >> (8 * byte) & 0xffu));
+  }
 }
 
 }  // namespace
 
+void writeGlb(std::ostream& file, const std::vector<const sim::Mesh*>& meshes, const PlantModels& plants,
+              const sim::Provenance& made_by) {
+  const auto addAll = [&](GlbWriter& writer) {
+    for (const sim::Mesh* mesh : meshes) writer.addMesh(*mesh);
+    plants([&](const PlantModel& plant) { writer.addPlant(plant); });
+    writer.finish();
+  };
+  GlbWriter measured(made_by, nullptr);
+  addAll(measured);
+  std::string json = measured.json();
+  json.resize((json.size() + kWord - 1) / kWord * kWord, ' ');
+  const std::size_t buffer = measured.bufferBytes();
+  const std::size_t all = kHeader + kChunkHeader + json.size() + (buffer > 0 ? kChunkHeader + buffer : 0);
+  if (all > std::numeric_limits<std::uint32_t>::max()) {
+    throw sim::InputError(fmt::format("the plants' surfaces take {:.1f} GB; a .glb file holds at most 4",
+                                      static_cast<double>(all) / 1e9));
+  }
+  putWords(file, {0x46546c67, 2, all, json.size(), 0x4e4f534a});  // "glTF", its version; "JSON"
+  file << json;
+  if (buffer == 0) return;
+  putWords(file, {buffer, 0x004e4942});  // "BIN"
+  GlbWriter written(made_by, &file);
+  addAll(written);
+  if (written.bufferBytes() != buffer)
+    throw sim::BrokenContract("a plant's model was another the second time");
+}
+
 std::string glbBytes(const ModelScene& scene, const sim::Provenance& made_by) {
-  GlbWriter writer(made_by);
-  for (const sim::Mesh* mesh : scene.meshes) writer.addMesh(*mesh);
-  for (const PlantModel* plant : scene.plants) writer.addPlant(*plant);
-  return writer.bytes();
+  std::ostringstream out(std::ios::binary);
+  const auto plants = [&](const std::function<void(const PlantModel&)>& take) {
+    for (const PlantModel* plant : scene.plants) take(*plant);
+  };
+  writeGlb(out, scene.meshes, plants, made_by);
+  return std::move(out).str();
 }
 
 }  // namespace espalier::render

@@ -1,4 +1,6 @@
 #pragma once
+#include <functional>
+#include <iosfwd>
 #include <string>
 #include <vector>
 
@@ -14,11 +16,20 @@ struct ModelScene {
   std::vector<const PlantModel*> plants;
 };
 
+/// Hands models of plants over, one after the other, and the same ones whenever it is called. None needs to
+/// outlive the call that it is handed to.
+using PlantModels = std::function<void(const std::function<void(const PlantModel&)>& take)>;
+
 /// A glTF 2.0 binary (.glb): a node for each scene mesh and, under a node for each plant, one for its stems
 /// and one for each of its elements. Metres, y up. Materials carry the base colours (leaves are
 /// double-sided); COLOR_0 of a plant holds exposure as a grey value. Empty meshes are left out. The same
-/// scene gives the same bytes. Throws InputError when a mesh's index is out of range.
+/// scene gives the same bytes. Throws InputError when a mesh's index is out of range, and when the file would
+/// have 4 GB or more, which the format cannot hold.
 /// `made_by` goes into `asset`: the software as its generator, the rest as its extras.
+/// Asks for the models twice, and keeps none.
+void writeGlb(std::ostream& file, const std::vector<const sim::Mesh*>& meshes, const PlantModels& plants,
+              const sim::Provenance& made_by = {});
+/// The same in memory.
 std::string glbBytes(const ModelScene& scene, const sim::Provenance& made_by = {});
 
 }  // namespace espalier::render

@@ -11,8 +11,11 @@
 #include <bit>
 #include <concepts>
 #include <functional>
+#include <memory>
 #include <sstream>
+#include <string_view>
 
+#include "sim/base/byte_sink.h"
 #include "sim/base/error.h"
 #include "sim/world/world_grids.h"
 
@@ -37,22 +40,26 @@ void describe(openvdb::GridBase& grid, const About& about, const sim::Frame& fra
   grid.insertMeta("voxel_m", openvdb::DoubleMetadata(frame.voxel_m));
 }
 
-/// Shares the grid's tree but not its metadata.
-template <class Grid>
-typename Grid::Ptr shown(const typename Grid::Ptr& grid, const About& about, const sim::Frame& frame,
-                         openvdb::GridClass grid_class = openvdb::GRID_UNKNOWN) {
-  auto result = Grid::create(grid->treePtr());
-  result->setTransform(grid->transform().copy());
+/// A grid with this tree, in a world's place.
+template <class Tree>
+typename openvdb::Grid<Tree>::Ptr shown(const std::shared_ptr<Tree>& tree, const About& about,
+                                        const sim::World& world,
+                                        openvdb::GridClass grid_class = openvdb::GRID_UNKNOWN) {
+  auto result = openvdb::Grid<Tree>::create(tree);
+  result->setTransform(world.grids().part->transform().copy());
   result->setGridClass(grid_class);
-  describe(*result, about, frame);
+  describe(*result, about, world.frame());
   return result;
 }
 
-openvdb::FloatGrid::Ptr density(const sim::World::Grids& grids) {
-  auto tree = std::make_shared<openvdb::FloatTree>(grids.part->tree(), 0.0f, 1.0f, openvdb::TopologyCopy());
-  auto grid = openvdb::FloatGrid::create(tree);
-  grid->setTransform(grids.part->transform().copy());
-  return grid;
+/// The scene's voxels, and in the same tree the plants'.
+template <class Tree, class ValueOf>
+std::shared_ptr<Tree> withPlants(std::shared_ptr<Tree> scene, const sim::World& world, ValueOf valueOf) {
+  openvdb::tree::ValueAccessor<Tree> access(*scene);
+  world.grids().plants.forEach([&](sim::Voxel v, const sim::Surface& surface) {
+    access.setValueOn(sim::coordOf(v), valueOf(surface));
+  });
+  return scene;
 }
 
 constexpr int kLeafSide = 8;
@@ -161,23 +168,64 @@ openvdb::MetaMap aboutFile(const sim::World& world, const sim::Provenance& made_
   return file;
 }
 
-/// An id in the shape that OpenVDB expects (a version 8 UUID: its own scheme), from the bytes around it.
-void setId(std::string& bytes) {
-  bytes.replace(kIdAt, kIdLength, kIdLength, '0');
-  const XXH128_hash_t hash = XXH3_128bits(bytes.data(), bytes.size());
+/// An id in the shape that OpenVDB expects (a version 8 UUID: its own scheme).
+std::string idOf(XXH128_hash_t hash) {
   std::string hex = fmt::format("{:016x}{:016x}", hash.high64, hash.low64);
   hex[12] = '8';
   hex[16] = '8';
   for (const std::size_t at : {8u, 13u, 18u, 23u}) hex.insert(at, 1, '-');
-  bytes.replace(kIdAt, kIdLength, hex);
+  return hex;
 }
+
+/// Passes a file on with zeros for OpenVDB's random id, and puts one in its place that follows from all the
+/// bytes around it.
+class OwnId {
+ public:
+  explicit OwnId(std::ostream& file)
+      : file_(file),
+        begin_(file.tellp()),
+        hash_(XXH3_createState(), XXH3_freeState),
+        sink_([this](std::string_view bytes) { pass(bytes); }) {
+    XXH3_128bits_reset(hash_.get());
+  }
+
+  std::streambuf& sink() { return sink_; }
+  void finish() {
+    const auto end = file_.tellp();
+    file_.seekp(begin_ + static_cast<std::streamoff>(kIdAt));
+    file_ << idOf(XXH3_128bits_digest(hash_.get()));
+    file_.seekp(end);
+  }
+
+ private:
+  void pass(std::string_view bytes) {
+    std::string head;
+    if (passed_ < kIdAt + kIdLength) {
+      head = bytes;
+      for (std::size_t i = 0; i < head.size(); ++i) {
+        if (passed_ + i >= kIdAt && passed_ + i < kIdAt + kIdLength) head[i] = '0';
+      }
+      bytes = head;
+    }
+    XXH3_128bits_update(hash_.get(), bytes.data(), bytes.size());
+    file_.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+    passed_ += bytes.size();
+  }
+
+  std::ostream& file_;
+  std::ostream::pos_type begin_;
+  std::unique_ptr<XXH3_state_t, decltype(&XXH3_freeState)> hash_;
+  std::size_t passed_ = 0;
+  sim::ByteSink sink_;
+};
 
 /// Writes what openvdb::io::Stream would, but makes each grid only when its turn has come: of a large world
 /// no two of them need to be in memory.
 class Writer : public openvdb::io::Archive {
  public:
-  std::string bytes(const std::vector<MakeGrid>& grids, const openvdb::MetaMap& about) const {
-    std::ostringstream out(std::ios::binary);
+  void write(std::ostream& file, const std::vector<MakeGrid>& grids, const openvdb::MetaMap& about) const {
+    OwnId id(file);
+    std::ostream out(&id.sink());
     out.exceptions(std::ios::failbit | std::ios::badbit);
     writeHeader(out, false);
     about.writeMeta(out);
@@ -192,69 +240,89 @@ class Writer : public openvdb::io::Archive {
       writeGrid(descriptor, grid, out, false);
       openvdb::io::setDataCompression(out, compression());  // a grid's own settings end with it
     }
-    std::string bytes = std::move(out).str();
-    setId(bytes);
-    return bytes;
+    out.flush();
+    id.finish();
   }
 };
 
+std::string inMemory(const std::function<void(std::ostream&)>& write) {
+  std::ostringstream out(std::ios::binary);
+  write(out);
+  return std::move(out).str();
+}
+
 }  // namespace
 
-std::string vdbBytes(const sim::World& world, const std::vector<VdbField>& fields,
-                     const sim::Provenance& made_by) {
+void writeVdb(std::ostream& file, const sim::World& world, const std::vector<VdbField>& fields,
+              const sim::Provenance& made_by) {
   openvdb::initialize();
   using openvdb::FloatGrid, openvdb::Int32Grid, openvdb::Vec3SGrid;
   const sim::World::Grids& grids = world.grids();
-  const sim::Frame& frame = world.frame();
   const auto fog = openvdb::GRID_FOG_VOLUME;
 
   std::vector<MakeGrid> out;
   const auto add = [&](auto make) { out.emplace_back(make); };
   add([&] {
-    return shown<FloatGrid>(density(grids), {"density", "1 where a voxel is occupied", "1"}, frame, fog);
+    const auto scene =
+        std::make_shared<openvdb::FloatTree>(grids.part->tree(), 0.0f, 1.0f, openvdb::TopologyCopy());
+    return shown(withPlants(scene, world, [](const sim::Surface&) { return 1.0f; }),
+                 {"density", "1 where a voxel is occupied", "1"}, world, fog);
+  });
+  const auto addSurface = [&](const auto& grid, auto valueOf, const About& about, auto finish) {
+    using Tree = typename std::decay_t<decltype(*grid)>::TreeType;
+    add([&world, &grid, valueOf, about, finish] {
+      auto result = shown(withPlants(std::make_shared<Tree>(grid->tree()), world, valueOf), about, world);
+      finish(*result);
+      return result;
+    });
+  };
+  const auto nothing = [](openvdb::GridBase&) {};
+  addSurface(
+      grids.part, [](const sim::Surface& s) { return s.part; },
+      {"part", "number of the part that occupies a voxel, as listed in the file's metadata", "1"}, nothing);
+  addSurface(
+      grids.colour, [](const sim::Surface& s) { return toVdb(s.colour); },
+      {"colour", "mean surface colour, linear RGB", "1"}, nothing);
+  addSurface(
+      grids.coverage, [](const sim::Surface& s) { return s.coverage; },
+      {"coverage", "area inside a voxel over a face's area, 1 inside solids", "1"},
+      [fog](openvdb::GridBase& grid) { grid.setGridClass(fog); });
+  addSurface(
+      grids.normal, [](const sim::Surface& s) { return toVdb(s.normal); },
+      {"normal", "mean surface normal, zero where there is none", "1"},
+      [](openvdb::GridBase& grid) { grid.setVectorType(openvdb::VEC_COVARIANT_NORMALIZE); });
+  add([&] {
+    return shown(grids.layer->treePtr(),
+                 {"layer", "boundary layer: 0 on the scene, k voxels away from it in layer k", "1"}, world);
   });
   add([&] {
-    return shown<Int32Grid>(
-        grids.part,
-        {"part", "number of the part that occupies a voxel, as listed in the file's metadata", "1"}, frame);
+    return shown(grids.nearest->treePtr(), {"nearest", "part of the nearest scene voxel", "1"}, world);
   });
   add([&] {
-    return shown<Vec3SGrid>(grids.colour, {"colour", "mean surface colour, linear RGB", "1"}, frame);
-  });
-  add([&] {
-    return shown<FloatGrid>(grids.coverage,
-                            {"coverage", "area inside a voxel over a face's area, 1 inside solids", "1"},
-                            frame, fog);
-  });
-  add([&] {
-    auto normal = shown<Vec3SGrid>(grids.normal,
-                                   {"normal", "mean surface normal, zero where there is none", "1"}, frame);
-    normal->setVectorType(openvdb::VEC_COVARIANT_NORMALIZE);
-    return normal;
-  });
-  add([&] {
-    return shown<Int32Grid>(
-        grids.layer, {"layer", "boundary layer: 0 on the scene, k voxels away from it in layer k", "1"},
-        frame);
-  });
-  add([&] {
-    return shown<Int32Grid>(grids.nearest, {"nearest", "part of the nearest scene voxel", "1"}, frame);
-  });
-  add([&] {
-    return shown<FloatGrid>(
-        grids.distance_vx,
-        {"distance", "distance to the nearest scene voxel, centre to centre", "voxel widths"}, frame);
+    return shown(grids.distance_vx->treePtr(),
+                 {"distance", "distance to the nearest scene voxel, centre to centre", "voxel widths"},
+                 world);
   });
   addFields(out, fields, world);
-  return Writer().bytes(out, aboutFile(world, made_by));
+  Writer().write(file, out, aboutFile(world, made_by));
+}
+
+void writeFieldVdb(std::ostream& file, const sim::World& world, const std::vector<VdbField>& fields,
+                   const sim::Provenance& made_by) {
+  openvdb::initialize();
+  std::vector<MakeGrid> out;
+  addFields(out, fields, world);
+  Writer().write(file, out, aboutFile(world, made_by));
+}
+
+std::string vdbBytes(const sim::World& world, const std::vector<VdbField>& fields,
+                     const sim::Provenance& made_by) {
+  return inMemory([&](std::ostream& out) { writeVdb(out, world, fields, made_by); });
 }
 
 std::string fieldVdbBytes(const sim::World& world, const std::vector<VdbField>& fields,
                           const sim::Provenance& made_by) {
-  openvdb::initialize();
-  std::vector<MakeGrid> out;
-  addFields(out, fields, world);
-  return Writer().bytes(out, aboutFile(world, made_by));
+  return inMemory([&](std::ostream& out) { writeFieldVdb(out, world, fields, made_by); });
 }
 
 }  // namespace espalier::render

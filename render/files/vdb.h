@@ -1,6 +1,7 @@
 #pragma once
 #include <cstdint>
 #include <functional>
+#include <iosfwd>
 #include <string>
 #include <utility>
 #include <variant>
@@ -37,12 +38,18 @@ struct VdbField {
 /// within the boundary layers; then the fields. Every grid says what it holds and in what unit; the names of
 /// the parts are in the file's metadata. OpenVDB's random file id is replaced by one that follows from the
 /// contents, so that the same world gives the same bytes. Throws InputError where a field has another size
-/// than the world.
+/// than the world, std::ios_base::failure where the stream fails.
 /// `made_by` goes into the file's metadata: `software`, `seed` and `inputs`.
+/// One grid after the other is made and written; `file` must be one that can be sought in.
+void writeVdb(std::ostream& file, const sim::World& world, const std::vector<VdbField>& fields = {},
+              const sim::Provenance& made_by = {});
+/// The same in memory.
 std::string vdbBytes(const sim::World& world, const std::vector<VdbField>& fields = {},
                      const sim::Provenance& made_by = {});
 
 /// The fields alone, with the world's transform and the names of its parts.
+void writeFieldVdb(std::ostream& file, const sim::World& world, const std::vector<VdbField>& fields,
+                   const sim::Provenance& made_by = {});
 std::string fieldVdbBytes(const sim::World& world, const std::vector<VdbField>& fields,
                           const sim::Provenance& made_by = {});
 

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <ostream>
 
 #include "render/files/vdb.h"
 #include "scenes/accuracy/certificate.h"
@@ -90,12 +91,12 @@ ExposeResult exposeScene(const Scene& scene, const RunOptions& options) {
   const ExposureTable table =
       stages.run("counting", [&] { return exposureTable(scene.name, site.world, light); });
   result.table = toText(table);
-  std::vector<OutputFile> files = {{"exposure.csv", [&] { return toCsv(table); }},
-                                   {"exposure.json", [&] { return toJson(table); }},
-                                   {"exposure.vdb", [&] {
-                                      return render::fieldVdbBytes(
-                                          site.world, exposureFields(light, space.get()), report.made_by);
-                                    }}};
+  std::vector<OutputFile> files = {
+      fileOf("exposure.csv", [&] { return toCsv(table); }),
+      fileOf("exposure.json", [&] { return toJson(table); }),
+      {"exposure.vdb", [&](std::ostream& out) {
+         render::writeFieldVdb(out, site.world, exposureFields(light, space.get()), report.made_by);
+       }}};
   const std::vector<sim::Attempt> no_attempts;
   const std::vector<render::PlantModel> no_models;
   if (options.pictures) {

@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <ostream>
+#include <span>
 
 #include "render/files/gltf.h"
 #include "render/files/vdb.h"
@@ -20,6 +22,7 @@
 #include "scenes/show/picture_memory.h"
 #include "scenes/show/pictures.h"
 #include "scenes/write/output_files.h"
+#include "sim/base/memory.h"
 #include "sim/base/parallel.h"
 #include "sim/light/lighting.h"
 #include "sim/world/band.h"
@@ -27,7 +30,7 @@
 namespace espalier::scenes {
 namespace {
 
-std::vector<render::PlantModel> modelPlants(const sim::Frame& frame, const std::vector<sim::Plant>& plants) {
+std::vector<render::PlantModel> modelPlants(const sim::Frame& frame, std::span<const sim::Plant> plants) {
   std::vector<render::PlantModel> models(plants.size());
   sim::parallelFor(plants.size(), 1, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
@@ -39,12 +42,33 @@ std::vector<render::PlantModel> modelPlants(const sim::Frame& frame, const std::
   return models;
 }
 
-std::string glb(const Site& site, const std::vector<render::PlantModel>& models,
-                const sim::Provenance& made_by) {
-  render::ModelScene scene;
-  for (const auto& tiled : site.meshes) scene.meshes.push_back(&tiled.mesh);
-  for (const auto& model : models) scene.plants.push_back(&model);
-  return render::glbBytes(scene, made_by);
+/// Models plants only when they are asked for, small ones some at once: all models of a large scene take more
+/// memory than all that has grown.
+render::PlantModels modelsOf(const sim::Frame& frame, std::span<const sim::Plant> plants) {
+  return [=](const std::function<void(const render::PlantModel&)>& take) {
+    constexpr std::size_t kAtOnce = 4096;  // nodes and elements
+    for (std::size_t first = 0, last = 0; first < plants.size(); first = last) {
+      std::size_t pieces = 0;
+      while (last < plants.size() && pieces < kAtOnce) {
+        pieces += plants[last].skeleton.parent.size() + plants[last].elements.size();
+        ++last;
+      }
+      for (const auto& model : modelPlants(frame, plants.subspan(first, last - first))) take(model);
+    }
+  };
+}
+
+/// `models`: of all plants, or empty.
+void writeGlb(std::ostream& out, const Site& site, std::span<const sim::Plant> plants,
+              const std::vector<render::PlantModel>& models, const sim::Provenance& made_by) {
+  std::vector<const sim::Mesh*> meshes;
+  for (const auto& tiled : site.meshes) meshes.push_back(&tiled.mesh);
+  const auto kept = [&](const std::function<void(const render::PlantModel&)>& take) {
+    for (const auto& model : models) take(model);
+  };
+  render::writeGlb(out, meshes,
+                   models.empty() ? modelsOf(site.world.frame(), plants) : render::PlantModels(kept),
+                   made_by);
 }
 
 /// The free voxels of the boundary layers, which lie around the scene.
@@ -119,8 +143,9 @@ sim::Growth growOn(const Scene& scene, Prepared& prepared, std::optional<sim::Gr
   while (growing->step()) {
     const sim::Growth& now = growing->growth();
     if (keeping.every > 0 && now.iterations % keeping.every == 0)
-      writeAll(options.folder,
-               {{kStateFile, [&] { return sim::stateBytes(inputs, site.world, bare, now); }}});
+      writeAll(
+          options.folder,
+          {{kStateFile, [&](std::ostream& out) { sim::writeState(out, inputs, site.world, bare, now); }}});
   }
   return growing->take();
 }
@@ -147,6 +172,7 @@ Report runScene(const Scene& scene, const RunOptions& options, const Keeping& ke
   }
   const sim::Growth growth = stages.run(
       "growing", [&] { return growOn(scene, prepared, std::move(kept), bare, options, keeping, report); });
+  sim::releaseFreed();  // what only growing needed
   report.growth = growthReport(scene, world, bare, growth, prepared.seed_lights);
   report.occupied_voxels = world.occupied().count();
 
@@ -156,14 +182,19 @@ Report runScene(const Scene& scene, const RunOptions& options, const Keeping& ke
     return lightFor(scene, site, options.pictures && drawsVines(scene.images), layers);
   });
   report.light = light.about;
-  const auto models = stages.run("modelling", [&] { return modelPlants(world.frame(), growth.plants); });
+  std::vector<render::PlantModel> models;  // for pictures; else they are made while they are written
+  if (options.pictures)
+    models = stages.run("modelling", [&] { return modelPlants(world.frame(), growth.plants); });
   std::vector<OutputFile> files;
-  files.push_back({"plant.glb", [&] { return glb(site, models, report.made_by); }});
   files.push_back(
-      {"world.vdb", [&] { return render::vdbBytes(world, worldFields(light, *layers), report.made_by); }});
+      {"plant.glb", [&](std::ostream& out) { writeGlb(out, site, growth.plants, models, report.made_by); }});
+  files.push_back({"world.vdb", [&](std::ostream& out) {
+                     render::writeVdb(out, world, worldFields(light, *layers), report.made_by);
+                   }});
   if (keeping.keep) {
-    files.push_back(
-        {kStateFile, [&] { return sim::stateBytes(inputsOf(scene, site), world, bare, growth); }});
+    files.push_back({kStateFile, [&](std::ostream& out) {
+                       sim::writeState(out, inputsOf(scene, site), world, bare, growth);
+                     }});
   }
   if (options.pictures) {
     stages.run("drawing", [&] {

@@ -203,7 +203,7 @@ Image Studio::vines(const ImageSpec& image) const {
 }
 
 OutputFile png(const std::string& name, std::shared_ptr<const Image> picture, render::Metadata metadata) {
-  return {name + ".png", [picture, metadata] { return render::encodePng(*picture, metadata); }};
+  return fileOf(name + ".png", [picture, metadata] { return render::encodePng(*picture, metadata); });
 }
 
 Image contactSheet(const PicturesWanted& wanted, const sim::LightAbout& about, const ImageSpec& sheet,
@@ -277,31 +277,31 @@ std::vector<OutputFile> drawPictures(const PicturesWanted& wanted, const Finishe
       render::PanelPicture& painted = panels.at(image.name);
       const auto display = keep(image, std::move(painted.display));
       files.push_back(
-          {image.name + ".png", [display, legend = studio.legend(*panel), about = metadata(image)] {
-             Image labelled = *display;
-             legend(labelled);
-             return render::encodePng(labelled, about);
-           }});
+          fileOf(image.name + ".png", [display, legend = studio.legend(*panel), about = metadata(image)] {
+            Image labelled = *display;
+            legend(labelled);
+            return render::encodePng(labelled, about);
+          }));
       const auto measured = std::make_shared<const Image>(std::move(painted.measured));
       files.push_back(
-          {image.name + ".exr", [measured, channels = painted.channel_names, about = metadata(image)] {
-             return render::encodeExr(*measured, channels, about);
-           }});
+          fileOf(image.name + ".exr", [measured, channels = painted.channel_names, about = metadata(image)] {
+            return render::encodeExr(*measured, channels, about);
+          }));
     } else if (image.kind == ImageKind::vines) {
       files.push_back(png(image.name, keep(image, std::move(vines.at(image.name))), metadata(image)));
     } else if (image.kind == ImageKind::section) {
       files.push_back(png(image.name, keep(image, drawSection(finished.world, image)), metadata(image)));
     } else if (image.kind == ImageKind::attempts) {
-      files.push_back(
-          png(image.name, keep(image, drawAttempts(finished.world, finished.attempts, image)), metadata(image)));
+      files.push_back(png(image.name, keep(image, drawAttempts(finished.world, finished.attempts, image)),
+                          metadata(image)));
     }
   }
   for (const ImageSpec& image : wanted.images) {
     if (image.kind != ImageKind::contact_sheet) continue;
-    files.push_back({image.name + ".png",
-                     [wanted, &light = finished.light.about, image, pictures, about = metadata(image)] {
-                       return render::encodePng(contactSheet(wanted, light, image, pictures), about);
-                     }});
+    files.push_back(fileOf(image.name + ".png",
+                           [wanted, &light = finished.light.about, image, pictures, about = metadata(image)] {
+                             return render::encodePng(contactSheet(wanted, light, image, pictures), about);
+                           }));
   }
   return files;
 }

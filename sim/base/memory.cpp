@@ -3,6 +3,9 @@
 #include <fmt/format.h>
 #include <sys/resource.h>
 #include <unistd.h>
+#ifdef __GLIBC__
+#include <malloc.h>
+#endif
 
 #include <algorithm>
 #include <cmath>
@@ -65,6 +68,12 @@ double controlGroupLimit(std::string_view about, const fs::path& root) {
       least = std::min(least, leastAbove(root / "memory", group, "memory.limit_in_bytes"));
   }
   return least;
+}
+
+void releaseFreed() {
+#ifdef __GLIBC__
+  ::malloc_trim(0);
+#endif
 }
 
 std::string inGigabytes(double bytes) {

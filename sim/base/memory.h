@@ -16,6 +16,10 @@ double memoryBudget();
 /// `memory` folder).
 double controlGroupLimit(std::string_view about, const std::filesystem::path& root);
 
+/// Gives memory that was freed back to the system, as far as the C library lets us: what comes next asks for
+/// large blocks, which do not fit into the holes that many small ones left.
+void releaseFreed();
+
 /// An amount of memory in words: "1.4 GB" (1024^3 bytes).
 std::string inGigabytes(double bytes);
 

@@ -5,9 +5,12 @@
 #include <signal.h>
 #include <unistd.h>
 
+#include <array>
 #include <cerrno>
 #include <charconv>
 #include <cstring>
+#include <ostream>
+#include <streambuf>
 
 #include "sim/base/error.h"
 
@@ -34,6 +37,7 @@ class Descriptor {
     }
     return true;
   }
+  bool seek(off_t to) const { return ::lseek(fd_, to, SEEK_SET) == to; }
   bool sync() const { return ::fsync(fd_) == 0; }
   bool close() {
     const int fd = fd_;
@@ -43,6 +47,61 @@ class Descriptor {
 
  private:
   int fd_;
+};
+
+/// Writes into a descriptor, and can be sought in from its beginning.
+class FileBuffer : public std::streambuf {
+ public:
+  explicit FileBuffer(Descriptor& file) : file_(file) { setp(room_.data(), room_.data() + room_.size()); }
+
+  /// Why the first failure was one (errno); 0: there was none.
+  int reason() const { return reason_; }
+
+ protected:
+  int_type overflow(int_type c) override {
+    if (sync() != 0) return traits_type::eof();
+    return traits_type::eq_int_type(c, traits_type::eof()) ? traits_type::not_eof(c)
+                                                           : sputc(traits_type::to_char_type(c));
+  }
+  std::streamsize xsputn(const char* bytes, std::streamsize count) override {
+    if (count <= epptr() - pptr()) {
+      std::memcpy(pptr(), bytes, static_cast<std::size_t>(count));
+      pbump(static_cast<int>(count));
+      return count;
+    }
+    if (sync() != 0 || !put({bytes, static_cast<std::size_t>(count)})) return 0;
+    begin_ += count;
+    return count;
+  }
+  int sync() override {
+    const std::string_view waiting(pbase(), static_cast<std::size_t>(pptr() - pbase()));
+    if (!put(waiting)) return -1;
+    begin_ += pptr() - pbase();
+    setp(room_.data(), room_.data() + room_.size());
+    return 0;
+  }
+  pos_type seekoff(off_type off, std::ios_base::seekdir from, std::ios_base::openmode) override {
+    if (from == std::ios_base::end) return pos_type(off_type(-1));
+    if (from == std::ios_base::cur) off += begin_ + (pptr() - pbase());
+    return seekpos(off, std::ios_base::out);
+  }
+  pos_type seekpos(pos_type to, std::ios_base::openmode) override {
+    if (off_type(to) == begin_ + (pptr() - pbase())) return to;  // where it is
+    if (sync() != 0 || !file_.seek(to)) return pos_type(off_type(-1));
+    begin_ = to;
+    return to;
+  }
+
+ private:
+  bool put(std::string_view bytes) {
+    if (reason_ == 0 && !file_.write(bytes)) reason_ = errno;
+    return reason_ == 0;
+  }
+
+  Descriptor& file_;
+  std::array<char, 65536> room_;
+  off_type begin_ = 0;  // of the bytes that wait, in the file
+  int reason_ = 0;
 };
 
 /// Whether the process that writes a temporary file still lives: its number is the end of the name.
@@ -56,21 +115,58 @@ bool beingWritten(std::string_view name) {
 
 }  // namespace
 
-void writeWhole(const std::filesystem::path& path, std::string_view bytes) {
+NewFile::NewFile(const std::filesystem::path& path, const std::function<void(std::ostream&)>& write)
+    : path_(path) {
   const auto folder = path.has_parent_path() ? path.parent_path() : std::filesystem::path(".");
-  const auto part = folder / fmt::format("{}{}-{}", kMark, path.filename().string(), ::getpid());
+  part_ = folder / fmt::format("{}{}-{}", kMark, path.filename().string(), ::getpid());
+  Descriptor file(part_, O_WRONLY | O_CREAT | O_TRUNC);
+  const auto remove = [&] {
+    std::error_code ignored;
+    std::filesystem::remove(part_, ignored);
+  };
   const auto fail = [&](const char* what) {
     const int reason = errno;
-    std::error_code ignored;
-    std::filesystem::remove(part, ignored);
+    remove();
     throw InputError(fmt::format("{}: cannot {}: {}", path.string(), what, std::strerror(reason)));
   };
-  Descriptor file(part, O_WRONLY | O_CREAT | O_TRUNC);
   if (!file.ok()) fail("create the file");
-  if (!file.write(bytes) || !file.sync() || !file.close()) fail("write the file");
-  if (::rename(part.c_str(), path.c_str()) != 0) fail("put the file in its place");
-  const Descriptor directory(folder, O_RDONLY | O_DIRECTORY);
+  FileBuffer buffer(file);
+  std::ostream out(&buffer);
+  try {
+    write(out);
+  } catch (const std::ios_base::failure&) {  // from writers that want to hear of it at once
+    errno = buffer.reason();
+    fail("write the file");
+  } catch (...) {
+    remove();
+    throw;
+  }
+  if (!out.flush()) {
+    errno = buffer.reason();
+    fail("write the file");
+  }
+  if (!file.sync() || !file.close()) fail("write the file");
+}
+
+NewFile::~NewFile() {
+  std::error_code ignored;
+  if (!part_.empty()) std::filesystem::remove(part_, ignored);
+}
+
+void NewFile::putInPlace() {
+  if (::rename(part_.c_str(), path_.c_str()) != 0) {
+    throw InputError(
+        fmt::format("{}: cannot put the file in its place: {}", path_.string(), std::strerror(errno)));
+  }
+  const Descriptor directory(part_.parent_path(), O_RDONLY | O_DIRECTORY);
   if (directory.ok()) static_cast<void>(directory.sync());  // some file systems refuse to sync folders
+  part_.clear();
+}
+
+void writeWhole(const std::filesystem::path& path, std::string_view bytes) {
+  NewFile(path, [&](std::ostream& out) {
+    out.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+  }).putInPlace();
 }
 
 void removeLeftovers(const std::filesystem::path& folder) {

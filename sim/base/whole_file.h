@@ -1,5 +1,7 @@
 #pragma once
 #include <filesystem>
+#include <functional>
+#include <iosfwd>
 #include <string_view>
 
 namespace espalier::sim {
@@ -7,6 +9,24 @@ namespace espalier::sim {
 /// Writes a file whole or not at all: into a temporary file beside it, flushed to the disk, then renamed.
 /// What was there before survives a failure. Throws InputError with the path and the system's reason.
 void writeWhole(const std::filesystem::path& path, std::string_view bytes);
+
+/// A file that is written piece by piece and appears whole or not at all: its bytes go into a temporary file
+/// beside it, which is removed with this object unless it was put in its place.
+class NewFile {
+ public:
+  /// Calls write(stream) and flushes what it wrote to the disk. The stream can be sought in. Throws
+  /// InputError with the path and the system's reason, and what `write` throws.
+  NewFile(const std::filesystem::path& path, const std::function<void(std::ostream&)>& write);
+  NewFile(const NewFile&) = delete;
+  NewFile& operator=(const NewFile&) = delete;
+  ~NewFile();
+
+  /// Once. What was there before survives a failure. Throws InputError likewise.
+  void putInPlace();
+
+ private:
+  std::filesystem::path path_, part_;
+};
 
 /// Removes temporary files that a killed run of ours left in a folder, and none that a living one is writing.
 void removeLeftovers(const std::filesystem::path& folder);

@@ -3,13 +3,18 @@
 #include <fmt/format.h>
 #include <xxhash.h>
 
+#include <array>
 #include <bit>
 #include <cmath>
 #include <cstring>
+#include <memory>
 #include <nlohmann/json.hpp>
+#include <sstream>
 
+#include "sim/base/byte_sink.h"
+#include "sim/base/cbor_writer.h"
 #include "sim/base/error.h"
-#include "sim/base/voxel_set.h"
+#include "sim/base/provenance.h"
 
 namespace espalier::sim {
 namespace {
@@ -22,17 +27,7 @@ constexpr std::string_view kTitle = "espalier state ";
 constexpr std::string_view kHeader = "espalier state 1\n";
 constexpr std::size_t kSum = 16;  // characters of the checksum
 
-std::string checksum(std::string_view payload) {
-  return fmt::format("{:016x}", XXH3_64bits(payload.data(), payload.size()));
-}
-
 // Columns of plain numbers go as their bytes; everything else as CBOR's own types.
-template <typename T>
-json packed(const std::vector<T>& values) {
-  const auto* const bytes = reinterpret_cast<const std::uint8_t*>(values.data());
-  return json::binary(std::vector<std::uint8_t>(bytes, bytes + values.size() * sizeof(T)));
-}
-
 template <typename T>
 std::vector<T> unpacked(const json& node) {
   const auto& bytes = node.get_binary();
@@ -42,11 +37,14 @@ std::vector<T> unpacked(const json& node) {
   return values;
 }
 
-json packed(const Columns& columns) {
-  json all = json::object();
-  for (const auto& [name, column] : columns)
-    all[name] = {column.index(), std::visit([](const auto& values) { return packed(values); }, column)};
-  return all;
+void write(CborWriter& out, const Columns& columns) {
+  out.map(columns.size());
+  for (const auto& [name, column] : columns) {
+    out.text(name);
+    out.array(2);
+    out.number(column.index());
+    std::visit([&](const auto& values) { out.packed(values); }, column);
+  }
 }
 
 template <std::size_t... I>
@@ -69,24 +67,43 @@ Columns columnsOf(const json& node) {
   return columns;
 }
 
-json plantOf(const Plant& plant) {
+void write(CborWriter& out, const Plant& plant) {
   const Skeleton& s = plant.skeleton;
-  json columns = json::object();
-  for (const auto& [name, values] : s.columns) columns[name] = packed(values);
-  std::vector<std::int32_t> whole;
-  std::vector<double> numbers;
-  for (const PlacedElement& e : plant.elements) {
-    whole.insert(whole.end(), {e.node, e.shape, e.born});
-    for (const Vec3& v : {e.position_vx, e.x, e.y, e.z}) numbers.insert(numbers.end(), {v.x, v.y, v.z});
-    numbers.insert(numbers.end(), {e.scale, static_cast<double>(e.exposure)});
+  out.map(7);
+  out.text("born");
+  out.packed(s.born);
+  out.text("columns");
+  out.map(s.columns.size());
+  for (const auto& [name, values] : s.columns) {
+    out.text(name);
+    out.packed(values);
   }
-  return {{"key", plant.key},
-          {"parent", packed(s.parent)},
-          {"position_vx", packed(s.position_vx)},
-          {"born", packed(s.born)},
-          {"columns", columns},
-          {"element_numbers", packed(whole)},
-          {"element_places", packed(numbers)}};
+  out.text("element_numbers");
+  std::array<std::int32_t, 3> whole;
+  out.bytes(plant.elements.size() * sizeof whole);
+  for (const PlacedElement& e : plant.elements) {
+    whole = {e.node, e.shape, e.born};
+    out.raw(whole.data(), sizeof whole);
+  }
+  out.text("element_places");
+  std::array<double, 14> numbers;
+  out.bytes(plant.elements.size() * sizeof numbers);
+  for (const PlacedElement& e : plant.elements) {
+    numbers = {e.position_vx.x, e.position_vx.y,
+               e.position_vx.z, e.x.x,
+               e.x.y,           e.x.z,
+               e.y.x,           e.y.y,
+               e.y.z,           e.z.x,
+               e.z.y,           e.z.z,
+               e.scale,         static_cast<double>(e.exposure)};
+    out.raw(numbers.data(), sizeof numbers);
+  }
+  out.text("key");
+  out.number(plant.key);
+  out.text("parent");
+  out.packed(s.parent);
+  out.text("position_vx");
+  out.packed(s.position_vx);
 }
 
 Plant plantFrom(const json& node) {
@@ -110,14 +127,17 @@ Plant plantFrom(const json& node) {
   return plant;
 }
 
-json attemptsOf(const std::vector<Attempt>& attempts) {
-  std::vector<Vec3> places;
-  std::vector<std::uint8_t> outcomes;
+void write(CborWriter& out, const std::vector<Attempt>& attempts) {
+  out.array(2);
+  out.bytes(attempts.size() * 2 * sizeof(Vec3));
   for (const Attempt& a : attempts) {
-    places.insert(places.end(), {a.from_vx, a.to_vx});
-    outcomes.push_back(static_cast<std::uint8_t>(2 * static_cast<int>(a.outcome) + (a.taken ? 1 : 0)));
+    for (const Vec3& place : {a.from_vx, a.to_vx}) out.raw(&place, sizeof place);
   }
-  return {packed(places), packed(outcomes)};
+  out.bytes(attempts.size());
+  for (const Attempt& a : attempts) {
+    const auto outcome = static_cast<std::uint8_t>(2 * static_cast<int>(a.outcome) + (a.taken ? 1 : 0));
+    out.raw(&outcome, 1);
+  }
 }
 
 std::vector<Attempt> attemptsFrom(const json& node) {
@@ -133,22 +153,38 @@ std::vector<Attempt> attemptsFrom(const json& node) {
   return attempts;
 }
 
-json voxelsOf(const World& world, const BitVolume& site, PartId first) {
-  BitVolume grown = world.occupied();
-  for (int y = 0; y < grown.size().y; ++y) {
-    for (int z = 0; z < grown.size().z; ++z) {
-      for (int w = 0; w < grown.rowWords(); ++w) grown.row(y, z)[w] &= ~site.row(y, z)[w];
+/// Voxels that are occupied now and were free in the site, in order.
+template <typename Visit>
+void forEachGrown(const World& world, const BitVolume& site, Visit visit) {
+  const BitVolume& now = world.occupied();
+  for (int y = 0; y < now.size().y; ++y) {
+    for (int z = 0; z < now.size().z; ++z) {
+      for (int w = 0; w < now.rowWords() - 1; ++w) {
+        for (std::uint64_t word = now.row(y, z)[w] & ~site.row(y, z)[w]; word != 0; word &= word - 1)
+          visit(Voxel(w * BitVolume::kWordBits + std::countr_zero(word), y, z));
+      }
     }
   }
-  std::vector<std::int32_t> whole;
-  std::vector<float> numbers;
-  for (const Voxel v : VoxelSet(std::move(grown)).voxels()) {
+}
+
+void writeVoxels(CborWriter& out, const World& world, const BitVolume& site, PartId first) {
+  std::size_t count = 0;
+  forEachGrown(world, site, [&](Voxel) { ++count; });
+  out.array(2);
+  std::array<std::int32_t, 4> whole;
+  out.bytes(count * sizeof whole);
+  forEachGrown(world, site, [&](Voxel v) {
+    whole = {v.x, v.y, v.z, world.partAt(v) - first};
+    out.raw(whole.data(), sizeof whole);
+  });
+  std::array<float, 8> numbers;
+  out.bytes(count * sizeof numbers);
+  forEachGrown(world, site, [&](Voxel v) {
     const Surface s = *world.surfaceAt(v);
-    whole.insert(whole.end(), {v.x, v.y, v.z, s.part - first});
-    numbers.insert(numbers.end(), {s.colour.r, s.colour.g, s.colour.b, s.coverage, s.normal.x, s.normal.y,
-                                   s.normal.z, s.offset_vx});
-  }
-  return {packed(whole), packed(numbers)};
+    numbers = {s.colour.r, s.colour.g, s.colour.b, s.coverage,
+               s.normal.x, s.normal.y, s.normal.z, s.offset_vx};
+    out.raw(numbers.data(), sizeof numbers);
+  });
 }
 
 std::vector<TiledVoxel> voxelsFrom(const json& node) {
@@ -165,8 +201,9 @@ std::vector<TiledVoxel> voxelsFrom(const json& node) {
   return voxels;
 }
 
-json countsOf(const OutcomeCounts& counts) {
-  return std::vector<std::uint64_t>(counts.begin(), counts.end());
+void write(CborWriter& out, const OutcomeCounts& counts) {
+  out.array(counts.size());
+  for (const std::uint64_t count : counts) out.number(count);
 }
 
 OutcomeCounts countsFrom(const json& node) {
@@ -197,31 +234,84 @@ State stateFrom(const json& root) {
   return state;
 }
 
+void writeGrowth(CborWriter& out, const Inputs& inputs, const World& world, const BitVolume& site,
+                 const Growth& growth) {
+  PartId first = static_cast<PartId>(world.parts().size()) + 1;
+  for (const Plant& plant : growth.plants) first = std::min(first, plant.stem_part);
+  out.map(10);
+  out.text("attempts");
+  write(out, growth.attempts);
+  out.text("commons");
+  out.map(growth.commons.size());
+  for (const auto& [name, columns] : growth.commons) {
+    out.text(name);
+    write(out, columns);
+  }
+  out.text("inputs");
+  out.array(inputs.size());
+  for (const auto& [name, value] : inputs) {
+    out.array(2);
+    out.text(name);
+    out.text(value);
+  }
+  out.text("iterations");
+  out.number(static_cast<std::uint64_t>(growth.iterations));
+  out.text("plants");
+  out.array(growth.plants.size());
+  for (const Plant& plant : growth.plants) write(out, plant);
+  out.text("recorded");
+  out.boolean(growth.recorded);
+  out.text("size");
+  const Voxel size = world.frame().size;
+  out.array(3);
+  for (const int side : {size.x, size.y, size.z}) out.number(static_cast<std::uint64_t>(side));
+  out.text("stands");
+  out.array(growth.stands.size());
+  for (const Stand& stand : growth.stands) {
+    out.array(3);
+    out.number(stand.first);
+    out.number(stand.count);
+    write(out, stand.memory);
+  }
+  out.text("tallies");
+  out.array(growth.tallies.size());
+  for (const Tally& tally : growth.tallies) {
+    out.array(2);
+    write(out, tally.sites);
+    write(out, tally.trials);
+  }
+  out.text("voxels");
+  writeVoxels(out, world, site, first);
+}
+
 }  // namespace
+
+void writeState(std::ostream& file, const Inputs& inputs, const World& world, const BitVolume& site,
+                const Growth& growth) {
+  file << kHeader;
+  const auto sum_at = file.tellp();
+  file << std::string(kSum, '0') << '\n';
+  const std::unique_ptr<XXH3_state_t, decltype(&XXH3_freeState)> hash(XXH3_createState(), XXH3_freeState);
+  XXH3_64bits_reset(hash.get());
+  ByteSink sink([&](std::string_view bytes) {
+    XXH3_64bits_update(hash.get(), bytes.data(), bytes.size());
+    file.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+  });
+  std::ostream payload(&sink);
+  CborWriter out(payload);
+  writeGrowth(out, inputs, world, site, growth);
+  payload.flush();
+  const auto end = file.tellp();
+  file.seekp(sum_at);
+  file << hexOf(XXH3_64bits_digest(hash.get()));
+  file.seekp(end);
+}
 
 std::string stateBytes(const Inputs& inputs, const World& world, const BitVolume& site,
                        const Growth& growth) {
-  PartId first = static_cast<PartId>(world.parts().size()) + 1;
-  for (const Plant& plant : growth.plants) first = std::min(first, plant.stem_part);
-  json root = {{"inputs", inputs},
-               {"iterations", growth.iterations},
-               {"plants", json::array()},
-               {"tallies", json::array()},
-               {"stands", json::array()},
-               {"commons", json::object()},
-               {"recorded", growth.recorded},
-               {"attempts", attemptsOf(growth.attempts)},
-               {"size", {world.frame().size.x, world.frame().size.y, world.frame().size.z}},
-               {"voxels", voxelsOf(world, site, first)}};
-  for (const Plant& plant : growth.plants) root["plants"].push_back(plantOf(plant));
-  for (const Tally& tally : growth.tallies)
-    root["tallies"].push_back({countsOf(tally.sites), countsOf(tally.trials)});
-  for (const Stand& stand : growth.stands)
-    root["stands"].push_back({stand.first, stand.count, packed(stand.memory)});
-  for (const auto& [name, columns] : growth.commons) root["commons"][name] = packed(columns);
-  std::string payload;
-  json::to_cbor(root, payload);
-  return std::string(kHeader) + checksum(payload) + "\n" + payload;
+  std::ostringstream file(std::ios::binary);
+  writeState(file, inputs, world, site, growth);
+  return std::move(file).str();
 }
 
 namespace {
@@ -245,7 +335,8 @@ State readState(std::string_view bytes, const std::string& file) {
                            version));
   }
   bytes.remove_prefix(kHeader.size());
-  if (bytes.size() < kSum + 1 || checksum(bytes.substr(kSum + 1)) != bytes.substr(0, kSum))
+  if (bytes.size() < kSum + 1 ||
+      hexOf(XXH3_64bits(bytes.data() + kSum + 1, bytes.size() - kSum - 1)) != bytes.substr(0, kSum))
     throw fail("the state is damaged (its checksum does not fit): it was cut short or changed");
   bytes.remove_prefix(kSum + 1);
   try {

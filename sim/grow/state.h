@@ -1,4 +1,5 @@
 #pragma once
+#include <iosfwd>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -25,7 +26,10 @@ struct State {
 };
 
 /// The same bytes for the same growth: a line that says what it is, a checksum, and CBOR. `site`: what was
-/// occupied before anything grew.
+/// occupied before anything grew. Keeps nothing of it in memory. `file` must be one that can be sought in.
+void writeState(std::ostream& file, const Inputs& inputs, const World& world, const BitVolume& site,
+                const Growth& growth);
+/// The same in memory.
 std::string stateBytes(const Inputs& inputs, const World& world, const BitVolume& site, const Growth& growth);
 
 /// Throws InputError, naming the file, for anything that is not a whole state of this version.

@@ -90,6 +90,9 @@ void addFaces(SurfaceSensors& sensors, const std::vector<std::uint64_t>& faces, 
     renumbered.push_back(static_cast<std::uint32_t>(places->number(v)));
   for (auto& tap : sensors.taps) tap.place = renumbered[tap.place];
   sensors.places = places;
+  sensors.surfaces.reserve(sensors.surfaces.size() + faces.size());
+  sensors.taps.reserve(sensors.taps.size() + faces.size());
+  sensors.first.reserve(sensors.first.size() + faces.size());
   for (const std::uint64_t face : faces) {
     Surface surface;
     surface.normal = Vec3f(kFaceNormals[face % kFaces]);

@@ -241,13 +241,7 @@ constexpr std::size_t kPadding = 2;  // steps: 32-bit loads of the last one
 /// Without plants, which neither have layers nor stand between.
 BitVolume occupiedByScene(const World& world) {
   BitVolume scene = world.occupied();
-  const bool has_plants = std::any_of(world.parts().begin(), world.parts().end(),
-                                      [](const Part& p) { return p.kind != PartKind::scene; });
-  if (!has_plants) return scene;
-  for (auto voxel = world.grids().part->cbeginValueOn(); voxel; ++voxel) {
-    const openvdb::Coord at = voxel.getCoord();
-    if (world.part(*voxel).kind != PartKind::scene) scene.clear({at.x(), at.y(), at.z()});
-  }
+  world.grids().plants.forEach([&](Voxel v, const Surface&) { scene.clear(v); });
   return scene;
 }
 

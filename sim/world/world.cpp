@@ -38,6 +38,7 @@ std::unique_ptr<World::Grids> makeGrids(const Frame& frame) {
       .distance_vx = makeGrid<openvdb::FloatGrid>("distance_vx", kFar, transform),
       .surface = BlockMap<World::Grids::SurfaceLeaves>(frame.size),
       .near = World::Grids::Near(frame.size),
+      .plants = PlantVoxels(frame.size),
   });
 }
 
@@ -100,6 +101,7 @@ World::World(const World& other)
           .distance_vx = other.grids_->distance_vx->deepCopy(),
           .surface = BlockMap<Grids::SurfaceLeaves>(frame_.size),
           .near = other.grids_->near,
+          .plants = other.grids_->plants,
       })) {
   findBlocks();
 }
@@ -124,8 +126,12 @@ void World::keep(const TiledVoxel& tiled) {
   }
   assert(surface.part > kFree && static_cast<std::size_t>(surface.part) <= parts_.size());
   occupied_.set(voxel);
-  if (part(surface.part).kind != PartKind::element) solid_.set(voxel);
-  put(voxel, surface);
+  const PartKind kind = part(surface.part).kind;
+  if (kind != PartKind::element) solid_.set(voxel);
+  if (kind == PartKind::scene)
+    put(voxel, surface);
+  else
+    grids_->plants.add(voxel, surface);
 }
 
 void World::put(Voxel voxel, const Surface& surface) {
@@ -147,17 +153,15 @@ void World::put(Voxel voxel, const Surface& surface) {
 /// More comes into a voxel that is occupied.
 void World::join(const TiledVoxel& tiled) {
   const auto& [voxel, surface] = tiled;
-  Surface held = *surfaceAt(voxel);
+  PlantVoxels& plants = grids_->plants;
   const PartKind kind = part(surface.part).kind;
-  if (kind == PartKind::scene || part(held.part).kind == PartKind::scene) return;
-  const float coverage = held.coverage + surface.coverage;
+  if (kind == PartKind::scene || plants.partAt(voxel) == kFree) return;
+  const float coverage = plants.addCoverage(voxel, surface.coverage);
   if (kind == PartKind::stem && !solid_.at(voxel)) {
-    held = surface;
+    plants.takeOver(voxel, surface);
     solid_.set(voxel);
   }
-  held.coverage = coverage;
-  put(voxel, held);
-  shade(voxel, part(held.part).kind, coverage);
+  shade(voxel, part(plants.partAt(voxel)).kind, coverage);
 }
 
 void World::shade(Voxel v, PartKind kind, float coverage) {
@@ -234,6 +238,7 @@ void World::addOpaque(const BitVolume& voxels) {
 
 PartId World::partAt(Voxel v) const {
   if (!occupied_.at(v)) return kFree;
+  if (const PartId plant = grids_->plants.partAt(v); plant != kFree) return plant;
   const Grids::SurfaceLeaves& leaves = grids_->surface.of(v);
   return leaves.part != nullptr ? leaves.part->getValue(offsetInLeaf(v))
                                 : grids_->part->tree().getValue(coordOf(v));
@@ -241,6 +246,7 @@ PartId World::partAt(Voxel v) const {
 
 std::optional<Surface> World::surfaceAt(Voxel v) const {
   if (!occupied_.at(v)) return std::nullopt;
+  if (const auto plant = grids_->plants.surfaceAt(v)) return plant;
   const Grids::SurfaceLeaves& leaves = grids_->surface.of(v);
   if (leaves.part == nullptr) {  // in a block whose voxels are alike
     const openvdb::Coord at = coordOf(v);

@@ -2,6 +2,8 @@
 // Heavy: openvdb.h. Include from the few .cpp files that need the grids themselves.
 #include <openvdb/openvdb.h>
 
+#include "sim/world/block_map.h"
+#include "sim/world/plant_voxels.h"
 #include "sim/world/world.h"
 
 namespace espalier::sim {
@@ -10,46 +12,14 @@ inline openvdb::Coord coordOf(Voxel v) {
   return {v.x, v.y, v.z};
 }
 
-inline Voxel blocksOf(Voxel size) {
-  return (size + 7) / 8;
-}
-
-/// What is known of the blocks of 8x8x8 voxels that the grids' leaves cover, by place. Finding it takes two
-/// reads, where the way down from a tree's root takes four or five; growth asks millions of times.
-template <typename Leaves>
-class BlockMap {
- public:
-  explicit BlockMap(Voxel size)
-      : blocks_(blocksOf(size)),
-        slots_(static_cast<std::size_t>(blocks_.x) * static_cast<std::size_t>(blocks_.y) *
-               static_cast<std::size_t>(blocks_.z)),
-        leaves_(1) {}
-
-  /// A default-made Leaves where nothing is known. The voxel must lie inside the world.
-  const Leaves& of(Voxel v) const { return leaves_[slots_[blockNumber(blocks_, v)]]; }
-  /// Room for a block that has none, or the block's Leaves.
-  Leaves& make(Voxel v) {
-    std::uint32_t& slot = slots_[blockNumber(blocks_, v)];
-    if (slot == 0) {
-      slot = static_cast<std::uint32_t>(leaves_.size());
-      leaves_.emplace_back();
-    }
-    return leaves_[slot];
-  }
-
- private:
-  Voxel blocks_;
-  std::vector<std::uint32_t> slots_;
-  std::vector<Leaves> leaves_;
-};
-
-/// The truth of the world. All grids share one transform, with voxel (0,0,0) at the frame's origin.
+/// The truth of the world: the scene's surfaces and the boundary layers in grids, the plants' voxels beside
+/// them. All grids share one transform, with voxel (0,0,0) at the frame's origin.
 struct World::Grids {
-  openvdb::Int32Grid::Ptr part;       ///< background kFree
-  openvdb::Vec3SGrid::Ptr colour;     ///< active where occupied
-  openvdb::FloatGrid::Ptr coverage;   ///< active where occupied
-  openvdb::Vec3SGrid::Ptr normal;     ///< active where occupied
-  openvdb::FloatGrid::Ptr offset_vx;  ///< active where occupied
+  openvdb::Int32Grid::Ptr part;       ///< active where the scene is; background kFree
+  openvdb::Vec3SGrid::Ptr colour;     ///< active where the scene is
+  openvdb::FloatGrid::Ptr coverage;   ///< active where the scene is
+  openvdb::Vec3SGrid::Ptr normal;     ///< active where the scene is
+  openvdb::FloatGrid::Ptr offset_vx;  ///< active where the scene is
   openvdb::Int32Grid::Ptr layer;      ///< active within the boundary layers, 0 on the objects; background -1
   openvdb::Int32Grid::Ptr nearest;    ///< part of the nearest scene object, same topology as layer
   openvdb::FloatGrid::Ptr distance_vx;  ///< distance to it, same topology as layer; background infinity
@@ -83,6 +53,7 @@ struct World::Grids {
   };
   BlockMap<SurfaceLeaves> surface;
   Near near;
+  PlantVoxels plants;
 };
 
 }  // namespace espalier::sim

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <map>
+#include <sstream>
 
 #include "sim/base/error.h"
 #include "sim/light/sky.h"
@@ -62,8 +63,12 @@ class Ground : public testing::Test {
     const std::vector<sim::Attempt> no_attempts;
     const std::vector<render::PlantModel> no_models;
     std::map<std::string, std::string> files;
-    for (const OutputFile& file : drawPictures(wanted_, {no_meshes, world_, no_attempts, light_, no_models}))
-      files[file.name] = file.bytes();
+    for (const OutputFile& file :
+         drawPictures(wanted_, {no_meshes, world_, no_attempts, light_, no_models})) {
+      std::ostringstream out;
+      file.write(out);
+      files[file.name] = std::move(out).str();
+    }
     return files;
   }
 

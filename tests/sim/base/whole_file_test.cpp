@@ -6,7 +6,12 @@
 
 #include <filesystem>
 #include <fstream>
+#include <iterator>
+#include <ostream>
+#include <stdexcept>
 #include <string>
+
+#include "sim/base/error.h"
 
 namespace espalier::sim {
 namespace {
@@ -38,6 +43,73 @@ TEST(WholeFile, LeftoversOfTheDeadGoAndWhatTheLivingWriteStays) {
   EXPECT_FALSE(fs::exists(nobodys));
   EXPECT_TRUE(fs::exists(folder / "plant.glb"));
   fs::remove_all(folder);
+}
+
+class NewFiles : public testing::Test {
+ protected:
+  void SetUp() override { fs::create_directories(folder_); }
+  void TearDown() override { fs::remove_all(folder_); }
+  static std::string in(const fs::path& path) {
+    std::ifstream stream(path, std::ios::binary);
+    return {std::istreambuf_iterator<char>(stream), {}};
+  }
+  std::ptrdiff_t files() const { return std::distance(fs::directory_iterator(folder_), {}); }
+
+  const fs::path folder_ = fs::path(testing::TempDir()) / ("espalier.new_file." + std::to_string(::getpid()));
+  const fs::path path_ = folder_ / "world.vdb";
+};
+
+TEST_F(NewFiles, AreThereOnceTheyArePutInTheirPlace) {
+  std::ofstream(path_) << "old";
+  {
+    const NewFile file(path_, [](std::ostream& out) { out << "new"; });
+    EXPECT_EQ(files(), 2);
+    EXPECT_EQ(in(path_), "old");
+  }
+  EXPECT_EQ(files(), 1);
+  EXPECT_EQ(in(path_), "old");
+  NewFile(path_, [](std::ostream& out) { out << "new"; }).putInPlace();
+  EXPECT_EQ(files(), 1);
+  EXPECT_EQ(in(path_), "new");
+}
+
+/// Pieces smaller and larger than what the stream keeps, and changes to what was written.
+TEST_F(NewFiles, CanBeSoughtInWhileTheyAreWritten) {
+  std::string wanted;
+  NewFile file(path_, [&](std::ostream& out) {
+    for (int i = 0; i < 3000; ++i) {
+      const std::string piece(static_cast<std::size_t>(i % 997 == 0 ? 100'000 : i % 50),
+                              static_cast<char>(i));
+      wanted += piece;
+      out << piece;
+      if (i % 100 != 7) continue;
+      const std::size_t at = wanted.size() / 3;
+      ASSERT_EQ(out.tellp(), static_cast<std::streamoff>(wanted.size()));
+      out.seekp(static_cast<std::streamoff>(at));
+      out << "here";
+      wanted.replace(at, 4, "here");
+      out.seekp(static_cast<std::streamoff>(wanted.size()));
+    }
+    EXPECT_TRUE(out.good());
+  });
+  file.putInPlace();
+  EXPECT_TRUE(in(path_) == wanted);
+}
+
+TEST_F(NewFiles, ThatCannotBeMadeLeaveNothing) {
+  EXPECT_THROW(NewFile(path_, [](std::ostream&) { throw std::runtime_error("no"); }), std::runtime_error);
+  EXPECT_EQ(files(), 0);
+  EXPECT_THROW(NewFile(path_,
+                       [](std::ostream& out) {
+                         out.exceptions(std::ios::failbit);
+                         out.setstate(std::ios::failbit);
+                       }),
+               InputError);
+  EXPECT_EQ(files(), 0);
+  EXPECT_THROW(NewFile(folder_ / "nowhere" / "a", [](std::ostream&) {}), InputError);
+  fs::create_directories(path_ / "full");  // a file cannot take a folder's place
+  NewFile file(path_, [](std::ostream&) {});
+  EXPECT_THROW(file.putInPlace(), InputError);
 }
 
 }  // namespace

@@ -1,0 +1,106 @@
+#pragma once
+#include <array>
+#include <bit>
+#include <cstdint>
+#include <deque>
+#include <optional>
+#include <vector>
+
+#include "sim/world/block_map.h"
+#include "sim/world/world.h"
+
+namespace espalier::sim {
+
+/// What the voxels of plants know. Plants take a few dozen voxels of a block of 8x8x8, where the scene's
+/// grids keep all 512; and the voxels of a leaf differ in their coverage alone. So a block lists those that
+/// are taken, and what several of them share is kept once. Voxels must lie inside the world.
+class PlantVoxels {
+ public:
+  explicit PlantVoxels(Voxel size) : size_(size), blocks_(size) {}
+
+  /// kFree where no plant is.
+  PartId partAt(Voxel v) const {
+    const Entry* const entry = find(v);
+    return entry != nullptr ? entry->part : kFree;
+  }
+  std::optional<Surface> surfaceAt(Voxel v) const;
+
+  /// Into a voxel where no plant is.
+  void add(Voxel v, const Surface& surface);
+  /// More comes into a voxel where a plant is. Returns the sum.
+  float addCoverage(Voxel v, float coverage);
+  /// What comes takes a voxel over where a plant is; the coverage stays.
+  void takeOver(Voxel v, const Surface& surface);
+
+  /// Calls visit(voxel, surface) for all of them, block by block.
+  template <typename Visit>
+  void forEach(Visit visit) const {
+    const Voxel blocks = blocksOf(size_);
+    for (int y = 0; y < blocks.y; ++y) {
+      for (int z = 0; z < blocks.z; ++z) {
+        for (int x = 0; x < blocks.x; ++x) forEachIn(8 * Voxel(x, y, z), visit);
+      }
+    }
+  }
+
+ private:
+  struct Look {
+    Colour colour;
+    Vec3f normal;
+    float offset_vx;
+
+    friend bool operator==(const Look&, const Look&) = default;
+  };
+  struct Entry {
+    PartId part;
+    std::uint32_t look;
+    float coverage;
+  };
+  /// Eight voxels along x.
+  struct Row {
+    std::uint16_t first = 0;  // of the block's entries
+    std::uint8_t taken = 0;
+  };
+  struct Block {
+    std::array<Row, 64> rows;
+    std::vector<Entry> entries;  // in the order of (y, z, x)
+  };
+
+  static std::size_t rowOf(Voxel v) { return static_cast<std::size_t>((v.y & 7) << 3 | (v.z & 7)); }
+  static std::size_t numberIn(const Row& row, Voxel v) {
+    const unsigned before = row.taken & ((1u << (v.x & 7)) - 1);
+    return row.first + std::size_t{kBits[before]};
+  }
+  const Entry* find(Voxel v) const {
+    const Block& block = blocks_.of(v);
+    const Row& row = block.rows[rowOf(v)];
+    return (row.taken >> (v.x & 7) & 1) != 0 ? &block.entries[numberIn(row, v)] : nullptr;
+  }
+  Entry& entryAt(Voxel v);
+  std::uint32_t lookOf(const Surface& surface);
+  Surface surfaceOf(const Entry& entry) const;
+
+  template <typename Visit>
+  void forEachIn(Voxel corner, Visit& visit) const {
+    const Block& block = blocks_.of(corner);
+    auto entry = block.entries.begin();
+    for (int n = 0; entry != block.entries.end(); ++n) {
+      const Voxel v = corner + Voxel(n & 7, n >> 6, n >> 3 & 7);
+      if ((block.rows[rowOf(v)].taken >> (v.x & 7) & 1) != 0) visit(v, surfaceOf(*entry++));
+    }
+  }
+
+  /// How many bits a byte has: std::popcount is slow where a program must run on any processor.
+  static constexpr auto kBits = [] {
+    std::array<std::uint8_t, 256> bits{};
+    for (unsigned byte = 0; byte < 256; ++byte) bits[byte] = static_cast<std::uint8_t>(std::popcount(byte));
+    return bits;
+  }();
+
+  Voxel size_;
+  BlockMap<Block> blocks_;
+  std::deque<Look> looks_;
+  std::vector<std::uint32_t> latest_;  // by part: the number of its latest look, from 1
+};
+
+}  // namespace espalier::sim

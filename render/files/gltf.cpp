@@ -13,6 +13,7 @@
 #include <sstream>
 
 #include "sim/base/error.h"
+#include "sim/base/stop.h"
 
 namespace espalier::render {
 namespace {
@@ -236,8 +237,14 @@ std::string GlbWriter::bytes() {
 
 std::string glbBytes(const ModelScene& scene, const sim::Provenance& made_by) {
   GlbWriter writer(made_by);
-  for (const sim::Mesh* mesh : scene.meshes) writer.addMesh(*mesh);
-  for (const PlantModel* plant : scene.plants) writer.addPlant(*plant);
+  for (const sim::Mesh* mesh : scene.meshes) {
+    sim::throwIfStopped();
+    writer.addMesh(*mesh);
+  }
+  for (const PlantModel* plant : scene.plants) {
+    sim::throwIfStopped();
+    writer.addPlant(*plant);
+  }
   return writer.bytes();
 }
 

@@ -8,6 +8,8 @@
 #include <cerrno>
 #include <charconv>
 #include <cstring>
+#include <mutex>
+#include <set>
 
 #include "sim/base/error.h"
 
@@ -45,6 +47,17 @@ class Descriptor {
   int fd_;
 };
 
+/// The temporary files of this process. None is made or put in its place but under the lock.
+struct Parts {
+  std::mutex mutex;
+  std::set<std::filesystem::path> paths;
+};
+
+Parts& parts() {
+  static Parts* const all = new Parts;  // never destroyed: a thread may write until the very end
+  return *all;
+}
+
 /// Whether the process that writes a temporary file still lives: its number is the end of the name.
 bool beingWritten(std::string_view name) {
   const std::string_view number = name.substr(name.rfind('-') + 1);
@@ -59,18 +72,37 @@ bool beingWritten(std::string_view name) {
 void writeWhole(const std::filesystem::path& path, std::string_view bytes) {
   const auto folder = path.has_parent_path() ? path.parent_path() : std::filesystem::path(".");
   const auto part = folder / fmt::format("{}{}-{}", kMark, path.filename().string(), ::getpid());
+  const auto create = [&] {
+    const std::lock_guard lock(parts().mutex);
+    parts().paths.insert(part);
+    return Descriptor(part, O_WRONLY | O_CREAT | O_TRUNC);
+  };
   const auto fail = [&](const char* what) {
     const int reason = errno;
+    const std::lock_guard lock(parts().mutex);
     std::error_code ignored;
     std::filesystem::remove(part, ignored);
+    parts().paths.erase(part);
     throw InputError(fmt::format("{}: cannot {}: {}", path.string(), what, std::strerror(reason)));
   };
-  Descriptor file(part, O_WRONLY | O_CREAT | O_TRUNC);
+  const auto put = [&] {
+    const std::lock_guard lock(parts().mutex);
+    if (::rename(part.c_str(), path.c_str()) != 0) return false;
+    parts().paths.erase(part);
+    return true;
+  };
+  Descriptor file = create();
   if (!file.ok()) fail("create the file");
   if (!file.write(bytes) || !file.sync() || !file.close()) fail("write the file");
-  if (::rename(part.c_str(), path.c_str()) != 0) fail("put the file in its place");
+  if (!put()) fail("put the file in its place");
   const Descriptor directory(folder, O_RDONLY | O_DIRECTORY);
   if (directory.ok()) static_cast<void>(directory.sync());  // some file systems refuse to sync folders
+}
+
+void abandonFiles() {
+  parts().mutex.lock();  // and never unlocked
+  std::error_code ignored;
+  for (const auto& part : parts().paths) std::filesystem::remove(part, ignored);
 }
 
 void removeLeftovers(const std::filesystem::path& folder) {

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "sim/base/stop.h"
 #include "sim/sense/piece_grid.h"
 
 namespace espalier::sim {
@@ -94,6 +95,7 @@ bool Nearby::cross(const Body& body) const {
   const auto facets = std::span(facets_).subspan(body.first, body.last - body.first);
   if (apart(asked_slab_, facets) || apart(body.slab, asked_)) return false;
   for (const Facet& mine : asked_) {
+    throwIfStopped();  // of shapes with thousands of triangles each asks thousands
     for (const Facet& other : facets) {
       if (!apart(mine.bounds, other.bounds) && sim::cross(mine.corners, other.corners)) return true;
     }

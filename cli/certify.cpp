@@ -7,6 +7,7 @@
 #include <memory>
 
 #include "cli/commands.h"
+#include "cli/interrupt.h"
 #include "scenes/accuracy/accuracy_study.h"
 #include "scenes/accuracy/certificate.h"
 #include "scenes/read/read_scene.h"
@@ -20,6 +21,7 @@ struct CertifyArguments {
 };
 
 int certify(const CertifyArguments& arguments) {
+  const Interrupt interrupt;
   if (arguments.scene.empty()) {
     fmt::print("{}", scenes::accuracyStudy());
     return 0;

@@ -2,10 +2,14 @@
 #include <stop_token>
 #include <thread>
 
+#include "sim/base/stop.h"
+
 namespace espalier::cli {
 
-/// While it lives, the first Ctrl-C (SIGINT) or SIGTERM asks the work to stop, and the second ends the
-/// program at once. Make it before any other thread: it has the signals blocked in all of them.
+/// While it lives, the first Ctrl-C (SIGINT) or SIGTERM asks the work of this thread to stop (it is in force
+/// as a sim::StopScope). Work that has not come back within 0.2 s, as it may be inside of a library, is left
+/// where it is: the files that it is writing are removed, and the program ends as one that was stopped; a
+/// second signal does so at once. Make it before any other thread: it has the signals blocked in all of them.
 class Interrupt {
  public:
   Interrupt();
@@ -17,6 +21,7 @@ class Interrupt {
 
  private:
   std::stop_source source_;
+  sim::StopScope in_force_{source_.get_token()};
   std::jthread watcher_;
 };
 

@@ -34,13 +34,13 @@ int main(int argc, char** argv) {
       return app.exit(error) == 0 ? 0 : cli::kInputError;  // --help and --version end here too
     }
   } catch (const sim::Stopped&) {
-    fmt::print(stderr, "espalier: stopped\n");
+    fmt::print(stderr, "{}", cli::kStoppedText);
     return cli::kStopped;
   } catch (const sim::InputError& error) {
     fmt::print(stderr, "{}\n", error.what());
     return cli::kInputError;
   } catch (const std::bad_alloc&) {
-    fmt::print(stderr, "espalier: out of memory; use larger voxels or smaller images\n");
+    fmt::print(stderr, "espalier: out of memory; use larger voxels, fewer iterations or smaller images\n");
     return 1;
   } catch (const std::exception& error) {
     fmt::print(stderr, "espalier: {}\n", error.what());

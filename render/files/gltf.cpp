@@ -16,6 +16,7 @@
 #include <string_view>
 
 #include "sim/base/error.h"
+#include "sim/base/stop.h"
 
 namespace espalier::render {
 namespace {
@@ -269,8 +270,14 @@ void putWords(std::ostream& out, std::initializer_list<std::size_t> words) {
 void writeGlb(std::ostream& file, const std::vector<const sim::Mesh*>& meshes, const PlantModels& plants,
               const sim::Provenance& made_by) {
   const auto addAll = [&](GlbWriter& writer) {
-    for (const sim::Mesh* mesh : meshes) writer.addMesh(*mesh);
-    plants([&](const PlantModel& plant) { writer.addPlant(plant); });
+    for (const sim::Mesh* mesh : meshes) {
+      sim::throwIfStopped();
+      writer.addMesh(*mesh);
+    }
+    plants([&](const PlantModel& plant) {
+      sim::throwIfStopped();
+      writer.addPlant(plant);
+    });
     writer.finish();
   };
   GlbWriter measured(made_by, nullptr);

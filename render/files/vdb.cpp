@@ -17,6 +17,7 @@
 
 #include "sim/base/byte_sink.h"
 #include "sim/base/error.h"
+#include "sim/base/stop.h"
 #include "sim/world/world_grids.h"
 
 namespace espalier::render {
@@ -76,6 +77,7 @@ void touchLeaves(Tree& tree, const sim::VoxelSet& where) {
   openvdb::tree::ValueAccessor<Tree> access(tree);
   std::vector<std::uint64_t> any(static_cast<std::size_t>(where.bits().rowWords() - 1));
   for (int y0 = 0; y0 < size.y; y0 += kLeafSide) {
+    sim::throwIfStopped();
     for (int z0 = 0; z0 < size.z; z0 += kLeafSide) {
       std::fill(any.begin(), any.end(), 0u);
       for (int y = y0; y < std::min(size.y, y0 + kLeafSide); ++y) {
@@ -131,6 +133,7 @@ using MakeGrid = std::function<openvdb::GridBase::Ptr()>;
 void addFields(std::vector<MakeGrid>& out, const std::vector<VdbField>& fields, const sim::World& world) {
   const sim::Voxel size = world.frame().size;
   for (const VdbField& field : fields) {
+    sim::throwIfStopped();
     std::visit(
         [&](const auto& parts) {
           for (const auto& part : parts) {
@@ -232,6 +235,7 @@ class Writer : public openvdb::io::Archive {
     const auto count = static_cast<std::int32_t>(grids.size());
     out.write(reinterpret_cast<const char*>(&count), sizeof count);
     for (const MakeGrid& make : grids) {
+      sim::throwIfStopped();
       const openvdb::GridBase::Ptr grid = make();
       grid->addStatsMetadata();
       grid->insertMeta(openvdb::GridBase::META_FILE_COMPRESSION,

@@ -7,6 +7,7 @@
 #include "render/model/leaves.h"
 #include "render/model/stem_curves.h"
 #include "render/model/tubes.h"
+#include "sim/base/stop.h"
 
 namespace espalier::render {
 namespace {
@@ -124,6 +125,7 @@ PlantModel modelPlant(const sim::Plant& plant, const sim::Frame& frame, const Mo
   model.stems.name = plant.name + " stems";
   model.stems.base_colour = plant.stem_colour;
   for (std::size_t s = 0; s < curves.stems.size(); ++s) {
+    sim::throwIfStopped();
     std::vector<TubeStation> line = stationsOf(curves.stems[s], plant, frame, radii, youth);
     if (line.size() < 2) continue;
     const double thickest = line.front().radius_m / frame.voxel_m;
@@ -138,6 +140,7 @@ PlantModel modelPlant(const sim::Plant& plant, const sim::Frame& frame, const Mo
     model.elements.back().base_colour = shape.colour;
   }
   for (std::size_t e = 0; e < plant.elements.size(); ++e) {
+    sim::throwIfStopped();
     const sim::PlacedElement& element = plant.elements[e];
     const sim::ElementShape& shape = plant.shapes[static_cast<std::size_t>(element.shape)];
     ModelMesh& mesh = model.elements[static_cast<std::size_t>(element.shape)];

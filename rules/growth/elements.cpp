@@ -4,6 +4,7 @@
 #include <cmath>
 #include <tuple>
 
+#include "sim/base/stop.h"
 #include "sim/grow/pieces.h"
 #include "sim/tile/tiling.h"
 
@@ -131,6 +132,7 @@ std::vector<sim::ProposedElement> proposeElements(const sim::SiteView& view, con
     for (const auto& polygon : rule.polygons) area += areaOf(polygon);
     for (unsigned i = 0; i < count; ++i) {
       for (int trial = 0; trial < rule.trials; ++trial) {
+        sim::throwIfStopped();
         // The rule language allows 64 shapes, and 1000 of each: 100 a segment, ten times as many in full
         // light.
         sim::Slots slots(key, sim::Purpose::element, static_cast<unsigned>(shape << 10) + i,

@@ -121,4 +121,11 @@ std::shared_ptr<const sim::Process> makeProcess(std::shared_ptr<const RuleSet> r
   return std::make_shared<BookProcess>(RuleBook(inVoxelWidths(rules, voxel_m)));
 }
 
+std::shared_ptr<const sim::Process> makeProcess(std::shared_ptr<const RuleSet> rules,
+                                                const sim::Frame& frame) {
+  const auto in_widths = inVoxelWidths(rules, frame.voxel_m);
+  requireElementsFit(*in_widths, frame);
+  return std::make_shared<BookProcess>(RuleBook(in_widths));
+}
+
 }  // namespace espalier::rules

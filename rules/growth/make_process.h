@@ -21,5 +21,8 @@ namespace espalier::rules {
 /// `voxel_m` turns lengths given in metres into voxel widths. Throws sim::InputError for a rule set that
 /// cannot work with such voxels, wherever the book leads to it (rules/growth/voxel_widths.h).
 std::shared_ptr<const sim::Process> makeProcess(std::shared_ptr<const RuleSet> rules, double voxel_m);
+/// The same for a world; throws too where an element has no room in it.
+std::shared_ptr<const sim::Process> makeProcess(std::shared_ptr<const RuleSet> rules,
+                                                const sim::Frame& frame);
 
 }  // namespace espalier::rules

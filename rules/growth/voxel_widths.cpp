@@ -17,6 +17,10 @@ constexpr double kFarthestTwist = 64.0;
 constexpr double kThickestTwig = 100.0;
 constexpr double kFarthestCorner = 1e5;  // as far as plain numbers reach: 1000 voxel widths, a hundredfold
 
+// A trial tiles an element whole, and a proposal holds the voxels of all that stand on its segment: with this
+// many a trial takes some 0.1 s and a proposal 12 MB. A hundred leaves of 50 x 50 are half of it.
+constexpr double kMostVoxels = 1e6;
+
 std::string nameOf(const RuleSet& rules, const std::string& path) {
   return fmt::format("rule set '{}'{}", rules.name, path.empty() ? "" : ", " + path);
 }
@@ -53,6 +57,49 @@ void convert(RuleSet& rules, double voxel_m) {
   }
 }
 
+/// The least and the most that light makes of sizes and numbers.
+double leastVigour(const RuleSet& rules) {
+  return std::min(1.0, rules.light.boost);
+}
+double mostVigour(const RuleSet& rules) {
+  return std::max(1.0, rules.light.boost);
+}
+
+/// About as many voxels as an element takes at most, scaled so: a plane meets sqrt(3) of them for each square
+/// width at most, and those at its rim beside them.
+double mostVoxels(const Element& element, double scale) {
+  double voxels = 0.0;
+  for (const auto& polygon : element.polygons) {
+    sim::Vec3 twice(0.0);
+    double around = 0.0;
+    for (std::size_t i = 0; i < polygon.size(); ++i) {
+      twice += glm::cross(polygon[i] - polygon[0], polygon[(i + 1) % polygon.size()] - polygon[0]);
+      around += glm::length(polygon[(i + 1) % polygon.size()] - polygon[i]);
+    }
+    voxels += 2.0 * 0.5 * glm::length(twice) * scale * scale + 3.0 * around * scale + 8.0;
+  }
+  return voxels;
+}
+
+/// What keeps elements from being tiled; empty if nothing does.
+std::string tooManyVoxels(const RuleSet& rules, const std::string& at) {
+  double sum = 0.0, most = 0.0;
+  std::size_t largest = 0;
+  for (std::size_t i = 0; i < rules.elements.size(); ++i) {
+    const Element& element = rules.elements[i];
+    const double number = std::max(1.0, std::ceil(highest(element.per_segment) * mostVigour(rules)));
+    const double voxels = number * mostVoxels(element, highest(element.size) * mostVigour(rules));
+    sum += voxels;
+    if (voxels > most) largest = i;
+    most = std::max(most, voxels);
+  }
+  if (sum <= kMostVoxels) return "";
+  return fmt::format(
+      "elements may take {:.3g} voxels on one segment {} in full light, most of them elements[{}] (size, "
+      "polygons, per_segment, light.boost); expected at most {:.0f}",
+      sum, at, largest, kMostVoxels);
+}
+
 /// What keeps a rule set in voxel widths from working; empty if nothing does. `at` names the voxel.
 std::string wrongWith(const RuleSet& rules, const std::string& at) {
   const double shortest = lowest(rules.random_tree.length.value);
@@ -86,7 +133,7 @@ std::string wrongWith(const RuleSet& rules, const std::string& at) {
     return fmt::format("elements[{}] has a corner {:.3g} voxel widths away {}; expected at most {}", i,
                        farthest, at, kFarthestCorner);
   }
-  return "";
+  return tooManyVoxels(rules, at);
 }
 
 class Converter {
@@ -121,6 +168,30 @@ class Converter {
 
 std::shared_ptr<const RuleSet> inVoxelWidths(const std::shared_ptr<const RuleSet>& rules, double voxel_m) {
   return Converter(voxel_m).convert(rules, "");
+}
+
+void requireElementsFit(const RuleSet& rules, const sim::Frame& frame) {
+  const double diagonal = glm::length(sim::Vec3(frame.size));
+  forEachSet(rules, [&](const RuleSet& set, const std::string& path) {
+    for (std::size_t i = 0; i < set.elements.size(); ++i) {
+      const Element& element = set.elements[i];
+      sim::Vec3 low(INFINITY), high(-INFINITY);
+      for (const auto& polygon : element.polygons) {
+        for (const sim::Vec3& corner : polygon) {
+          low = glm::min(low, corner);
+          high = glm::max(high, corner);
+        }
+      }
+      const sim::Vec3 extent = high - low;
+      const double length =
+          std::max({extent.x, extent.y, extent.z}) * lowest(element.size) * leastVigour(set);
+      if (!(length > diagonal)) continue;
+      throw sim::InputError(fmt::format(
+          "{}: elements[{}] is at least {:.4g} voxel widths long at a voxel of {:.4g} m, and nothing longer "
+          "than {:.4g} has room in this world of {} x {} x {} voxels",
+          nameOf(set, path), i, length, frame.voxel_m, diagonal, frame.size.x, frame.size.y, frame.size.z));
+    }
+  });
 }
 
 LayersNeeded layersNeeded(const RuleSet& rules, double voxel_m, double farthest_vx) {

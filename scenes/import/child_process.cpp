@@ -17,6 +17,7 @@
 #include <new>
 
 #include "sim/base/error.h"
+#include "sim/base/stop.h"
 
 namespace espalier::scenes {
 namespace {
@@ -107,6 +108,8 @@ void send(int fd, const char* data, std::size_t size) {
 
 enum class Received { all, late, too_long };
 
+constexpr std::chrono::milliseconds kBetweenQuestions(20);  // whether to stop
+
 /// Everything that the child writes until it closes its end.
 Received receive(int fd, std::chrono::steady_clock::time_point deadline, std::size_t limit,
                  std::string& bytes) {
@@ -116,10 +119,11 @@ Received receive(int fd, std::chrono::steady_clock::time_point deadline, std::si
         std::chrono::duration_cast<std::chrono::milliseconds>(deadline - std::chrono::steady_clock::now())
             .count();
     if (left <= 0) return Received::late;
+    sim::throwIfStopped();
     pollfd wait{fd, POLLIN, 0};
-    const int ready = ::poll(&wait, 1, static_cast<int>(left));
-    if (ready < 0 && errno == EINTR) continue;
-    if (ready <= 0) return Received::late;
+    const int ready = ::poll(&wait, 1, static_cast<int>(std::min<long>(left, kBetweenQuestions.count())));
+    if (ready == 0 || (ready < 0 && errno == EINTR)) continue;
+    if (ready < 0) return Received::late;
     const ssize_t n = ::read(fd, buffer.data(), buffer.size());
     if (n < 0 && errno == EINTR) continue;
     if (n <= 0) return Received::all;
@@ -173,16 +177,22 @@ ChildResult runInChild(const std::function<std::string()>& work, const ChildLimi
   if (child == 0) childMain(work, limits, parent, write_end.get());
 
   write_end.close();
+  const auto end = [&] {
+    ::kill(child, SIGKILL);
+    waitFor(child);
+  };
   std::string bytes;
   Received received = Received::too_long;  // what running out of memory in here leaves behind
   try {
     received = receive(read_end.get(), deadline, limits.result_bytes, bytes);
   } catch (const std::bad_alloc&) {
     bytes.clear();
+  } catch (const sim::Stopped&) {
+    end();
+    throw;
   }
   if (received != Received::all) {
-    ::kill(child, SIGKILL);
-    waitFor(child);
+    end();
     return {received == Received::late ? ChildEnd::out_of_time : ChildEnd::out_of_memory, {}};
   }
   return resultOf(waitFor(child), std::move(bytes));

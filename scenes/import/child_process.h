@@ -23,7 +23,8 @@ struct ChildResult {
 };
 
 /// Runs `work` in a forked child under `limits` and hands back what it returned. Whatever the child does
-/// (crash, hang, eat memory) the parent lives on. A Ctrl-C that ends the child is thrown as sim::Stopped.
+/// (crash, hang, eat memory) the parent lives on. A Ctrl-C that ends the child is thrown as sim::Stopped, and
+/// where the job is stopped (sim/base/stop.h) the child is ended.
 ///
 /// A plain fork, without exec: of a process with several threads only the calling one lives on in the child,
 /// so `work` must not touch anything that another thread may have held locked, oneTBB's scheduler above all.

@@ -108,7 +108,7 @@ ExposeResult exposeScene(const Scene& scene, const RunOptions& options) {
       }
       wanted.images = exposureImages(scene, wanted.cameras, !site.sun.directions.empty());
       const Finished finished{site.meshes, site.world, no_attempts, light, no_models};
-      auto pictures = inScene(scene, [&] { return drawPictures(wanted, finished, options.stop); });
+      auto pictures = inScene(scene, [&] { return drawPictures(wanted, finished); });
       for (OutputFile& file : pictures) files.push_back(std::move(file));
     });
   }

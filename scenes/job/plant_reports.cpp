@@ -29,7 +29,8 @@ Report::Growth::Plant plantReport(const PlantSpec& spec, const sim::Frame& frame
 Report::Growth growthReport(const Scene& scene, const sim::World& grown, const sim::BitVolume& scene_voxels,
                             const sim::Growth& growth, const std::vector<PlaceLight>& lights) {
   const sim::Tally tally = sim::total(growth);
-  Report::Growth report{growth.iterations, {}, tally.sites, tally.trials, sim::stateHash(grown, growth)};
+  Report::Growth report{growth.iterations, {}, tally.sites, tally.trials, sim::stateHash(grown, growth),
+                        growth.cut_short};
   for (std::size_t i = 0; i < growth.stands.size(); ++i) {
     const PlantSpec& spec = scene.plants[i];
     const auto [first, count] = std::pair(growth.stands[i].first, growth.stands[i].count);

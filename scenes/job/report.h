@@ -43,6 +43,7 @@ struct Report {
     std::vector<Plant> plants;
     sim::OutcomeCounts buds{}, trials{};
     std::uint64_t state_hash = 0;
+    std::string cut_short;  ///< sim::Growth::cut_short; among the warnings too
   };
   std::optional<Growth> growth;  ///< where plants grew
 

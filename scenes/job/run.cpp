@@ -115,6 +115,28 @@ Prepared prepare(const Scene& scene, const RunOptions& options, Report& report, 
   return prepared;
 }
 
+/// What light and files take besides: of each voxel some bits, and two numbers where there are vines to draw;
+/// places before surfaces, as for a world whose sides are surfaces.
+double laterBytes(sim::Vec3 size, bool vines) {
+  const double voxels = size.x * size.y * size.z;
+  const double sides = 2 * (size.x * size.y + size.y * size.z + size.z * size.x);
+  return (vines ? 5.0 : 1.0) * voxels + 100.0 * sides;
+}
+
+/// What models, files and lighting take for each element, by its corners.
+double laterAnElement(const std::vector<sim::Planting>& plantings) {
+  constexpr double kBytesACorner = 150.0;
+  std::size_t most = 0;
+  for (const sim::Planting& planting : plantings) {
+    for (const sim::ElementShape& shape : planting.process->seedling().shapes) {
+      std::size_t corners = 0;
+      for (const auto& polygon : shape.polygons) corners += polygon.size();
+      most = std::max(most, corners);
+    }
+  }
+  return kBytesACorner * static_cast<double>(most);
+}
+
 /// Grows from the beginning or from what was kept, and keeps every so many iterations what has grown.
 sim::Growth growOn(const Scene& scene, Prepared& prepared, std::optional<sim::Growth> kept,
                    const sim::BitVolume& bare, const RunOptions& options, const Keeping& keeping,
@@ -122,7 +144,6 @@ sim::Growth growOn(const Scene& scene, Prepared& prepared, std::optional<sim::Gr
   Site& site = prepared.site;
   std::vector<sim::Planting>& plantings = prepared.plantings;
   sim::GrowthSettings settings = growthSettings(scene, site);
-  settings.stop = options.stop;
   settings.progress = [&](const sim::GrowthProgress& progress) {
     report.run.proposals = progress.proposals;
     if (options.on_growth) options.on_growth(progress);
@@ -135,6 +156,12 @@ sim::Growth growOn(const Scene& scene, Prepared& prepared, std::optional<sim::Gr
                       (options.folder / kStateFile).string(), kept->iterations, scene.iterations));
     }
   }
+  const bool vines = options.pictures && drawsVines(scene.images);
+  settings.memory.later_bytes = laterBytes(sim::Vec3(site.world.frame().size), vines);
+  // Stems and leaves as triangles, twice in memory while files are made; again for rays, where vines are
+  // drawn.
+  settings.memory.later_a_segment = vines ? 15'000.0 : 5'000.0;
+  settings.memory.later_an_element = laterAnElement(plantings);
   const sim::Inputs inputs = keeping.every > 0 ? inputsOf(scene, site) : sim::Inputs();
   const std::unique_ptr<sim::Growing> growing = inScene(scene, [&] {
     return kept ? std::make_unique<sim::Growing>(site.world, plantings, settings, std::move(*kept))
@@ -174,6 +201,7 @@ Report runScene(const Scene& scene, const RunOptions& options, const Keeping& ke
       "growing", [&] { return growOn(scene, prepared, std::move(kept), bare, options, keeping, report); });
   sim::releaseFreed();  // what only growing needed
   report.growth = growthReport(scene, world, bare, growth, prepared.seed_lights);
+  if (!growth.cut_short.empty()) report.warnings.push_back(growth.cut_short);
   report.occupied_voxels = world.occupied().count();
 
   std::shared_ptr<const sim::VoxelSet> layers;
@@ -199,8 +227,8 @@ Report runScene(const Scene& scene, const RunOptions& options, const Keeping& ke
   if (options.pictures) {
     stages.run("drawing", [&] {
       const Finished finished{site.meshes, world, growth.attempts, light, models};
-      auto pictures = inScene(
-          scene, [&] { return drawPictures(picturesOf(scene, report.made_by), finished, options.stop); });
+      auto pictures =
+          inScene(scene, [&] { return drawPictures(picturesOf(scene, report.made_by), finished); });
       for (OutputFile& file : pictures) files.push_back(std::move(file));
     });
   }
@@ -209,6 +237,8 @@ Report runScene(const Scene& scene, const RunOptions& options, const Keeping& ke
     if (!keeping.keep) dropState(options.folder);
   });
   writeReport(options.folder, files, report);
+  if (options.strict && !growth.cut_short.empty())
+    throw sim::InputError(scene.file.string() + ": " + growth.cut_short);
   return report;
 }
 
@@ -239,8 +269,7 @@ Report renderScene(Scene scene, const std::filesystem::path& from, const RunOpti
   const auto models = stages.run("modelling", [&] { return modelPlants(site.world.frame(), growth.plants); });
   std::vector<OutputFile> files = stages.run("drawing", [&] {
     const Finished finished{site.meshes, site.world, growth.attempts, light, models};
-    return inScene(scene,
-                   [&] { return drawPictures(picturesOf(scene, report.made_by), finished, options.stop); });
+    return inScene(scene, [&] { return drawPictures(picturesOf(scene, report.made_by), finished); });
   });
   stages.run("writing", [&] { writeAll(options.folder, files); });
   finishReport(files, report);
@@ -273,7 +302,8 @@ std::string summary(const Report& report, const std::filesystem::path& folder) {
              "{}: {} x {} x {} voxels of {:.4g} m; {} plants, {} segments, {} leaves in {} iterations\n",
              report.scene, size.x, size.y, size.z, report.frame.voxel_m, growth.plants.size(), segments,
              elements, growth.iterations) +
-         fates(growth) + endOfSummary(report, folder);
+         (growth.cut_short.empty() ? "" : "note: " + growth.cut_short + "\n") + fates(growth) +
+         endOfSummary(report, folder);
 }
 
 }  // namespace espalier::scenes

@@ -12,7 +12,7 @@ namespace espalier::scenes {
 struct RunOptions {
   std::filesystem::path folder;  ///< made if it is not there
   bool pictures = true;          ///< draw the scene's images
-  bool strict = false;           ///< warnings are errors
+  bool strict = false;           ///< warnings are errors; of one that comes after growth once all is written
   std::stop_token stop;
   std::function<void(const std::string& stage)> on_stage;  ///< as each begins
   std::function<void(const sim::GrowthProgress&)> on_growth;
@@ -30,7 +30,8 @@ struct Keeping {
 /// world (world.vdb), the pictures that the scene asks for and report.json into the folder, every file whole
 /// or not at all, the report last. But for states nothing is written before the growth is done. A run that
 /// goes on from a state ends with the bytes of one that was never interrupted. Throws sim::InputError;
-/// MeshMissing; sim::Stopped when stopped, and then nothing more is written.
+/// MeshMissing; sim::Stopped when stopped, and then nothing more is written. Growth that does not fit into
+/// memory ends early, and what has grown is written, with a sentence in Report::warnings.
 Report runScene(const Scene& scene, const RunOptions& options, const Keeping& keeping = {});
 
 /// Draws a scene's images of what was grown before, from the state in the folder `from`: with other cameras,

@@ -5,18 +5,18 @@
 
 #include "scenes/job/report.h"
 #include "scenes/job/run.h"
-#include "sim/base/error.h"
+#include "sim/base/stop.h"
 
 namespace espalier::scenes {
 
-/// Names and times the stages of a run, and stops it between them. Borrows both.
+/// Names and times the stages of a run, which its token can stop while this lives. Borrows both.
 class Stages {
  public:
   Stages(const RunOptions& options, Report& report) : options_(options), report_(report) {}
 
   template <typename Work>
   auto run(const std::string& name, Work work) {
-    if (options_.stop.stop_requested()) throw sim::Stopped();
+    sim::throwIfStopped();
     if (options_.on_stage) options_.on_stage(name);
     const Timer timer{report_, name};
     return work();
@@ -37,6 +37,7 @@ class Stages {
 
   const RunOptions& options_;
   Report& report_;
+  sim::StopScope in_force_{options_.stop};
 };
 
 }  // namespace espalier::scenes

@@ -70,7 +70,7 @@ std::vector<sim::Seed> seedsOf(const PlantSpec& spec, const Site& site, std::uin
 }
 
 sim::Planting plant(const PlantSpec& spec, const Site& site, std::uint64_t seed) {
-  return {spec.name, rules::makeProcess(spec.rules, site.world.frame().voxel_m), seedsOf(spec, site, seed)};
+  return {spec.name, rules::makeProcess(spec.rules, site.world.frame()), seedsOf(spec, site, seed)};
 }
 
 }  // namespace

@@ -19,6 +19,7 @@
 #include "scenes/show/picture_memory.h"
 #include "sim/base/error.h"
 #include "sim/base/parallel.h"
+#include "sim/base/stop.h"
 #include "sim/world/ray.h"
 
 namespace espalier::scenes {
@@ -240,8 +241,7 @@ PicturesWanted picturesOf(const Scene& scene, const sim::Provenance& made_by) {
   return wanted;
 }
 
-std::vector<OutputFile> drawPictures(const PicturesWanted& wanted, const Finished& finished,
-                                     const std::stop_token& stop) {
+std::vector<OutputFile> drawPictures(const PicturesWanted& wanted, const Finished& finished) {
   Studio studio(wanted, finished);
   std::vector<OutputFile> files;
   std::map<std::string, std::shared_ptr<const Image>> pictures;  // without legends, for the contact sheets
@@ -258,7 +258,7 @@ std::vector<OutputFile> drawPictures(const PicturesWanted& wanted, const Finishe
   std::map<std::string, Image> vines;
   const auto forEach = [&](const auto& of, const auto& draw) {
     for (const ImageSpec& image : wanted.images) {
-      if (stop.stop_requested()) throw sim::Stopped();
+      sim::throwIfStopped();
       if (of(image)) draw(image);
     }
   };

@@ -1,6 +1,5 @@
 #pragma once
 #include <optional>
-#include <stop_token>
 #include <string>
 #include <vector>
 
@@ -46,8 +45,7 @@ struct Finished {
 };
 
 /// Draws images, in their order: PNG files for the eye, and EXR files with the pure values of the exposure
-/// and colour panels. Throws sim::InputError; sim::Stopped when stopped between two pictures.
-std::vector<OutputFile> drawPictures(const PicturesWanted& wanted, const Finished& finished,
-                                     const std::stop_token& stop = {});
+/// and colour panels. Throws sim::InputError; sim::Stopped.
+std::vector<OutputFile> drawPictures(const PicturesWanted& wanted, const Finished& finished);
 
 }  // namespace espalier::scenes

@@ -35,22 +35,39 @@ double leastAbove(const fs::path& root, std::string_view group, const char* name
   return least;
 }
 
-double findBudget() {
+struct Limit {
+  double bytes = 0.0;
+  bool of_addresses = false;  // RLIMIT_AS is the least
+};
+
+Limit findLimit() {
   double least =
       static_cast<double>(::sysconf(_SC_PHYS_PAGES)) * static_cast<double>(::sysconf(_SC_PAGE_SIZE));
-  rlimit addresses{};
-  if (::getrlimit(RLIMIT_AS, &addresses) == 0 && addresses.rlim_cur != RLIM_INFINITY)
-    least = std::min(least, static_cast<double>(addresses.rlim_cur));
   std::ifstream in("/proc/self/cgroup");
   const std::string about{std::istreambuf_iterator<char>(in), {}};
-  return 0.75 * std::min(least, controlGroupLimit(about, "/sys/fs/cgroup"));
+  least = std::min(least, controlGroupLimit(about, "/sys/fs/cgroup"));
+  rlimit addresses{};
+  if (::getrlimit(RLIMIT_AS, &addresses) != 0 || addresses.rlim_cur == RLIM_INFINITY) return {least, false};
+  const auto most = static_cast<double>(addresses.rlim_cur);
+  return {std::min(least, most), most < least};
+}
+
+const Limit& limit() {
+  static const Limit found = findLimit();
+  return found;
 }
 
 }  // namespace
 
 double memoryBudget() {
-  static const double budget = findBudget();
-  return budget;
+  return 0.75 * limit().bytes;
+}
+
+double memoryInUse() {
+  std::ifstream in("/proc/self/statm");
+  double addresses = 0.0, resident = 0.0;
+  in >> addresses >> resident;
+  return (limit().of_addresses ? addresses : resident) * static_cast<double>(::sysconf(_SC_PAGE_SIZE));
 }
 
 // Lines of "number:controllers:path"; of version 2 "0::path".

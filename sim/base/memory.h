@@ -11,6 +11,10 @@ namespace espalier::sim {
 /// once.
 double memoryBudget();
 
+/// Bytes that this process uses now: the address space, where RLIMIT_AS is the least of those limits, or else
+/// what is resident. 0 where /proc/self/statm cannot be read.
+double memoryInUse();
+
 /// The least limit on memory, in bytes, of a control group and those around it; infinity where there is none.
 /// `about` is what /proc/self/cgroup says, `root` where control groups are mounted (version 2, or 1 with its
 /// `memory` folder).

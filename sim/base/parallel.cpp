@@ -14,20 +14,31 @@
 #include <random>
 #include <thread>
 
+#include "sim/base/error.h"
 #include "sim/base/parallel_order.h"
+#include "sim/base/stop.h"
 
 namespace espalier::sim {
 namespace {
 
 /// Keeps exceptions out of oneTBB: one that left a task would cancel the loops that other tasks run inside of
 /// themselves, and libraries such as OpenVDB do not survive their half-done results. The first in order is
-/// thrown when all is done, so that the same input has the same error on any number of threads.
+/// thrown when all is done, so that the same input has the same error on any number of threads. Where the job
+/// is stopped, what has not begun is left out; what its caller put in force holds for each work alone, as a
+/// thread that waits in a loop of one job may take up a work of another.
 class Failures {
  public:
   template <typename Work>
   void guard(std::size_t place, const Work& work) noexcept {
+    const HandedStops::Scope in_force(stops_);
     try {
-      work();
+      if (stopRequested()) {
+        stopped_.store(true, std::memory_order_relaxed);
+      } else {
+        work();
+      }
+    } catch (const Stopped&) {
+      stopped_.store(true, std::memory_order_relaxed);
     } catch (...) {
       const std::lock_guard lock(mutex_);
       if (place < first_) {
@@ -37,10 +48,13 @@ class Failures {
     }
   }
   void rethrow() const {
+    if (stopped_.load(std::memory_order_relaxed)) throw Stopped();
     if (failure_) std::rethrow_exception(failure_);
   }
 
  private:
+  const HandedStops stops_;
+  std::atomic<bool> stopped_ = false;
   std::mutex mutex_;
   std::size_t first_ = std::numeric_limits<std::size_t>::max();
   std::exception_ptr failure_;
@@ -128,7 +142,11 @@ void onThreads(int threads, const std::function<void()>& work) {
   const tbb::global_control limit(tbb::global_control::max_allowed_parallelism,
                                   static_cast<std::size_t>(threads));
   tbb::task_arena arena(threads);
-  arena.execute(work);
+  const HandedStops stops;
+  arena.execute([&] {  // on another thread, should the arena be full
+    const HandedStops::Scope in_force(stops);
+    work();
+  });
 }
 
 }  // namespace espalier::sim

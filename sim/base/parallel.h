@@ -3,7 +3,8 @@
 #include <functional>
 
 /// The one door to the thread pool (oneTBB). Only loops whose iterations write to places of their own: no
-/// unordered reductions are offered, so that no answer can depend on the number of threads.
+/// unordered reductions are offered, so that no answer can depend on the number of threads. Where the job is
+/// stopped (sim/base/stop.h), ranges that have not begun are left out and the loop throws Stopped.
 namespace espalier::sim {
 
 /// Calls body(begin, end) on disjoint ranges that cover [0, count).

@@ -9,7 +9,9 @@
 #include <cerrno>
 #include <charconv>
 #include <cstring>
+#include <mutex>
 #include <ostream>
+#include <set>
 #include <streambuf>
 
 #include "sim/base/error.h"
@@ -104,6 +106,24 @@ class FileBuffer : public std::streambuf {
   int reason_ = 0;
 };
 
+/// The temporary files of this process. None is made or put in its place but under the lock.
+struct Parts {
+  std::mutex mutex;
+  std::set<std::filesystem::path> paths;
+};
+
+Parts& parts() {
+  static Parts* const all = new Parts;  // never destroyed: a thread may write until the very end
+  return *all;
+}
+
+void removePart(const std::filesystem::path& part) {
+  const std::lock_guard lock(parts().mutex);
+  std::error_code ignored;
+  std::filesystem::remove(part, ignored);
+  parts().paths.erase(part);
+}
+
 /// Whether the process that writes a temporary file still lives: its number is the end of the name.
 bool beingWritten(std::string_view name) {
   const std::string_view number = name.substr(name.rfind('-') + 1);
@@ -119,14 +139,15 @@ NewFile::NewFile(const std::filesystem::path& path, const std::function<void(std
     : path_(path) {
   const auto folder = path.has_parent_path() ? path.parent_path() : std::filesystem::path(".");
   part_ = folder / fmt::format("{}{}-{}", kMark, path.filename().string(), ::getpid());
-  Descriptor file(part_, O_WRONLY | O_CREAT | O_TRUNC);
-  const auto remove = [&] {
-    std::error_code ignored;
-    std::filesystem::remove(part_, ignored);
+  const auto create = [&] {
+    const std::lock_guard lock(parts().mutex);
+    parts().paths.insert(part_);
+    return Descriptor(part_, O_WRONLY | O_CREAT | O_TRUNC);
   };
+  Descriptor file = create();
   const auto fail = [&](const char* what) {
     const int reason = errno;
-    remove();
+    removePart(part_);
     throw InputError(fmt::format("{}: cannot {}: {}", path.string(), what, std::strerror(reason)));
   };
   if (!file.ok()) fail("create the file");
@@ -138,7 +159,7 @@ NewFile::NewFile(const std::filesystem::path& path, const std::function<void(std
     errno = buffer.reason();
     fail("write the file");
   } catch (...) {
-    remove();
+    removePart(part_);
     throw;
   }
   if (!out.flush()) {
@@ -149,12 +170,17 @@ NewFile::NewFile(const std::filesystem::path& path, const std::function<void(std
 }
 
 NewFile::~NewFile() {
-  std::error_code ignored;
-  if (!part_.empty()) std::filesystem::remove(part_, ignored);
+  if (!part_.empty()) removePart(part_);
 }
 
 void NewFile::putInPlace() {
-  if (::rename(part_.c_str(), path_.c_str()) != 0) {
+  const auto put = [&] {
+    const std::lock_guard lock(parts().mutex);
+    if (::rename(part_.c_str(), path_.c_str()) != 0) return false;
+    parts().paths.erase(part_);
+    return true;
+  };
+  if (!put()) {
     throw InputError(
         fmt::format("{}: cannot put the file in its place: {}", path_.string(), std::strerror(errno)));
   }
@@ -167,6 +193,12 @@ void writeWhole(const std::filesystem::path& path, std::string_view bytes) {
   NewFile(path, [&](std::ostream& out) {
     out.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
   }).putInPlace();
+}
+
+void abandonFiles() {
+  parts().mutex.lock();  // and never unlocked
+  std::error_code ignored;
+  for (const auto& part : parts().paths) std::filesystem::remove(part, ignored);
 }
 
 void removeLeftovers(const std::filesystem::path& folder) {

@@ -28,6 +28,10 @@ class NewFile {
   std::filesystem::path path_, part_;
 };
 
+/// Removes the temporary files of this process for good: from then on what writes files waits for ever and puts
+/// nothing in its place. For a program that is about to end while other threads may be writing.
+void abandonFiles();
+
 /// Removes temporary files that a killed run of ours left in a folder, and none that a living one is writing.
 void removeLeftovers(const std::filesystem::path& folder);
 

@@ -10,6 +10,7 @@
 
 #include "sim/base/error.h"
 #include "sim/base/parallel.h"
+#include "sim/base/stop.h"
 #include "sim/grow/claims.h"
 #include "sim/grow/pieces.h"
 
@@ -89,7 +90,8 @@ Growing::Growing(World& world, std::vector<Planting> plantings, GrowthSettings s
       claims_(std::make_unique<Claims>(world.frame().size)),
       pieces_(std::make_unique<PieceGrid>(world.frame().size)),
       nearby_(std::make_unique<Nearby>()),
-      facets_(std::make_unique<Facets>()) {
+      facets_(std::make_unique<Facets>()),
+      fits_(settings_.memory) {
   if (growth_.stands.size() != plantings_.size())
     throw BrokenContract("what was grown before has other plantings than those that shall go on");
   Wants wants;
@@ -185,16 +187,8 @@ Due Growing::due() const {
 Proposal Growing::proposeAt(std::size_t planting, const Site& site, const Light* light, const Vec3* brightest,
                             const Columns& memory, const Commons& commons, bool record) const {
   const std::size_t plant = growth_.stands[planting].first + static_cast<std::size_t>(site.plant);
-  const SiteView view{world_,
-                      growth_.plants[plant],
-                      kin_[plant],
-                      memory,
-                      commons,
-                      *pieces_,
-                      light,
-                      brightest,
-                      growth_.iterations,
-                      record};
+  const SiteView view{world_,    growth_.plants[plant], kin_[plant], memory, commons, *pieces_, light,
+                      brightest, growth_.iterations,    record};
   const RandomKey key{streams_[plant], static_cast<std::uint32_t>(site.node), site.number,
                       static_cast<std::uint32_t>(growth_.iterations)};
   return plantings_[planting].process->propose(view, site, key);
@@ -235,7 +229,8 @@ void Growing::proposeAll(std::vector<Asked>& asked) const {
   const auto lights = sensor_ ? sensor_->at(world_.opaque(), light.places) : std::vector<Light>();
   const auto ways = sky_sensor_ ? sky_sensor_->at(world_.opaque(), sky.places) : std::vector<Vec3>();
   parallelFor(asked.size(), 4, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end && !settings_.stop.stop_requested(); ++i) {
+    for (std::size_t i = begin; i < end; ++i) {
+      throwIfStopped();
       const Asked& a = asked[i];
       asked[i].proposal =
           proposeAt(a.planting, a.site, light.numbers[i] > 0 ? &lights[light.numbers[i] - 1] : nullptr,
@@ -319,6 +314,7 @@ void Growing::acceptAll(std::vector<Asked>& asked) {
   std::vector<const Proposal*> accepted;  // of one planting
   const std::uint32_t before = pieces_->size();
   for (std::size_t i = 0; i < asked.size(); ++i) {
+    throwIfStopped();
     Asked& a = asked[i];
     Proposal& proposal = a.proposal;
     if (i > 0 && a.planting != asked[i - 1].planting) accepted.clear();
@@ -364,15 +360,17 @@ std::size_t Growing::alive() const {
 }
 
 bool Growing::step() {
-  if (growth_.iterations >= settings_.iterations || alive() == 0) return false;
+  const StopScope in_force(settings_.stop);
+  throwIfStopped();
+  if (growth_.iterations >= settings_.iterations || alive() == 0 || !nextFits()) return false;
   std::vector<Asked> asked;
   for (std::size_t i = 0; i < plantings_.size(); ++i) {
     for (const Site& site : dueOf(i, growth_.stands[i].memory, growth_.commons))
       asked.push_back({i, growth_.stands[i].first + static_cast<std::size_t>(site.plant), site});
   }
   proposeAll(asked);
-  if (settings_.stop.stop_requested()) throw Stopped();
   proposals_ += asked.size();
+  fits_.asked(asked.size());
   acceptAll(asked);
   settleAll(asked);
   ++growth_.iterations;

@@ -5,6 +5,7 @@
 #include <stop_token>
 #include <vector>
 
+#include "sim/grow/fits.h"
 #include "sim/grow/growth.h"
 #include "sim/light/brightest.h"
 #include "sim/light/light.h"
@@ -32,6 +33,7 @@ struct GrowthSettings {
   std::function<SkyTable()> sky_table;  ///< made once, if a process wants it, and then must be there
   bool record_attempts = false;
   std::stop_token stop;
+  MemoryPlan memory;
   std::function<void(const GrowthProgress&)> progress;  ///< after each iteration
 };
 
@@ -64,8 +66,9 @@ class Growing {
   Growing(const Growing&) = delete;
   Growing& operator=(const Growing&) = delete;
 
-  /// One iteration. False, and nothing happens, when all were done or nothing is left that may grow. Throws
-  /// Stopped when stop is requested; this must then not be gone on with.
+  /// One iteration. False, and nothing happens, when all were done, nothing is left that may grow, or the
+  /// next would not fit into memory (Growth::cut_short says so). Throws Stopped when stop is requested; this
+  /// must then not be gone on with.
   bool step();
   /// Sites that may still grow.
   std::size_t alive() const;
@@ -83,10 +86,11 @@ class Growing {
   struct Asked;
 
   void addNode(std::size_t plant, NodeId parent, Vec3 at_vx, std::span<const float> quantities);
+  bool nextFits();
   StandView view(std::size_t planting) const;
   std::vector<Site> dueOf(std::size_t planting, Columns& memory, Commons& commons) const;
-  Proposal proposeAt(std::size_t planting, const Site& site, const Light* light, const Vec3* brightest, const Columns& memory,
-                     const Commons& commons, bool record) const;
+  Proposal proposeAt(std::size_t planting, const Site& site, const Light* light, const Vec3* brightest,
+                     const Columns& memory, const Commons& commons, bool record) const;
   void proposeAll(std::vector<Asked>& asked) const;
   void acceptAll(std::vector<Asked>& asked);
   bool hindered(const Asked& asked, std::uint32_t before);
@@ -97,14 +101,15 @@ class Growing {
   std::vector<Planting> plantings_;
   GrowthSettings settings_;
   Growth growth_;
-  std::vector<Kin> kin_;                // of each plant
-  std::vector<std::uint64_t> streams_;  // of each plant
-  std::optional<LightSensor> sensor_;   // if a process wants light
+  std::vector<Kin> kin_;                 // of each plant
+  std::vector<std::uint64_t> streams_;   // of each plant
+  std::optional<LightSensor> sensor_;    // if a process wants light
   std::optional<SkySensor> sky_sensor_;  // if a process wants its table
   std::unique_ptr<Claims> claims_;
   std::unique_ptr<PieceGrid> pieces_;
   std::unique_ptr<Nearby> nearby_;  // while pieces are accepted
   std::unique_ptr<Facets> facets_;  // likewise
+  Fits fits_;
   int first_ = 0;
   std::size_t segments_ = 0, elements_ = 0, proposals_ = 0;
 };

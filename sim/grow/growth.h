@@ -50,6 +50,7 @@ struct Growth {
   Commons commons;
   bool recorded = false;          ///< whether attempts were kept from the beginning
   std::vector<Attempt> attempts;  ///< of all sites, in their order
+  std::string cut_short;          ///< why growth ended before its time, in a sentence; no state keeps it
 };
 
 /// The sum over all plants.

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "sim/base/stop.h"
 #include "sim/sense/piece_grid.h"
 
 namespace espalier::sim {
@@ -97,6 +98,7 @@ bool Nearby::cross(const Body& body, bool near) const {
   const auto facets = std::span(facets_).subspan(body.first, body.last - body.first);
   if (apart(asked_slab_, facets) || apart(body.slab, asked_)) return false;
   for (const Facet& mine : asked_) {
+    throwIfStopped();  // of shapes with thousands of triangles each asks thousands
     for (const Facet& other : facets) {
       if (apart(mine.bounds, other.bounds)) continue;
       if (near ? crossNear(mine.corners, mine.normal, other.corners, other.normal)

@@ -10,6 +10,7 @@
 
 #include "sim/base/error.h"
 #include "sim/base/parallel.h"
+#include "sim/base/stop.h"
 #include "sim/tile/clip.h"
 #include "sim/tile/fill.h"
 #include "sim/tile/memory.h"
@@ -144,6 +145,7 @@ void occupyInside(World& world, const BitVolume& inside, std::span<const TiledVo
   auto row_begin = surface.begin();
   std::vector<TiledVoxel> voxels, blocks;
   for (int block_y = 0; 8 * block_y < size.y; ++block_y) {
+    throwIfStopped();
     const WholeBlocks whole(inside, block_y);
     for (int y = 8 * block_y; y < std::min(8 * block_y + 8, size.y); ++y) {
       for (int z = 0; z < size.z; ++z) {

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "sim/base/parallel.h"
+#include "sim/base/stop.h"
 #include "sim/tile/triangle_rows.h"
 
 namespace espalier::sim {
@@ -73,11 +74,13 @@ void Lines::forEachCrossed(const Triangles& triangles_vx,
   });
   std::vector<std::size_t> end(count() + 1, 0);  // of each line's crossings, once they are sorted by line
   for (const auto& chunk : chunks) {
+    throwIfStopped();
     for (const Crossing& c : chunk) ++end[c.line + 1];
   }
   for (std::size_t i = 1; i < end.size(); ++i) end[i] += end[i - 1];
   std::vector<Crossing> crossings(end.back());
   for (auto& chunk : chunks) {
+    throwIfStopped();
     for (const Crossing& c : chunk) crossings[end[c.line]++] = c;
     chunk = {};
   }

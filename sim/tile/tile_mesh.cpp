@@ -10,6 +10,7 @@
 #include <tuple>
 
 #include "sim/base/parallel.h"
+#include "sim/base/stop.h"
 #include "sim/tile/clip.h"
 #include "sim/tile/triangle_rows.h"
 
@@ -107,6 +108,7 @@ class Tiler {
     }
     Pieces pieces(q);
     forEachTriangleRow(q, Voxel(0), size_ - 1, [&](int y, int z, int first, int last) {
+      throwIfStopped();
       pieces.enterRow(y, z);
       for (int x = first; x <= last; ++x) {
         shares.push_back({index(x, y, z), triangle, static_cast<float>(pieces.area(x))});

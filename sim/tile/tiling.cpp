@@ -3,6 +3,7 @@
 #include <cassert>
 #include <cstdlib>
 
+#include "sim/base/stop.h"
 #include "sim/tile/triangle_rows.h"
 
 namespace espalier::sim {
@@ -144,6 +145,7 @@ void tilePolygon(const std::vector<Vec3>& corners_vx, std::vector<Voxel>& voxels
   const Fixed hub = cornerFixed(corners_vx[0]);
   Fixed previous = cornerFixed(corners_vx[1]);
   for (std::size_t i = 2; i < corners_vx.size(); ++i) {
+    throwIfStopped();
     const Fixed next = cornerFixed(corners_vx[i]);
     const std::size_t known = voxels.size();
     tileFixed({hub, previous, next}, voxels);

@@ -15,6 +15,7 @@
 
 #include "sim/base/error.h"
 #include "sim/base/parallel.h"
+#include "sim/base/stop.h"
 #include "sim/world/world_grids.h"
 
 namespace espalier::sim {
@@ -78,6 +79,7 @@ class Slab {
     passZ();
     std::vector<Block> found;
     for (int y = 0; y < size_.y; y += kLanes) {
+      throwIfStopped();
       for (int z = 0; z < size_.z; z += kLanes) addBlock({first_x_, y, z}, found);
     }
     return found;
@@ -109,6 +111,7 @@ class Slab {
   void passX() {
     const int until = std::min(first_x_ + kLanes + reach_.window, size_.x);
     for (int y = 0; y < size_.y; ++y) {
+      throwIfStopped();
       for (int z = 0; z < size_.z; ++z) {
         const std::uint64_t* bits = scene_.row(y, z);
         if (firstAtOrAfter(bits, std::max(first_x_ - reach_.window, 0), until) == until) continue;
@@ -153,6 +156,7 @@ class Slab {
 
   void passZ() {
     for (int y = 0; y < size_.y; ++y) {
+      throwIfStopped();
       for (int z = 0; z < size_.z; ++z) {
         if (along_x_.seen[index(y, z)] == 0) continue;
         const Row& from = along_x_.row[index(y, z)];

@@ -179,5 +179,59 @@ TEST(LayersNeeded, AreTheFarthestThatIsAskedAndOneMore) {
             "rule set 'unnamed', regions.others: require.proximity.min is 8 voxel widths");
 }
 
+/// A square of so many voxel widths, so often on a segment, in full light so much larger and more often.
+RuleSet squares(double side, double per_segment, double boost, std::size_t polygons = 1) {
+  RuleSet rules;
+  rules.name = "square";
+  rules.light.boost = boost;
+  Element square;
+  square.per_segment = per_segment;
+  square.polygons.assign(polygons, {{0, 0, 0}, {side, 0, 0}, {side, side, 0}, {0, side, 0}});
+  rules.elements = {square};
+  return rules;
+}
+
+TEST(VoxelWidths, ElementsOfASegmentAreBoundedBeforeAnyIsTiled) {
+  EXPECT_EQ(complaint(squares(50, 100, 1.0)), "");
+  EXPECT_EQ(complaint(squares(5, 100, 10.0)).find("rule set 'square': elements may take 5"), 0u)
+      << "in full light ten times as many, ten times as long and wide";
+  EXPECT_NE(complaint(squares(1000, 0.1, 1.0)), "") << "one may come, however seldom";
+  EXPECT_NE(complaint(squares(100, 1, 1.0, 256)), "");
+  EXPECT_EQ(
+      complaint(squares(1000, 100, 10.0)),
+      "rule set 'square': elements may take 2e+11 voxels on one segment at a voxel of 0.02 m in full "
+      "light, most of them elements[0] (size, polygons, per_segment, light.boost); expected at most "
+      "1000000");
+  RuleSet curved = squares(1, 1, 1.0);
+  curved.elements[0].size.kind = Value::Kind::curve;
+  curved.elements[0].size.curve = {{0.0, 1.0}, {0.9, 1.0}, {1.0, 2000.0}};
+  EXPECT_NE(complaint(curved), "") << "large only where the curve says so";
+  RuleSet many = squares(100, 1, 1.0);
+  many.elements.resize(64, many.elements[0]);
+  EXPECT_NE(complaint(many), "") << "together";
+  RuleSet hidden;
+  hidden.name = "top";
+  hidden.otherwise = shared(squares(2000, 1, 1.0));
+  EXPECT_EQ(complaint(hidden).find("rule set 'square', otherwise: elements may take"), 0u);
+}
+
+TEST(VoxelWidths, AnElementThatHasNoRoomInTheWorldIsRefused) {
+  const sim::Frame frame{{0, 0, 0}, kVoxel, {30, 40, 120}};  // 130 from corner to corner
+  EXPECT_NO_THROW(requireElementsFit(squares(129, 1, 1.0), frame));
+  try {
+    requireElementsFit(squares(131, 1, 1.0), frame);
+    FAIL();
+  } catch (const sim::InputError& error) {
+    EXPECT_STREQ(error.what(),
+                 "rule set 'square': elements[0] is at least 131 voxel widths long at a voxel of 0.02 m, and "
+                 "nothing longer than 130 has room in this world of 30 x 40 x 120 voxels");
+  }
+  RuleSet in_the_dark = squares(250, 1, 0.5);  // half as long in full light
+  EXPECT_NO_THROW(requireElementsFit(in_the_dark, frame));
+  RuleSet hidden;
+  hidden.otherwise = shared(squares(131, 1, 1.0));
+  EXPECT_THROW(requireElementsFit(hidden, frame), sim::InputError);
+}
+
 }  // namespace
 }  // namespace espalier::rules

@@ -7,6 +7,7 @@
 
 #include "sim/base/error.h"
 #include "sim/base/parallel.h"
+#include "sim/base/stop.h"
 
 namespace espalier::render {
 
@@ -57,7 +58,10 @@ RayScene::RayScene(const ModelScene& scene) : device_(std::make_unique<Device>()
   // Built by one thread: then the tree, and with it the winner among surfaces in one place, is always the
   // same. (Embree's own setting threads=1 would hold the whole process to one thread for as long as the
   // device lives.)
+  rtcSetSceneProgressMonitorFunction(
+      device_->scene, [](void*, double) { return !sim::stopRequested(); }, nullptr);
   sim::onThreads(1, [&] { rtcCommitScene(device_->scene); });
+  sim::throwIfStopped();
 }
 
 RayScene::RayScene(RayScene&&) noexcept = default;

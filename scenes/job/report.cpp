@@ -3,6 +3,9 @@
 #include <fmt/format.h>
 #include <sys/resource.h>
 
+#include <fstream>
+#include <string>
+
 #include "scenes/job/seed_failure_words.h"
 #include "scenes/show/light_json.h"
 #include "sim/base/parallel.h"
@@ -53,9 +56,15 @@ Json growth(const Report::Growth& growth) {
           {"plants", plants}};
 }
 
-/// The most memory that this process has held so far.
+/// The most memory that this process has held so far. Not what getrusage() calls so: that begins with what
+/// the process held that started this one.
 std::uint64_t peakMemoryBytes() {
-  rusage usage{};
+  std::ifstream status("/proc/self/status");
+  std::uint64_t kib = 0;
+  for (std::string word; status >> word;) {
+    if (word == "VmHWM:" && status >> kib) return kib * 1024u;
+  }
+  rusage usage{};  // no Linux
   getrusage(RUSAGE_SELF, &usage);
   return static_cast<std::uint64_t>(usage.ru_maxrss) * 1024u;
 }

@@ -22,7 +22,6 @@
 #include "scenes/show/picture_memory.h"
 #include "scenes/show/pictures.h"
 #include "scenes/write/output_files.h"
-#include "sim/base/memory.h"
 #include "sim/base/parallel.h"
 #include "sim/light/lighting.h"
 #include "sim/world/band.h"
@@ -199,7 +198,6 @@ Report runScene(const Scene& scene, const RunOptions& options, const Keeping& ke
   }
   const sim::Growth growth = stages.run(
       "growing", [&] { return growOn(scene, prepared, std::move(kept), bare, options, keeping, report); });
-  sim::releaseFreed();  // what only growing needed
   report.growth = growthReport(scene, world, bare, growth, prepared.seed_lights);
   if (!growth.cut_short.empty()) report.warnings.push_back(growth.cut_short);
   report.occupied_voxels = world.occupied().count();

@@ -5,11 +5,13 @@
 
 #include "scenes/job/report.h"
 #include "scenes/job/run.h"
+#include "sim/base/memory.h"
 #include "sim/base/stop.h"
 
 namespace espalier::scenes {
 
-/// Names and times the stages of a run, which its token can stop while this lives. Borrows both.
+/// Names and times the stages of a run, which its token can stop while this lives. What a stage needed for
+/// itself is given back at its end. Borrows both.
 class Stages {
  public:
   Stages(const RunOptions& options, Report& report) : options_(options), report_(report) {}
@@ -30,6 +32,7 @@ class Stages {
     Clock::time_point began = Clock::now();
     ~Timer() {
       const double seconds = std::chrono::duration<double>(Clock::now() - began).count();
+      sim::releaseFreed();
       report.run.stages_s.emplace_back(name, seconds);
       report.run.total_s += seconds;
     }

@@ -76,6 +76,12 @@ void requireSites(const World& world, const Planting& planting, std::span<const 
   }
 }
 
+/// Room for one more: a quarter at a time, where a vector alone would double.
+template <typename T>
+void makeRoom(std::vector<T>& values) {
+  if (values.size() == values.capacity()) values.reserve(values.size() + values.size() / 4 + 16);
+}
+
 void occupyWith(std::vector<TiledVoxel>& edit, std::span<const Voxel> voxels, const Surface& surface) {
   for (const Voxel v : voxels) edit.push_back({v, surface});
 }
@@ -303,6 +309,7 @@ void Growing::place(Asked& asked, std::uint32_t before, std::vector<TiledVoxel>&
     }
     occupyWith(edit, proposed.takes,
                {part, plant.shapes[shape].colour, proposed.coverage, Vec3f(proposed.element.z)});
+    makeRoom(plant.elements);
     plant.elements.push_back(proposed.element);
   }
   asked.elements = plant.elements.size() - asked.first_element;

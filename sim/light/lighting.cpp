@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "sim/base/faces.h"
+#include "sim/base/memory.h"
 #include "sim/base/parallel.h"
 #include "sim/light/lit_faces.h"
 #include "sim/light/surface.h"
@@ -211,6 +212,7 @@ Lighting lightOf(const World& world, const Sky& sky, const Sun& sun, const Light
   light.gaps = std::make_shared<const VoxelSet>(std::move(gaps));
   light.surfaces.swap(sensors.surfaces);
   addFaces(sensors, light.faces, world.opaque());
+  releaseFreed();  // what was needed to find them, in small pieces
   findSky(light, world, sky, wanted, sensors, count);
   {
     const OpenTable open = sweepOpen(world.opaque(), sun.directions, sensors.places);

@@ -88,18 +88,23 @@ void addFaces(SurfaceSensors& sensors, const std::vector<std::uint64_t>& faces, 
   renumbered.reserve(sensors.places->count());
   for (const Voxel v : sensors.places->voxels())
     renumbered.push_back(static_cast<std::uint32_t>(places->number(v)));
-  for (auto& tap : sensors.taps) tap.place = renumbered[tap.place];
+  for (auto& piece : sensors.taps) {
+    for (auto& tap : piece) tap.place = renumbered[tap.place];
+  }
   sensors.places = places;
   sensors.surfaces.reserve(sensors.surfaces.size() + faces.size());
-  sensors.taps.reserve(sensors.taps.size() + faces.size());
-  sensors.first.reserve(sensors.first.size() + faces.size());
+  sensors.own.reserve(sensors.own.size() + faces.size());
+  const auto piece = static_cast<std::uint32_t>(sensors.taps.size());
+  std::vector<SurfaceSensors::Tap>& taps = sensors.taps.emplace_back();
+  taps.reserve(faces.size());
   for (const std::uint64_t face : faces) {
     Surface surface;
     surface.normal = Vec3f(kFaceNormals[face % kFaces]);
     sensors.surfaces.push_back({voxelOfKey(face, opaque.size()), surface});
+    const auto first = static_cast<std::uint32_t>(taps.size());
     if (const auto place = placeOf(face, opaque))
-      sensors.taps.push_back({static_cast<std::uint32_t>(places->number(*place)), 1.0f});
-    sensors.first.push_back(sensors.taps.size());  // without a tap it is dark
+      taps.push_back({static_cast<std::uint32_t>(places->number(*place)), 1.0f});
+    sensors.own.push_back({piece, first, static_cast<std::uint32_t>(taps.size()) - first});  // none: dark
   }
 }
 

@@ -193,29 +193,27 @@ SurfaceSensors joined(Voxel size, std::vector<Stretch> stretches) {
   parallelForEach(stretches.size(), [&](std::size_t p) { stretches[p].mark(bits); });
   SurfaceSensors sensors;
   sensors.places = std::make_shared<const VoxelSet>(std::move(bits));
-  std::vector<std::size_t> surface(stretches.size() + 1), tap(stretches.size() + 1);
-  for (std::size_t p = 0; p < stretches.size(); ++p) {
+  std::vector<std::size_t> surface(stretches.size() + 1);
+  for (std::size_t p = 0; p < stretches.size(); ++p)
     surface[p + 1] = surface[p] + stretches[p].surfaces.size();
-    tap[p + 1] = tap[p] + stretches[p].taps.size();
-  }
   sensors.surfaces.resize(surface.back());
-  sensors.first.resize(surface.back() + 1);
-  sensors.taps.resize(tap.back());
-  sensors.first.back() = tap.back();
+  sensors.own.resize(surface.back());
+  sensors.taps.resize(stretches.size());
   parallelForEach(stretches.size(), [&](std::size_t p) {
     Stretch mine = std::move(stretches[p]);
-    std::size_t next = tap[p];
+    SurfaceSensors::Own own{static_cast<std::uint32_t>(p), 0, 0};
     Numbers numbers(*sensors.places);
     for (std::size_t i = 0; i < mine.surfaces.size(); ++i) {
       const TiledVoxel& tiled = mine.surfaces[i];
+      own.count = mine.counts[i];
       sensors.surfaces[surface[p] + i] = tiled;
-      sensors.first[surface[p] + i] = next;
-      for (std::uint32_t k = 0; k < mine.counts[i]; ++k, ++next) {
-        const Tap t = mine.taps[next - tap[p]];
-        const Voxel place = tiled.voxel + unpacked(t.place);
-        sensors.taps[next] = {numbers(place), t.weight};
+      sensors.own[surface[p] + i] = own;
+      for (; own.count > 0; --own.count, ++own.first) {
+        Tap& tap = mine.taps[own.first];
+        tap.place = numbers(tiled.voxel + unpacked(tap.place));
       }
     }
+    sensors.taps[p] = std::move(mine.taps);
   });
   return sensors;
 }
@@ -237,6 +235,7 @@ SurfaceSensors surfaceSensors(const World& world) {
         }
       }
     }
+    stretches[slice].taps.shrink_to_fit();
   });
   return joined(size, std::move(stretches));
 }
@@ -247,6 +246,7 @@ SurfaceSensors surfaceSensors(const World& world, std::vector<TiledVoxel> surfac
   parallelForEach(stretches.size(), [&](std::size_t p) {
     const std::size_t last = std::min((p + 1) * kChunk, surfaces.size());
     for (std::size_t i = p * kChunk; i < last; ++i) stretches[p].add(world.opaque(), surfaces[i]);
+    stretches[p].taps.shrink_to_fit();
   });
   return joined(world.frame().size, std::move(stretches));
 }

@@ -25,11 +25,16 @@ struct SurfaceSensors {
   std::vector<TiledVoxel> surfaces;  ///< that have a normal and a free place in front, in the order that
                                      ///< was given
   std::shared_ptr<const VoxelSet> places;  ///< that taps read
-  std::vector<Tap> taps;
-  std::vector<std::size_t> first;  ///< surface i has taps first[i] .. first[i + 1] - 1
+  /// In pieces, as they were found: there are so many that they should not be in memory twice.
+  std::vector<std::vector<Tap>> taps;
+  struct Own {
+    std::uint32_t piece, first, count;
+  };
+  std::vector<Own> own;  ///< which taps are each surface's
 
   std::span<const Tap> of(std::size_t surface) const {
-    return std::span(taps).subspan(first[surface], first[surface + 1] - first[surface]);
+    const Own& of_it = own[surface];
+    return std::span(taps[of_it.piece]).subspan(of_it.first, of_it.count);
   }
 };
 

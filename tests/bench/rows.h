@@ -21,6 +21,9 @@ void benchGrowth(const scenes::Scene& scene, scenes::Site& site, Report& report)
 /// and instruction sets, and another grower.
 void benchSegments(double most_segments, Report& report);
 
+/// The whole program's memory on such walls.
+void benchMemory(double most_segments, Report& report);
+
 /// A sky of at least so many directions, of equal weight for equal parts.
 sim::DirectionSet skyOf(int directions);
 

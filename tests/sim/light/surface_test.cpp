@@ -134,7 +134,7 @@ TEST(SurfaceSensors, WeightsAddUpAndPlacesAreFreeAndInFront) {
   const World world = garden();
   const SurfaceSensors sensors = surfaceSensors(world);
   EXPECT_GT(sensors.surfaces.size(), 5000u);
-  ASSERT_EQ(sensors.first.size(), sensors.surfaces.size() + 1);
+  ASSERT_EQ(sensors.own.size(), sensors.surfaces.size());
   const auto places = sensors.places->voxels();
   for (std::size_t i = 0; i < sensors.surfaces.size(); ++i) {
     const auto& [voxel, surface] = sensors.surfaces[i];

@@ -96,7 +96,9 @@ class Stop : public tests::Plot {
     }
     if (ended.early) return;
     EXPECT_EQ(ended.status, 130) << moment << ": " << ended.said;
-    EXPECT_TRUE(ended.said.ends_with("espalier: stopped\n")) << moment << ": " << ended.said;
+    // On a busy machine a signal at no stage may come before the program listens: the system ends it.
+    const bool too_soon = stage.empty() && ended.said.empty();
+    EXPECT_TRUE(too_soon || ended.said.ends_with("espalier: stopped\n")) << moment << ": " << ended.said;
     EXPECT_LT(ended.took_s, kSoon_s) << moment;
     ++stopped_;
   }

@@ -363,9 +363,11 @@ std::vector<std::string> levels() {
 
 void useLevel(const std::string& name) {
   hwy::SetSupportedTargetsForTest(0);
+  std::int64_t upto = 0;  // it and all below: not every module is made for every one
   for (const std::int64_t target : hwy::SupportedAndGeneratedTargets()) {
-    if (name == hwy::TargetName(target)) hwy::SetSupportedTargetsForTest(target);
+    if (upto != 0 || name == hwy::TargetName(target)) upto |= target;
   }
+  hwy::SetSupportedTargetsForTest(upto);
   hwy::GetChosenTarget().Update(hwy::SupportedTargets());
 }
 

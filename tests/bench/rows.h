@@ -17,7 +17,7 @@ void benchLargeWorlds(double most_voxels, Report& report);
 /// What light costs while the scene grows. Grows it in the site's world.
 void benchGrowth(const scenes::Scene& scene, scenes::Site& site, Report& report);
 
-/// Growth on walls that grow with the number of segments, up to so many: speed, memory, other rules, threads
+/// Growth on walls that grow with the number of segments, up to so many: speed, other rules, threads
 /// and instruction sets, and another grower.
 void benchSegments(double most_segments, Report& report);
 

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <cstdio>
 #include <random>
 
 #include "rules/growth/make_process.h"
@@ -34,16 +33,6 @@ double cpuSeconds() {
     return static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec);
   };
   return seconds(usage.ru_utime) + seconds(usage.ru_stime);
-}
-
-/// Bytes that this process holds.
-double residentBytes() {
-  long pages = 0;
-  if (std::FILE* const file = std::fopen("/proc/self/statm", "r")) {
-    if (std::fscanf(file, "%*s %ld", &pages) != 1) pages = 0;
-    std::fclose(file);
-  }
-  return static_cast<double>(pages) * 4096.0;
 }
 
 /// A wall twice as wide as it is high, 20 cm thick, with half a metre of air before it.
@@ -116,7 +105,7 @@ sim::GrowthSettings settingsFor() {
 struct Grown {
   std::size_t segments = 0, elements = 0, inside = 0;
   std::uint64_t trials = 0, state = 0;
-  double cpu_s = 0.0, wall_s = 0.0, bytes = 0.0;
+  double cpu_s = 0.0, wall_s = 0.0;
 };
 
 /// Segments that cross a voxel of the scene.
@@ -142,14 +131,13 @@ Grown growOn(sim::World& world, const rules::RuleSet& rules, double segments) {
   Grown grown;
   sim::GrowthSettings settings = settingsFor();
   settings.progress = [&](const sim::GrowthProgress& progress) { grown.segments = progress.segments; };
-  const double bytes = residentBytes(), cpu_s = cpuSeconds();
+  const double cpu_s = cpuSeconds();
   const auto began = std::chrono::steady_clock::now();
   sim::Growing growing(world, plantings, settings);
   while (static_cast<double>(grown.segments) < segments && growing.step()) {
   }
   grown.wall_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
   grown.cpu_s = cpuSeconds() - cpu_s;
-  grown.bytes = residentBytes() - bytes;
   const sim::Growth growth = growing.take();
   for (const sim::Plant& plant : growth.plants) grown.elements += plant.elements.size();
   for (const std::uint64_t count : sim::total(growth).trials) grown.trials += count;
@@ -167,25 +155,18 @@ void benchSegments(double most_segments, Report& report) {
       "5. Growth on plain walls of 2 cm voxels, figure 4's rules (segments of 2.4 voxel widths, leaves), sky "
       "of "
       "128 and sun of 48 directions, light included");
-  std::vector<double> bytes;
   for (double segments = 1e4; segments <= most_segments; segments *= 10.0) {
     sim::World world = wallFor(segments);
     const Grown g = growOn(world, figure_four, segments);
     const auto count = static_cast<double>(g.segments);
     report.note(fmt::format("{} x {} x {} voxels: {} segments, {} leaves, {} trials", world.frame().size.x,
                             world.frame().size.y, world.frame().size.z, g.segments, g.elements, g.trials));
-    bytes.push_back(g.bytes / count);
     report.add({kRow, "  segments a CPU second", count / g.cpu_s, "", g.state,
                 Target{sim::lanes::level().starts_with("AVX3") ? 50'000.0 : 20'000.0}});
     report.add({kRow, "  trials a segment", static_cast<double>(g.trials) / count, "", g.state});
-    report.add({kRow, "  memory a segment, its voxels included", bytes.back(), "bytes", g.state,
-                Target{2000.0, false}});
     report.add({kRow, "  segments that cross the wall", static_cast<double>(g.inside), "", g.state,
                 Target{0.0, false}});
   }
-  report.add({kRow, "memory a segment: the most over the least",
-              *std::max_element(bytes.begin(), bytes.end()) / *std::min_element(bytes.begin(), bytes.end()),
-              "times", 0, Target{1.5, false}});
 
   constexpr double kSegments = 3e4;
   const auto onOneThread = [&](const rules::RuleSet& rules) {

@@ -95,6 +95,7 @@ class Stop : public tests::Plot {
         EXPECT_EQ(name.find(".espalier-part-"), name.npos) << moment;
     }
     if (ended.early) return;
+    if (stage == "writing" && ended.status == 0) return;  // all files were in their places: it was done
     EXPECT_EQ(ended.status, 130) << moment << ": " << ended.said;
     // On a busy machine a signal at no stage may come before the program listens: the system ends it.
     const bool too_soon = stage.empty() && ended.said.empty();

@@ -41,7 +41,8 @@ small $work/courtyard/vines.png vines 780
 small $work/courtyard/contact_sheet.png contact_sheet 960
 for kind in sky_exposure sun_exposure threshold; do small $work/courtyard/$kind.png $kind 800; done
 
-# One run in three parts, drawn after each.
+# One run in three parts, drawn after each; nothing of an older program's run is gone on with.
+rm -rf $work/kept
 program=${ESPALIER:-./run espalier}
 for iterations in 12 25 51; do
   $program grow scenes/library/courtyard.yaml -o $work/kept --resume --iterations $iterations --no-pictures --quiet

@@ -64,12 +64,13 @@ class BookProcess final : public sim::Process {
 
 Outcome BookProcess::tryToGrow(const sim::SiteView& view, const RuleSet& rules, const Surroundings& around,
                                const sim::RandomKey& key, unsigned set, sim::Proposal& proposal) const {
-  const Senses senses = sense(view, around, rules);
-  if (senses.exposure < rules.require.exposure_min) return Outcome::too_dark;
-  if (senses.exposure > rules.require.exposure_max) return Outcome::too_bright;
+  const Vigour light = vigourOf(around, rules);
+  if (light.exposure < rules.require.exposure_min) return Outcome::too_dark;
+  if (light.exposure > rules.require.exposure_max) return Outcome::too_bright;
   const double chance = sim::Slots(key, sim::Purpose::rate, set).uniform(0);
-  if (chance * std::max(1.0, rules.light.boost) >= senses.vigour) return Outcome::resting;
+  if (chance * std::max(1.0, rules.light.boost) >= light.vigour) return Outcome::resting;
 
+  const Senses senses = sense(view, around, rules);
   std::optional<Candidate> best;
   switch (rules.propagate) {
     case Propagate::random_tree:

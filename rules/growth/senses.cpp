@@ -58,13 +58,18 @@ Surroundings lookAround(const sim::SiteView& view, const sim::Site& site) {
   return around;
 }
 
+Vigour vigourOf(const Surroundings& around, const RuleSet& rules) {
+  const double exposure = blended(rules.light, around.sun_exposure, around.sky_exposure);
+  return {exposure, vigourAt(rules, exposure)};
+}
+
 Senses sense(const sim::SiteView& view, const Surroundings& around, const RuleSet& rules) {
   Senses senses;
-  senses.light = rules.bias.brightest == Brightest::table
-                     ? *view.brightest
-                     : unitOrZero(view.light->sky.toward);
-  senses.exposure = blended(rules.light, around.sun_exposure, around.sky_exposure);
-  senses.vigour = vigourAt(rules, senses.exposure);
+  senses.light = rules.bias.brightest == Brightest::table ? view.sky->brightest(around.voxel)
+                                                          : unitOrZero(view.light->sky.toward);
+  const auto [exposure, vigour] = vigourOf(around, rules);
+  senses.exposure = exposure;
+  senses.vigour = vigour;
   if (highest(rules.bias.twist) != 0.0 || lowest(rules.bias.twist) != 0.0) {
     const auto mass = sim::centreOfMass(view.world.occupied(), around.voxel, rules.bias.twist_radius.number);
     if (mass) senses.twist = unitOrZero(glm::cross(around.heading, *mass - around.at_vx));
@@ -72,13 +77,6 @@ Senses sense(const sim::SiteView& view, const Surroundings& around, const RuleSe
   senses.circumstance = {senses.exposure, static_cast<double>(view.iteration),
                          around.at_vx.y * view.world.frame().voxel_m};
   return senses;
-}
-
-sim::Vec3 flattened(sim::Vec3 direction, sim::Voxel world_size) {
-  for (int axis = 0; axis < 3; ++axis) {
-    if (world_size[axis] == 1) direction[axis] = 0.0;
-  }
-  return unitOrZero(direction);
 }
 
 }  // namespace espalier::rules

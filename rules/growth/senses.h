@@ -18,6 +18,12 @@ struct Surroundings {
   std::vector<sim::Voxel> attachment;
 };
 
+/// Light, and growth by it.
+struct Vigour {
+  double exposure = 0.0;  ///< blended
+  double vigour = 1.0;    ///< growth rate over that at the least exposure: 1 .. boost
+};
+
 /// What one rule set makes of them.
 struct Senses {
   sim::Vec3 light{0.0};  ///< unit, towards the brightest part of the sky; zero where none is seen
@@ -30,9 +36,8 @@ struct Senses {
 };
 
 Surroundings lookAround(const sim::SiteView& view, const sim::Site& site);
+/// What one rule set makes of the light. To be asked before all else, which is dearer: many sites end by it.
+Vigour vigourOf(const Surroundings& around, const RuleSet& rules);
 Senses sense(const sim::SiteView& view, const Surroundings& around, const RuleSet& rules);
-
-/// The world's axes with a single voxel are flat: a direction loses its component along them.
-sim::Vec3 flattened(sim::Vec3 direction, sim::Voxel world_size);
 
 }  // namespace espalier::rules

@@ -190,11 +190,11 @@ Due Growing::due() const {
   return due;
 }
 
-Proposal Growing::proposeAt(std::size_t planting, const Site& site, const Light* light, const Vec3* brightest,
+Proposal Growing::proposeAt(std::size_t planting, const Site& site, const Light* light, const SkyInside* sky,
                             const Columns& memory, const Commons& commons, bool record) const {
   const std::size_t plant = growth_.stands[planting].first + static_cast<std::size_t>(site.plant);
-  const SiteView view{world_,    growth_.plants[plant], kin_[plant], memory, commons, *pieces_, light,
-                      brightest, growth_.iterations,    record};
+  const SiteView view{world_, growth_.plants[plant], kin_[plant], memory, commons, *pieces_, light,
+                      sky,    growth_.iterations,    record};
   const RandomKey key{streams_[plant], static_cast<std::uint32_t>(site.node), site.number,
                       static_cast<std::uint32_t>(growth_.iterations)};
   return plantings_[planting].process->propose(view, site, key);
@@ -208,39 +208,32 @@ Proposal Growing::propose(const Due& due, std::size_t planting, const Site& site
     const Voxel place = voxelAt(site.at_vx);
     light = sensor_->at(world_.opaque(), {&place, 1}).front();
   }
-  std::optional<Vec3> brightest;
-  if (plantings_[planting].process->wants().sky_table) {
-    const Voxel place = voxelAt(site.at_vx);
-    brightest = sky_sensor_->at(world_.opaque(), {&place, 1}).front();
-  }
-  return proposeAt(planting, site, light ? &*light : nullptr, brightest ? &*brightest : nullptr,
+  std::optional<SkyInside> sky;
+  if (plantings_[planting].process->wants().sky_table) sky.emplace(*sky_sensor_, world_.opaque());
+  return proposeAt(planting, site, light ? &*light : nullptr, sky ? &*sky : nullptr,
                    due.memories.at(planting), due.commons, true);
 }
 
 void Growing::proposeAll(std::vector<Asked>& asked) const {
-  /// What is sensed for some of the sites, all at once.
-  struct Sensed {
-    std::vector<Voxel> places;
-    std::vector<std::size_t> numbers;  // of each site's place, from 1; 0: not wanted
-    void want(bool wanted, const Site& site) {
-      if (wanted) places.push_back(voxelAt(site.at_vx));
-      numbers.push_back(wanted ? places.size() : 0);
-    }
-  } light, sky;
-  for (const Asked& a : asked) {
-    const Wants wants = plantings_[a.planting].process->wants();
-    light.want(wants.light, a.site);
-    sky.want(wants.sky_table, a.site);
+  std::vector<Voxel> places;                      // of those that want light
+  std::vector<std::size_t> lit(asked.size(), 0);  // number of its place, from 1; 0: wants no light
+  bool sky_wanted = false;
+  for (std::size_t i = 0; i < asked.size(); ++i) {
+    const Wants wants = plantings_[asked[i].planting].process->wants();
+    sky_wanted = sky_wanted || wants.sky_table;
+    if (!wants.light) continue;
+    places.push_back(voxelAt(asked[i].site.at_vx));
+    lit[i] = places.size();
   }
-  const auto lights = sensor_ ? sensor_->at(world_.opaque(), light.places) : std::vector<Light>();
-  const auto ways = sky_sensor_ ? sky_sensor_->at(world_.opaque(), sky.places) : std::vector<Vec3>();
+  const auto lights = sensor_ ? sensor_->at(world_.opaque(), places) : std::vector<Light>();
+  std::optional<SkyInside> sky;
+  if (sky_wanted) sky.emplace(*sky_sensor_, world_.opaque());
   parallelFor(asked.size(), 4, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       throwIfStopped();
       const Asked& a = asked[i];
       asked[i].proposal =
-          proposeAt(a.planting, a.site, light.numbers[i] > 0 ? &lights[light.numbers[i] - 1] : nullptr,
-                    sky.numbers[i] > 0 ? &ways[sky.numbers[i] - 1] : nullptr,
+          proposeAt(a.planting, a.site, lit[i] > 0 ? &lights[lit[i] - 1] : nullptr, sky ? &*sky : nullptr,
                     growth_.stands[a.planting].memory, growth_.commons, growth_.recorded);
     }
   });

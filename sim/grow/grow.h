@@ -89,7 +89,7 @@ class Growing {
   bool nextFits();
   StandView view(std::size_t planting) const;
   std::vector<Site> dueOf(std::size_t planting, Columns& memory, Commons& commons) const;
-  Proposal proposeAt(std::size_t planting, const Site& site, const Light* light, const Vec3* brightest,
+  Proposal proposeAt(std::size_t planting, const Site& site, const Light* light, const SkyInside* sky,
                      const Columns& memory, const Commons& commons, bool record) const;
   void proposeAll(std::vector<Asked>& asked) const;
   void acceptAll(std::vector<Asked>& asked);

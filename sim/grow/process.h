@@ -122,9 +122,9 @@ struct SiteView {
   const Kin& kin;
   const Columns& memory;
   const Commons& commons;
-  const PieceGrid& pieces;              ///< limbs and elements of all plants, to be tested exactly
-  const Light* light = nullptr;         ///< at the site, if the process wants it
-  const Vec3* brightest = nullptr;  ///< way of the sky's brightest spot there, if the process wants it
+  const PieceGrid& pieces;         ///< limbs and elements of all plants, to be tested exactly
+  const Light* light = nullptr;    ///< at the site, if the process wants it
+  const SkyInside* sky = nullptr;  ///< who knows the sky's brightest spot, if the process wants its table
   int iteration = 0;
   bool record_attempts = false;
 };

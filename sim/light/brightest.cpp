@@ -180,14 +180,4 @@ std::vector<Vec3f> brightest(const SkyTable& table, const OpenTable& open) {
 SkySensor::SkySensor(const BitVolume& shape, const SkyTable& table)
     : rays_(shape, table.rays), filter_(table) {}
 
-std::vector<Vec3> SkySensor::at(const BitVolume& opaque, std::span<const Voxel> places) const {
-  const std::vector<std::uint64_t> open = rays_.from(opaque, places);
-  std::vector<Vec3> ways(places.size());
-  parallelFor(places.size(), 4, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i)
-      ways[i] = filter_.brightest(std::span(open).subspan(i * rays_.words(), rays_.words()));
-  });
-  return ways;
-}
-
 }  // namespace espalier::sim

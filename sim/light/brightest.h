@@ -67,18 +67,32 @@ Vec3 brightest(const SkyTable& table, const BitVolume& occupied, Voxel p);
 /// For each of the places of `open`, which must be of the table's rays.
 std::vector<Vec3f> brightest(const SkyTable& table, const OpenTable& open);
 
-/// Asks for the brightest direction at some places, again and again while a world of one shape fills: the
-/// same as brightest gives for each.
+/// A table of the sky made ready for worlds of one shape; see SkyInside.
 class SkySensor {
  public:
   SkySensor(const BitVolume& shape, const SkyTable& table);
 
-  /// `opaque` must have the shape that was given, and the places must lie in it.
-  std::vector<Vec3> at(const BitVolume& opaque, std::span<const Voxel> places) const;
-
  private:
+  friend class SkyInside;
   OpenRays rays_;
   SkyFilter filter_;
+};
+
+/// Asks for the brightest direction at places of a volume that stands still meanwhile: the same as brightest
+/// gives for each. Most of what is asked of a bud's light ends before it comes to this. May be asked from any
+/// number of threads. Borrows both.
+class SkyInside {
+ public:
+  /// `opaque` must have the shape that was given to the sensor.
+  SkyInside(const SkySensor& sensor, const BitVolume& opaque)
+      : filter_(sensor.filter_), rays_(sensor.rays_, opaque) {}
+
+  /// See SkyFilter::brightest. The place must lie in the volume.
+  Vec3 brightest(Voxel place) const { return filter_.brightest(rays_.from(place)); }
+
+ private:
+  const SkyFilter& filter_;
+  RaysInside rays_;
 };
 
 }  // namespace espalier::sim

@@ -107,4 +107,18 @@ std::vector<std::uint64_t> OpenRays::from(const BitVolume& occupied, std::span<c
   return open;
 }
 
+RaysInside::RaysInside(const OpenRays& rays, const BitVolume& occupied) : rays_(rays), occupied_(occupied) {
+  for (const looking::Group& group : *rays.groups_) clear_.emplace_back(occupied, group.directions);
+}
+RaysInside::~RaysInside() = default;
+
+std::vector<std::uint64_t> RaysInside::from(Voxel place) const {
+  std::vector<std::uint64_t> open(rays_.words());
+  for (std::size_t g = 0; g < clear_.size(); ++g) {
+    looking::look(occupied_, (*rays_.groups_)[g], clear_[g], {&place, 1},
+                  open.data() + g * ClearBricks::kWords, rays_.words());
+  }
+  return open;
+}
+
 }  // namespace espalier::sim

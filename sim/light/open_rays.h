@@ -14,6 +14,9 @@ namespace looking {
 struct Group;
 }
 
+class ClearBricks;
+class RaysInside;
+
 /// Directions made ready to be looked along from many places, again and again in worlds of one shape. The
 /// answer is that of reachesEdge for each of them; what is near is found for many directions at once, and
 /// rays end where nothing lies ahead any more.
@@ -29,8 +32,25 @@ class OpenRays {
   std::vector<std::uint64_t> from(const BitVolume& occupied, std::span<const Voxel> places) const;
 
  private:
+  friend class RaysInside;
   std::shared_ptr<const DirectionSet> directions_;  // the groups refer to them
   std::shared_ptr<const std::vector<looking::Group>> groups_;
+};
+
+/// The same for single places, in a volume that stands still meanwhile: nothing is found for places of which
+/// nobody asks. May be asked from any number of threads. Borrows both.
+class RaysInside {
+ public:
+  RaysInside(const OpenRays& rays, const BitVolume& occupied);
+  ~RaysInside();
+
+  /// A place's row of bits.
+  std::vector<std::uint64_t> from(Voxel place) const;
+
+ private:
+  const OpenRays& rays_;
+  const BitVolume& occupied_;
+  std::vector<ClearBricks> clear_;  // of each group
 };
 
 }  // namespace espalier::sim

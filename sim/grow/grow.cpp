@@ -61,6 +61,14 @@ void requireSeeds(const World& world, const std::vector<Planting>& plantings) {
   throw BrokenContract(fmt::format("the growth process of '{}' {}", planting.name, what));
 }
 
+/// Whether a place lies in a world; one that is no number does not.
+bool holds(Voxel size, Vec3 place_vx) {
+  for (int axis = 0; axis < 3; ++axis) {
+    if (!(place_vx[axis] >= -0.5 && place_vx[axis] < size[axis] - 0.5)) return false;
+  }
+  return true;
+}
+
 void requireSites(const World& world, const Planting& planting, std::span<const Plant> plants,
                   const std::vector<Site>& sites) {
   const auto place = [](const Site& site) { return std::tie(site.plant, site.node, site.number); };
@@ -71,8 +79,7 @@ void requireSites(const World& world, const Planting& planting, std::span<const 
         site.node >= plants[static_cast<std::size_t>(site.plant)].skeleton.size())
       broken(planting, "named a site on a node that is not there");
     if (site.number >= Slots::kNumbers) broken(planting, "numbered a site beyond what can be told apart");
-    if (!contains(world.frame().size, voxelAt(site.at_vx)))
-      broken(planting, "named a site outside the world");
+    if (!holds(world.frame().size, site.at_vx)) broken(planting, "named a site outside the world");
   }
 }
 
@@ -253,6 +260,8 @@ void Growing::addNode(std::size_t plant, NodeId parent, Vec3 at_vx, std::span<co
 /// proposal's segment.
 bool Growing::hindered(const Asked& asked, std::uint32_t before) {
   const auto& segment = asked.proposal.segment;
+  if (segment && !holds(world_.frame().size, segment->to_vx))
+    broken(plantings_[asked.planting], "put a node outside the world");
   if (!segment || segment->passage != Passage::around) return false;
   if (!claims_->allow(segment->takes, {asked.plant, asked.site.node}, voxelAt(asked.site.at_vx))) return true;
   const Limb limb{latticePoint(asked.site.at_vx), latticePoint(segment->to_vx)};
@@ -270,8 +279,6 @@ void Growing::place(Asked& asked, std::uint32_t before, std::vector<TiledVoxel>&
   if (auto& segment = asked.proposal.segment) {
     if (segment->quantities.size() != plant.skeleton.columns.size())
       broken(planting, "gave a node other quantities than its plant has columns");
-    if (!contains(world_.frame().size, voxelAt(segment->to_vx)))
-      broken(planting, "put a node outside the world");
     if (segment->passage == Passage::through) claims_->keepFree(segment->takes);
     claims_->take(segment->takes, from);
     occupyWith(edit, segment->takes,

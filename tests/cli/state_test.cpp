@@ -6,6 +6,7 @@
 #include <unistd.h>
 #include <chrono>
 #include <csignal>
+#include <filesystem>
 #include <fstream>
 #include <random>
 #include <thread>
@@ -111,7 +112,14 @@ TEST_F(Kept, SurvivesBeingKilledAtAnyMoment) {
     const pid_t child = start({ESPALIER_PROGRAM, "grow", scratch_.path("scene.yaml").string(), "-o",
                                scratch_.path(folder).string(), "--no-pictures", "--save-every", "2"});
     ASSERT_GT(child, 0);
-    std::this_thread::sleep_for(std::chrono::microseconds(random() % static_cast<std::uint64_t>(longest_us)));
+    if (i % 4 == 3) {  // at once after a state was kept, whenever that may be
+      const auto kept = scratch_.path(folder) / "growth.state";
+      for (int waits = 0; waits < 50'000 && !std::filesystem::exists(kept); ++waits)
+        std::this_thread::sleep_for(std::chrono::microseconds(200));
+    } else {
+      std::this_thread::sleep_for(
+          std::chrono::microseconds(random() % static_cast<std::uint64_t>(longest_us)));
+    }
     ::kill(child, SIGKILL);
     int status = 0;
     ::waitpid(child, &status, 0);

@@ -1,6 +1,7 @@
 #include "rules/growth/random_tree.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <limits>
 
@@ -12,13 +13,37 @@ namespace {
 
 using sim::Outcome;
 
-/// What the rules say to a segment that was felt along.
-Outcome judged(const RuleSet& rules, sim::Felt::Fate fate, double proximity_vx) {
-  if (fate == sim::Felt::outside) return Outcome::out_of_world;
-  if (fate == sim::Felt::blocked) return Outcome::blocked;
+/// What the rules say to a segment that has room.
+Outcome judged(const RuleSet& rules, double proximity_vx) {
   if (proximity_vx > rules.require.proximity_max.number) return Outcome::too_far;
   if (proximity_vx < rules.require.proximity_min.number) return Outcome::too_near;
   return Outcome::grown;
+}
+
+/// Bits below a number of at most 64.
+std::uint64_t below(int number) {
+  return number >= 64 ? ~std::uint64_t{0} : (std::uint64_t{1} << number) - 1;
+}
+
+/// Counts those of the first `count` that have no room.
+void countFailed(const sim::Felt& felt, int count, sim::OutcomeCounts& trials) {
+  const std::uint64_t counted = below(count);
+  trials[static_cast<std::size_t>(Outcome::out_of_world)] +=
+      static_cast<std::uint64_t>(std::popcount(felt.outside & counted));
+  trials[static_cast<std::size_t>(Outcome::blocked)] +=
+      static_cast<std::uint64_t>(std::popcount(~(felt.clear | felt.outside) & counted));
+}
+
+void record(const RuleSet& rules, const Surroundings& around, const sim::Offsets& ends, const sim::Felt& felt,
+            int count, std::vector<sim::Attempt>& attempts) {
+  for (int i = 0; i < count; ++i) {
+    const auto n = static_cast<std::size_t>(i);
+    const auto is = [&](std::uint64_t bits) { return (bits >> n & 1u) != 0; };
+    const Outcome outcome = is(felt.clear)     ? judged(rules, felt.proximity_vx[n])
+                            : is(felt.outside) ? Outcome::out_of_world
+                                               : Outcome::blocked;
+    attempts.push_back({around.at_vx, sim::endOf(around.at_vx, ends, n), outcome, false});
+  }
 }
 
 /// The voxels that segments of a set may reach along any axis.
@@ -35,46 +60,48 @@ std::optional<Candidate> bestTrial(const sim::SiteView& view, const RuleSet& rul
   const sim::Passage passage = rules.require.clear ? sim::Passage::around : sim::Passage::through;
   const int plant = sim::numberOf(view.world, view.plant);
   const Ways ways = waysOf(rules, around, senses, key, set, view.world.frame().size);
-  const sim::Room room =
-      sim::roomAround(view.world, around.voxel, reachOf(ways), around.attachment, passage, plant);
+  thread_local sim::Room room;  // it keeps its memory
+  sim::roomAround(view.world, around.voxel, reachOf(ways), around.attachment, passage, plant, room);
   std::optional<Candidate> best;
   double best_score = std::numeric_limits<double>::infinity();
-  std::size_t best_attempt = 0;
+  int best_trial = 0;
+  const std::size_t recorded = proposal.attempts.size();  // of the sets before
   sim::Offsets ends;
   sim::Felt felt;
   // Without a preference any good one will do.
   const int enough = rules.prefer.has_proximity ? tree.trials_min : 1;
   // Where any good one will do, one of the first mostly does.
   constexpr int kFew = 16;
-  const auto done = [&](int trial) { return trial >= tree.trials_max || (best && trial >= enough); };
-  for (int first = 0; !done(first);) {
+  for (int first = 0; first < tree.trials_max && !(best && first >= enough);) {
     // Trials are made as if one by one: what is felt ahead of the one that ends them counts for nothing.
     const int until = first >= enough ? tree.trials_max : std::max(enough, std::min(kFew, tree.trials_max));
-    const int count = std::min<int>(until - first, sim::Offsets::kMost);
-    trialEnds(ways, static_cast<unsigned>(first), static_cast<std::size_t>(count), ends);
-    sim::feel(view.world, room, around.at_vx, ends, static_cast<std::size_t>(count), felt);
-    int i = 0;
-    for (; i < count && !done(first + i); ++i) {
+    const int ahead = std::min<int>(until - first, sim::Offsets::kMost);
+    trialEnds(ways, static_cast<unsigned>(first), static_cast<std::size_t>(ahead), ends);
+    sim::feel(view.world, room, around.at_vx, ends, static_cast<std::size_t>(ahead), felt);
+    int count = best ? std::min(ahead, enough - first) : ahead;
+    for (std::uint64_t clear = felt.clear; clear != 0; clear &= clear - 1) {
+      const int i = std::countr_zero(clear);
+      if (i >= count) break;
       const auto n = static_cast<std::size_t>(i);
-      const double proximity_vx = felt.fate[n] == sim::Felt::clear ? double{felt.proximity_vx[n]} : 0.0;
-      const Outcome outcome = judged(rules, felt.fate[n], proximity_vx);
+      const double proximity_vx = felt.proximity_vx[n];
+      const Outcome outcome = judged(rules, proximity_vx);
       ++proposal.trials[static_cast<std::size_t>(outcome)];
-      if (view.record_attempts) {
-        proposal.attempts.push_back({around.at_vx, sim::endOf(around.at_vx, ends, n), outcome, false});
-      }
       if (outcome != Outcome::grown) continue;
+      if (!best) count = std::min(ahead, std::max(enough - first, i + 1));
       const double score =
           rules.prefer.has_proximity ? std::abs(proximity_vx - rules.prefer.proximity.number) : 0.0;
       if (score < best_score) {
         best_score = score;
         best = Candidate{sim::endOf(around.at_vx, ends, n), {}, {}, passage, proximity_vx};
-        best_attempt = proposal.attempts.size() - 1;
+        best_trial = first + i;
       }
     }
-    first += i;
+    countFailed(felt, count, proposal.trials);
+    if (view.record_attempts) record(rules, around, ends, felt, count, proposal.attempts);
+    first += count;
   }
   if (!best) return best;
-  if (view.record_attempts) proposal.attempts[best_attempt].taken = true;
+  if (view.record_attempts) proposal.attempts[recorded + static_cast<std::size_t>(best_trial)].taken = true;
   sim::tileSegment(around.at_vx, best->to_vx, best->passes);
   sim::fit(view.world, best->passes, around.attachment, passage, plant, best->takes);
   return best;

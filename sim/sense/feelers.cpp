@@ -24,7 +24,6 @@ struct Start {
 };
 /// Bits of a cube as words that lanes read.
 using Bits = const std::uint32_t*;
-constexpr std::int32_t kNowhere = -1;
 #endif
 
 }  // namespace espalier::sim::feelers
@@ -104,36 +103,58 @@ struct Walk {
   }
 };
 
-/// Where each segment first meets something: a bit of the cube, or kNowhere.
-void Meet(const Start& start, Bits hinders, const Offsets& ends, std::size_t count, std::int32_t* met) {
+/// Bits of a mask from number i on.
+template <class Mask>
+HWY_INLINE std::uint64_t bitsOf(Mask mask, std::size_t i) {
+  std::uint8_t bytes[8] = {};
+  hn::StoreMaskBits(Whole(), mask, bytes);
+  std::uint64_t bits;
+  hwy::CopyBytes<sizeof(bits)>(bytes, &bits);
+  return bits << i;
+}
+
+/// Where each segment first meets something, as a bit of the cube. Returns which ones meet nothing, bit i for
+/// segment i.
+std::uint64_t Meet(const Start& start, Bits hinders, const Offsets& ends, std::size_t count,
+                   std::int32_t* met) {
   const Whole d;
+  std::uint64_t clear = 0;
   for (std::size_t i = 0; i < count; i += hn::Lanes(d)) {
     Walk walk(start, hn::Load(d, ends.x + i), hn::Load(d, ends.y + i), hn::Load(d, ends.z + i));
     const auto counted =
         hn::Lt(hn::Iota(d, static_cast<std::int32_t>(i)), set(static_cast<std::int32_t>(count)));
     walk.left = hn::IfThenElseZero(counted, walk.left);
-    I where = set(kNowhere);
+    auto free = counted;
     while (!hn::AllFalse(d, walk.active())) {
       const auto moving = walk.active();
       walk.advance();
       const auto hit = hn::And(moving, bitAt(hinders, walk.index));
-      where = hn::IfThenElse(hit, walk.index, where);
+      free = hn::AndNot(hit, free);
       walk.left = hn::IfThenZeroElse(hit, walk.left);
     }
-    hn::Store(where, d, met + i);
+    hn::Store(walk.index, d, met + i);
+    clear |= bitsOf(free, i);
   }
+  return clear;
 }
 
-/// Sums of the distances of what each segment crosses, all of it inside the world, and whether it takes
-/// something.
-void Measure(const Start& start, Voxel low, const NearSteps& near, Bits free, const Offsets& ends,
-             std::size_t count, std::int32_t* sums, std::int32_t* crossed, std::int32_t* takes) {
+/// Mean distances of what each segment crosses, all of it inside the world. Returns which ones take
+/// something, bit i for segment i.
+std::uint64_t Measure(const Start& start, Voxel low, const NearSteps& near, Bits free, const Offsets& ends,
+                      std::size_t count, float* proximity_vx) {
   const Whole d;
+  const hn::ScalableTag<float> df;
   const I mask = set((1 << start.side_bits) - 1);
   const auto* const blocks = reinterpret_cast<const std::int32_t*>(near.block);
   const auto* const steps = reinterpret_cast<const std::int32_t*>(near.steps);
+  std::uint64_t takes = 0;
   for (std::size_t i = 0; i < count; i += hn::Lanes(d)) {
-    Walk walk(start, hn::Load(d, ends.x + i), hn::Load(d, ends.y + i), hn::Load(d, ends.z + i));
+    const auto counted =
+        hn::Lt(hn::Iota(d, static_cast<std::int32_t>(i)), set(static_cast<std::int32_t>(count)));
+    const auto loaded = [&](const std::int32_t* from) {
+      return hn::IfThenElseZero(counted, hn::Load(d, from + i));
+    };
+    Walk walk(start, loaded(ends.x), loaded(ends.y), loaded(ends.z));
     const auto distance = [&] {
       const I x = hn::Add(hn::And(walk.index, mask), set(low.x));
       const I z = hn::Add(hn::And(hn::ShiftRightSame(walk.index, start.side_bits), mask), set(low.z));
@@ -149,18 +170,21 @@ void Measure(const Start& start, Voxel low, const NearSteps& near, Bits free, co
       const auto high = hn::Ne(hn::And(at, set(1)), hn::Zero(d));
       return hn::And(hn::IfThenElse(high, hn::ShiftRight<16>(pair), pair), set(0xffff));
     };
+    const I crossed = hn::Add(walk.left, set(1));
     I sum = distance();
     auto taking = bitAt(free, walk.index);
-    hn::Store(hn::Add(walk.left, set(1)), d, crossed + i);
     while (!hn::AllFalse(d, walk.active())) {
       const auto moving = walk.active();
       walk.advance();
       sum = hn::Add(sum, hn::IfThenElseZero(moving, distance()));
       taking = hn::Or(taking, hn::And(moving, bitAt(free, walk.index)));
     }
-    hn::Store(sum, d, sums + i);
-    hn::Store(hn::IfThenElseZero(taking, set(1)), d, takes + i);
+    const auto mean =
+        hn::Div(hn::ConvertTo(df, sum), hn::ConvertTo(df, hn::Mul(crossed, set(NearSteps::kInVoxel))));
+    hn::Store(mean, df, proximity_vx + i);
+    takes |= bitsOf(taking, i);
   }
+  return takes;
 }
 
 }  // namespace espalier::sim::feelers::HWY_NAMESPACE
@@ -174,14 +198,11 @@ HWY_EXPORT(Measure);
 }  // namespace feelers
 namespace {
 
-/// 64 voxels of a row from x on; what lies outside is 0.
-std::uint64_t bitsFrom(const BitVolume& volume, int x, int y, int z) {
-  const std::uint64_t* const row = volume.row(y, z);
-  const auto word = [&](int w) {
-    return w < volume.rowWords() ? row[w] : 0u;
-  };  // from -1 on: the rows' padding
-  const int w = x >> 6, shift = x & 63;
-  return shift == 0 ? word(w) : word(w) >> shift | word(w + 1) << (64 - shift);
+/// 64 voxels of a row from x on, of which some lie in it; what lies outside is 0.
+std::uint64_t bitsFrom(const std::uint64_t* row, int x) {
+  const std::uint64_t* const words = row + (x >> 6);  // from -1 on: zeros stand before and behind the row
+  const int shift = x & 63;
+  return words[0] >> shift | words[1] << 1 << (63 - shift);
 }
 
 /// Of 64 voxels from x on, those from `first` to before `last`.
@@ -202,17 +223,6 @@ bool holds(const Room& room, Voxel v) {
   return contains(Voxel(2 * room.reach + 1), v - room.low);
 }
 
-/// Of a row's voxels from x on that hold elements alone, those whose first element is of a plant.
-std::uint64_t elementsOf(const World& world, int plant, Voxel first, std::uint64_t elements) {
-  std::uint64_t own = 0;
-  for (std::uint64_t left = elements; left != 0; left &= left - 1) {
-    const int dx = std::countr_zero(left);
-    const PartId part = world.partAt(first + Voxel(dx, 0, 0));
-    if (world.part(part).plant == plant) own |= std::uint64_t{1} << dx;
-  }
-  return own;
-}
-
 feelers::Start startOf(const Room& room, Fixed from) {
   const Fixed corner = from + kFixedOne / 2;
   const Voxel at(corner.x >> 12, corner.y >> 12, corner.z >> 12);
@@ -228,33 +238,39 @@ feelers::Bits words(const std::vector<std::uint64_t>& bits) {
 
 }  // namespace
 
-Room roomAround(const World& world, Voxel at, int reach, std::span<const Voxel> attachment, Passage passage,
-                int plant) {
+void roomAround(const World& world, Voxel at, int reach, std::span<const Voxel> attachment, Passage passage,
+                int plant, Room& room) {
   const Voxel size = world.frame().size;
-  Room room{at - reach, reach, 3, false, {}, {}};
-  while (1 << room.side_bits < 2 * reach + 1) ++room.side_bits;
+  const BitVolume &occupied = world.occupied(), &solid = world.solid();
+  const int across = 2 * reach + 1;
+  room.low = at - reach;
+  room.reach = reach;
+  room.side_bits = 3;
+  while (1 << room.side_bits < across) ++room.side_bits;
   room.at_rim = !contains(size, room.low) || !contains(size, at + reach);
-  const std::size_t row_bits = std::size_t{1} << room.side_bits;
-  const auto n = (row_bits * row_bits * row_bits + 63) / 64;
-  room.hinders.resize(n);
-  room.free.resize(n);
-  for (int dy = 0; dy <= 2 * reach; ++dy) {
-    for (int dz = 0; dz <= 2 * reach; ++dz) {
-      const int y = room.low.y + dy, z = room.low.z + dz;
-      const bool inside = y >= 0 && z >= 0 && y < size.y && z < size.z;
-      for (int dx = 0; dx <= 2 * reach; dx += 64) {
-        const Voxel first(room.low.x + dx, y, z);
-        const std::uint64_t cube = bitsBetween(first.x, room.low.x, room.low.x + 2 * reach + 1);
-        const std::uint64_t in = inside ? cube & bitsBetween(first.x, 0, size.x) : 0u;
-        std::uint64_t stands = 0;
-        if (in != 0) {
-          stands = bitsFrom(world.occupied(), first.x, y, z) & in;
-          const std::uint64_t elements = stands & ~bitsFrom(world.solid(), first.x, y, z);
-          if (elements != 0) stands &= ~elementsOf(world, plant, first, elements);
+  const std::size_t n = (std::size_t{1} << (3 * room.side_bits)) / 64;
+  room.hinders.assign(n, 0);
+  room.free.assign(n, 0);
+  const std::uint64_t hinders_too = passage == Passage::around ? ~std::uint64_t{0} : 0;
+  for (int dx = 0; dx < across; dx += 64) {
+    const int x = room.low.x + dx;
+    const std::uint64_t cube = bitsBetween(x, room.low.x, room.low.x + across);
+    const std::uint64_t in_x = cube & bitsBetween(x, 0, size.x);
+    for (int dy = 0; dy < across; ++dy) {
+      const int y = room.low.y + dy;
+      const bool in_y = in_x != 0 && y >= 0 && y < size.y;
+      std::size_t bit = bitOf(room, {x, y, room.low.z});
+      for (int z = room.low.z; z < room.low.z + across; ++z, bit += std::size_t{1} << room.side_bits) {
+        std::uint64_t hinders = cube, free = 0;
+        if (in_y && z >= 0 && z < size.z) {
+          std::uint64_t stands = bitsFrom(occupied.row(y, z), x) & in_x;
+          const std::uint64_t elements = stands & ~bitsFrom(solid.row(y, z), x);
+          if (elements != 0) stands &= ~world.ofPlant({x, y, z}, elements, plant);
+          hinders = (cube & ~in_x) | (stands & hinders_too);
+          free = in_x & ~stands;
         }
-        const std::size_t bit = bitOf(room, first);
-        room.hinders[bit / 64] |= ((cube & ~in) | (passage == Passage::around ? stands : 0u)) << (bit % 64);
-        room.free[bit / 64] |= (in & ~stands) << (bit % 64);
+        room.hinders[bit / 64] |= hinders << (bit % 64);
+        room.free[bit / 64] |= free << (bit % 64);
       }
     }
   }
@@ -263,7 +279,6 @@ Room roomAround(const World& world, Voxel at, int reach, std::span<const Voxel> 
     const std::size_t bit = bitOf(room, v);
     room.hinders[bit / 64] &= ~(std::uint64_t{1} << (bit % 64));
   }
-  return room;
 }
 
 Vec3 endOf(Vec3 from_vx, const Offsets& ends, std::size_t i) {
@@ -274,36 +289,35 @@ Vec3 endOf(Vec3 from_vx, const Offsets& ends, std::size_t i) {
 void feel(const World& world, const Room& room, Vec3 from_vx, const Offsets& ends, std::size_t count,
           Felt& felt) {
   const feelers::Start start = startOf(room, fixedFromVoxel(from_vx));
+  felt.clear = felt.outside = 0;
   alignas(64) std::int32_t met[Offsets::kMost];
   if (((room.hinders[static_cast<std::size_t>(start.index) / 64] >> (start.index % 64)) & 1u) != 0) {
     std::fill_n(met, count, start.index);
   } else {
-    HWY_DYNAMIC_DISPATCH(feelers::Meet)(start, words(room.hinders), ends, count, met);
+    felt.clear = HWY_DYNAMIC_DISPATCH(feelers::Meet)(start, words(room.hinders), ends, count, met);
   }
-  Offsets left;  // those that met nothing, closed up
-  std::size_t number[Offsets::kMost], clear = 0;
-  for (std::size_t i = 0; i < count; ++i) {
-    if (met[i] == feelers::kNowhere) {
-      left.x[clear] = ends.x[i], left.y[clear] = ends.y[i], left.z[clear] = ends.z[i];
-      number[clear++] = i;
-      continue;
-    }
-    felt.fate[i] = Felt::blocked;
-    if (!room.at_rim) continue;
+  if (room.at_rim) {
     const int mask = (1 << room.side_bits) - 1;
-    const Voxel v =
-        room.low + Voxel(met[i] & mask, met[i] >> (2 * room.side_bits), (met[i] >> room.side_bits) & mask);
-    if (!contains(world.frame().size, v)) felt.fate[i] = Felt::outside;
+    for (std::size_t i = 0; i < count; ++i) {
+      if ((felt.clear >> i & 1u) != 0) continue;
+      const Voxel v =
+          room.low + Voxel(met[i] & mask, met[i] >> (2 * room.side_bits), (met[i] >> room.side_bits) & mask);
+      if (!contains(world.frame().size, v)) felt.outside |= std::uint64_t{1} << i;
+    }
   }
-  if (clear == 0) return;
-  for (std::size_t i = clear; i < Offsets::kMost; ++i) left.x[i] = left.y[i] = left.z[i] = 0;
-  alignas(64) std::int32_t sums[Offsets::kMost], crossed[Offsets::kMost], takes[Offsets::kMost];
-  HWY_DYNAMIC_DISPATCH(feelers::Measure)
-  (start, room.low, world.nearSteps(), words(room.free), left, clear, sums, crossed, takes);
-  for (std::size_t k = 0; k < clear; ++k) {
-    felt.fate[number[k]] = takes[k] != 0 ? Felt::clear : Felt::blocked;
-    felt.proximity_vx[number[k]] =
-        static_cast<float>(sums[k]) / static_cast<float>(NearSteps::kInVoxel * crossed[k]);
+  if (felt.clear == 0) return;
+  Offsets left;  // those that met nothing, closed up
+  std::size_t number[Offsets::kMost], found = 0;
+  for (std::uint64_t bits = felt.clear; bits != 0; bits &= bits - 1, ++found) {
+    const auto i = number[found] = static_cast<std::size_t>(std::countr_zero(bits));
+    left.x[found] = ends.x[i], left.y[found] = ends.y[i], left.z[found] = ends.z[i];
+  }
+  alignas(64) float proximity_vx[Offsets::kMost];
+  const std::uint64_t takes = HWY_DYNAMIC_DISPATCH(feelers::Measure)(
+      start, room.low, world.nearSteps(), words(room.free), left, found, proximity_vx);
+  for (std::size_t k = 0; k < found; ++k) {
+    felt.proximity_vx[number[k]] = proximity_vx[k];
+    if ((takes >> k & 1u) == 0) felt.clear &= ~(std::uint64_t{1} << number[k]);
   }
 }
 

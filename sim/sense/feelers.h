@@ -1,4 +1,5 @@
 #pragma once
+#include <bit>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -21,7 +22,7 @@ struct Offsets {
 };
 
 /// What stands around a place, as bits of a cube of voxels whose side is a power of two: x lowest, then z,
-/// then y.
+/// then y. Keeps its memory from one place to the next.
 struct Room {
   Voxel low{0};                        ///< the cube's first voxel
   int reach = 0;                       ///< voxels from the place that it holds on every side
@@ -31,14 +32,15 @@ struct Room {
   std::vector<std::uint64_t> free;     ///< what it would take
 };
 
-/// Room for a plant's segments that reach at most `reach` voxels far along any axis (0 .. 63). See sim::fit.
-Room roomAround(const World& world, Voxel at, int reach, std::span<const Voxel> attachment, Passage passage,
-                int plant);
+/// Finds the room for a plant's segments that reach at most `reach` voxels far along any axis (0 .. 63). See
+/// sim::fit.
+void roomAround(const World& world, Voxel at, int reach, std::span<const Voxel> attachment, Passage passage,
+                int plant, Room& room);
 
-/// What became of each segment.
+/// What became of each segment: bit i is segment i's. One that is neither clear nor outside is blocked.
 struct Felt {
-  enum Fate : std::uint8_t { clear, blocked, outside };
-  Fate fate[Offsets::kMost];
+  std::uint64_t clear = 0;    ///< has room
+  std::uint64_t outside = 0;  ///< leaves the world before it meets anything in it
   /// Mean distance to the scene of the voxels that it crosses, voxel widths; of clear ones only. A voxel
   /// beyond the boundary layers counts as one layer farther than the last. Distances are whole numbers of
   /// 1/256.

@@ -25,6 +25,26 @@ class PlantVoxels {
   }
   std::optional<Surface> surfaceAt(Voxel v) const;
 
+  /// Calls visit(bit, part) for each plant's voxel that a bit of `among` names: bit i is i voxels from
+  /// `first` along x. They must lie inside the world.
+  template <typename Visit>
+  void forEachAmong(Voxel first, std::uint64_t among, Visit visit) const {
+    while (among != 0) {
+      Voxel v = first;
+      v.x += std::countr_zero(among);
+      const int before = v.x & 7,
+                shift = v.x - before - first.x;  // of the block's eight voxels, below 0 at the start
+      const std::uint64_t eight = shift < 0 ? std::uint64_t{0xff} >> -shift : std::uint64_t{0xff} << shift;
+      const Block& block = blocks_.of(v);
+      const Row& row = block.rows[rowOf(v)];
+      for (std::uint64_t left = among & eight; left != 0; left &= left - 1) {
+        v.x = first.x + std::countr_zero(left);
+        if ((row.taken >> (v.x & 7) & 1) != 0) visit(left & -left, block.entries[numberIn(row, v)].part);
+      }
+      among &= ~eight;
+    }
+  }
+
   /// Into a voxel where no plant is.
   void add(Voxel v, const Surface& surface);
   /// More comes into a voxel where a plant is. Returns the sum.

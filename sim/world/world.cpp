@@ -244,6 +244,14 @@ PartId World::partAt(Voxel v) const {
                                 : grids_->part->tree().getValue(coordOf(v));
 }
 
+std::uint64_t World::ofPlant(Voxel first, std::uint64_t among, int plant) const {
+  std::uint64_t own = 0;
+  grids_->plants.forEachAmong(first, among, [&](std::uint64_t bit, PartId id) {
+    if (part(id).plant == plant) own |= bit;
+  });
+  return own;
+}
+
 std::optional<Surface> World::surfaceAt(Voxel v) const {
   if (!occupied_.at(v)) return std::nullopt;
   if (const auto plant = grids_->plants.surfaceAt(v)) return plant;

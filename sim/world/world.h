@@ -131,6 +131,9 @@ class World {
 
   /// kFree outside the world too.
   PartId partAt(Voxel v) const;
+  /// Of the voxels from `first` on along x that bits of `among` name (bit i: i voxels on), those that partAt
+  /// says belong to a plant with this number. All of them must lie inside the world, and hold plants alone.
+  std::uint64_t ofPlant(Voxel first, std::uint64_t among, int plant) const;
   std::optional<Surface> surfaceAt(Voxel v) const;
   std::optional<Nearness> nearnessAt(Voxel v) const;
   NearSteps nearSteps() const;

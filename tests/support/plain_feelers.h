@@ -12,7 +12,7 @@ namespace espalier::tests {
 
 /// What becomes of a segment, and its mean distance to the scene in whole numbers of 1/256 voxel width.
 struct PlainFelt {
-  sim::Felt::Fate fate = sim::Felt::clear;
+  sim::Fit fate = sim::Fit::clear;
   float proximity_vx = 0.0f;
 };
 inline PlainFelt plainFeel(const sim::World& world, sim::Vec3 from_vx, sim::Vec3 to_vx,
@@ -22,19 +22,19 @@ inline PlainFelt plainFeel(const sim::World& world, sim::Vec3 from_vx, sim::Vec3
   sim::tileSegment(from_vx, to_vx, passes);
   switch (sim::fit(world, passes, attachment, passage, plant, takes)) {
     case sim::Fit::outside:
-      return {sim::Felt::outside};
+      return {sim::Fit::outside};
     case sim::Fit::blocked:
-      return {sim::Felt::blocked};
+      return {sim::Fit::blocked};
     case sim::Fit::clear:
       break;
   }
-  if (takes.empty()) return {sim::Felt::blocked};
+  if (takes.empty()) return {sim::Fit::blocked};
   long sum = 0;
   for (const sim::Voxel v : passes) {
     const auto near = world.nearnessAt(v);
     sum += near ? std::lrint(static_cast<double>(near->distance_vx) * 256.0) : 256 * (world.layers() + 1);
   }
-  return {sim::Felt::clear,
+  return {sim::Fit::clear,
           static_cast<float>(sum) / static_cast<float>(256 * static_cast<long>(passes.size()))};
 }
 

@@ -110,9 +110,9 @@ inline std::optional<rules::Candidate> plainBestTrial(const sim::SiteView& view,
     const PlainFelt felt = plainFeel(view.world, around.at_vx, to_vx, around.attachment, passage);
     const double proximity_vx = felt.proximity_vx;
     sim::Outcome outcome = sim::Outcome::grown;
-    if (felt.fate == sim::Felt::outside)
+    if (felt.fate == sim::Fit::outside)
       outcome = sim::Outcome::out_of_world;
-    else if (felt.fate == sim::Felt::blocked)
+    else if (felt.fate == sim::Fit::blocked)
       outcome = sim::Outcome::blocked;
     else if (proximity_vx > rules.require.proximity_max.number)
       outcome = sim::Outcome::too_far;

@@ -55,22 +55,24 @@ class BookProcess final : public sim::Process {
  private:
   /// Why a set does not grow here; grown if it does, and then the proposal says what. `set` numbers the sets
   /// that one site tries, from 0.
-  Outcome tryToGrow(const sim::SiteView& view, const RuleSet& rules, const Surroundings& around,
+  Outcome tryToGrow(const sim::SiteView& view, const RuleSet& rules, const sim::Site& site,
                     const sim::RandomKey& key, unsigned set, sim::Proposal& proposal) const;
 
   RuleBook book_;
   bool sky_table_ = false;
 };
 
-Outcome BookProcess::tryToGrow(const sim::SiteView& view, const RuleSet& rules, const Surroundings& around,
+Outcome BookProcess::tryToGrow(const sim::SiteView& view, const RuleSet& rules, const sim::Site& site,
                                const sim::RandomKey& key, unsigned set, sim::Proposal& proposal) const {
-  const Vigour light = vigourOf(around, rules);
+  const Exposure seen = exposureOf(*view.light);
+  const Vigour light = vigourOf(seen, rules);
   if (light.exposure < rules.require.exposure_min) return Outcome::too_dark;
   if (light.exposure > rules.require.exposure_max) return Outcome::too_bright;
   const double chance = sim::Slots(key, sim::Purpose::rate, set).uniform(0);
   if (chance * std::max(1.0, rules.light.boost) >= light.vigour) return Outcome::resting;
 
-  const Senses senses = sense(view, around, rules);
+  const Surroundings around = lookAround(view, site);
+  const Senses senses = sense(view, around, light, rules);
   std::optional<Candidate> best;
   switch (rules.propagate) {
     case Propagate::random_tree:
@@ -85,7 +87,7 @@ Outcome BookProcess::tryToGrow(const sim::SiteView& view, const RuleSet& rules, 
                       best->passage,
                       // exposure, proximity_vx, sky_exposure, sun_exposure: in the order of their names
                       {static_cast<float>(senses.exposure), static_cast<float>(best->proximity_vx),
-                       static_cast<float>(around.sky_exposure), static_cast<float>(around.sun_exposure)}};
+                       static_cast<float>(seen.sky), static_cast<float>(seen.sun)}};
   sim::Draws age(key, sim::Purpose::branch_age);
   proposal.sprouts = {{0, 1},
                       {1, age.whole(rules.random_tree.branch_age_min, rules.random_tree.branch_age_max)}};
@@ -100,9 +102,8 @@ sim::Proposal BookProcess::propose(const sim::SiteView& view, const sim::Site& s
   proposal.outcome = Outcome::forbidden;
   if (rules == nullptr) return proposal;
 
-  const Surroundings around = lookAround(view, site);
   for (unsigned set = 0; rules != nullptr; ++set, rules = book_.next(*rules, view.world, at)) {
-    const Outcome outcome = tryToGrow(view, *rules, around, key, set, proposal);
+    const Outcome outcome = tryToGrow(view, *rules, site, key, set, proposal);
     // What is told of a site that did not grow is why its first set failed, unless a later one got as far as
     // trials.
     if (set == 0 || outcome == Outcome::no_trial || outcome == Outcome::grown || outcome == Outcome::resting)

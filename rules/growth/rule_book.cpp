@@ -24,6 +24,7 @@ void visitFrom(const RuleSet& rules, const std::string& path, std::set<const Rul
 
 /// A region's rule set may have something to say of regions itself.
 const RuleSet* holding(const RuleSet& rules, const sim::World& world, sim::Voxel v) {
+  if (rules.regions.empty() && !rules.others) return &rules;
   const auto nearness = world.nearnessAt(v);
   if (!nearness) return &rules;
   const std::string& region = world.part(nearness->part).region;

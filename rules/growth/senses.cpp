@@ -27,8 +27,8 @@ void addSiblings(const sim::SiteView& view, sim::NodeId node, Surroundings& arou
 }
 
 /// As a rule set asks: the sun's and the sky's weights made to sum to 1.
-double blended(const Light& light, double sun_exposure, double sky_exposure) {
-  return (light.sun * sun_exposure + light.sky * sky_exposure) / (light.sun + light.sky);
+double blended(const Light& light, const Exposure& seen) {
+  return (light.sun * seen.sun + light.sky * seen.sky) / (light.sun + light.sky);
 }
 
 /// Growth rate over that at the least exposure: linear from 1 at the minimum to boost at the maximum.
@@ -53,23 +53,25 @@ Surroundings lookAround(const sim::SiteView& view, const sim::Site& site) {
   }
   addSiblings(view, site.node, around);
   around.away = sim::awayFromScene(view.world, around.voxel);
-  around.sky_exposure = view.light->sky.fraction();
-  around.sun_exposure = view.light->sun.fraction();
   return around;
 }
 
-Vigour vigourOf(const Surroundings& around, const RuleSet& rules) {
-  const double exposure = blended(rules.light, around.sun_exposure, around.sky_exposure);
+Exposure exposureOf(const sim::Light& light) {
+  return {light.sun.fraction(), light.sky.fraction()};
+}
+
+Vigour vigourOf(const Exposure& seen, const RuleSet& rules) {
+  const double exposure = blended(rules.light, seen);
   return {exposure, vigourAt(rules, exposure)};
 }
 
-Senses sense(const sim::SiteView& view, const Surroundings& around, const RuleSet& rules) {
+Senses sense(const sim::SiteView& view, const Surroundings& around, const Vigour& vigour,
+             const RuleSet& rules) {
   Senses senses;
   senses.light = rules.bias.brightest == Brightest::table ? view.sky->brightest(around.voxel)
                                                           : unitOrZero(view.light->sky.toward);
-  const auto [exposure, vigour] = vigourOf(around, rules);
-  senses.exposure = exposure;
-  senses.vigour = vigour;
+  senses.exposure = vigour.exposure;
+  senses.vigour = vigour.vigour;
   if (highest(rules.bias.twist) != 0.0 || lowest(rules.bias.twist) != 0.0) {
     const auto mass = sim::centreOfMass(view.world.occupied(), around.voxel, rules.bias.twist_radius.number);
     if (mass) senses.twist = unitOrZero(glm::cross(around.heading, *mass - around.at_vx));

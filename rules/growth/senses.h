@@ -6,14 +6,17 @@
 
 namespace espalier::rules {
 
+/// What a place sees of the sun and the sky: shares of all that there is, 0..1.
+struct Exposure {
+  double sun = 0.0, sky = 0.0;
+};
+
 /// What there is around a site: the same for every rule set.
 struct Surroundings {
   sim::Vec3 at_vx{0.0};
   sim::Voxel voxel{0};
   sim::Vec3 heading{0.0};  ///< unit direction of the limb that ends here; zero at a seed
   sim::Vec3 away{0.0};     ///< unit, from the nearest scene object; zero where none is near
-  double sky_exposure = 0.0;
-  double sun_exposure = 0.0;
   /// Voxels of the limb that ends here, and the first ones of those that leave: no obstacle.
   std::vector<sim::Voxel> attachment;
 };
@@ -35,9 +38,11 @@ struct Senses {
   Circumstance circumstance;  ///< what the rule set's values may depend on
 };
 
-Surroundings lookAround(const sim::SiteView& view, const sim::Site& site);
+Exposure exposureOf(const sim::Light& light);
 /// What one rule set makes of the light. To be asked before all else, which is dearer: many sites end by it.
-Vigour vigourOf(const Surroundings& around, const RuleSet& rules);
-Senses sense(const sim::SiteView& view, const Surroundings& around, const RuleSet& rules);
+Vigour vigourOf(const Exposure& seen, const RuleSet& rules);
+Surroundings lookAround(const sim::SiteView& view, const sim::Site& site);
+Senses sense(const sim::SiteView& view, const Surroundings& around, const Vigour& vigour,
+             const RuleSet& rules);
 
 }  // namespace espalier::rules

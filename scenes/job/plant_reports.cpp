@@ -27,7 +27,7 @@ Report::Growth::Plant plantReport(const PlantSpec& spec, const sim::Frame& frame
 }  // namespace
 
 Report::Growth growthReport(const Scene& scene, const sim::World& grown, const sim::BitVolume& scene_voxels,
-                            const sim::Growth& growth, const std::vector<PlaceLight>& lights) {
+                            const sim::Growth& growth, const std::vector<rules::Exposure>& lights) {
   const sim::Tally tally = sim::total(growth);
   Report::Growth report{growth.iterations, {}, tally.sites, tally.trials, sim::stateHash(grown, growth),
                         growth.cut_short};

@@ -10,6 +10,6 @@ namespace espalier::scenes {
 /// What there is to say of growth and of each plant: `scene_voxels` is what was occupied before it, `lights`
 /// is what every seed saw then.
 Report::Growth growthReport(const Scene& scene, const sim::World& grown, const sim::BitVolume& scene_voxels,
-                            const sim::Growth& growth, const std::vector<PlaceLight>& lights);
+                            const sim::Growth& growth, const std::vector<rules::Exposure>& lights);
 
 }  // namespace espalier::scenes

@@ -96,7 +96,7 @@ sim::Lighting lightFor(const Scene& scene, const Site& site, bool vines,
 struct Prepared {
   Site site;
   std::vector<sim::Planting> plantings;
-  std::vector<PlaceLight> seed_lights;
+  std::vector<rules::Exposure> seed_lights;
 };
 
 Prepared prepare(const Scene& scene, const RunOptions& options, Report& report, Stages& stages) {

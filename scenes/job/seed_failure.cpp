@@ -55,16 +55,14 @@ RuleLength lengthOf(const rules::Distance& written, double voxel_m) {
   return {written.metres ? written.number / voxel_m : written.number, written.metres};
 }
 
-SeedFailure::Set setOf(const RuleSet& rules, std::string path, PlaceLight light, double voxel_m) {
+SeedFailure::Set setOf(const RuleSet& rules, std::string path, rules::Exposure light, double voxel_m) {
   SeedFailure::Set set;
   set.path = std::move(path);
-  set.exposure =
-      (rules.light.sun * light.sun + rules.light.sky * light.sky) / (rules.light.sun + rules.light.sky);
+  const rules::Vigour vigour = rules::vigourOf(light, rules);
+  set.exposure = vigour.exposure;
   set.exposure_min = rules.require.exposure_min;
   set.exposure_max = rules.require.exposure_max;
-  const double span = set.exposure_max - set.exposure_min;
-  const double above = span > 0.0 ? std::clamp((set.exposure - set.exposure_min) / span, 0.0, 1.0) : 1.0;
-  set.pace = (1.0 + (rules.light.boost - 1.0) * above) / std::max(1.0, rules.light.boost);
+  set.pace = vigour.vigour / std::max(1.0, rules.light.boost);
   set.proximity_min = lengthOf(rules.require.proximity_min, voxel_m);
   set.proximity_max = lengthOf(rules.require.proximity_max, voxel_m);
   if (set.exposure < set.exposure_min) set.outcome = Outcome::too_dark;
@@ -95,18 +93,18 @@ int takenAround(const sim::BitVolume& occupied, sim::Voxel v) {
 
 }  // namespace
 
-std::vector<PlaceLight> lightOfSeeds(const std::vector<sim::Planting>& plantings, const sim::World& world,
-                                     const sim::LightSource& light) {
+std::vector<rules::Exposure> lightOfSeeds(const std::vector<sim::Planting>& plantings,
+                                          const sim::World& world, const sim::LightSource& light) {
   std::vector<sim::Voxel> places;
   for (const sim::Planting& planting : plantings) {
     // One outside of the world is an error that growth will tell of.
     for (const sim::Seed& seed : planting.seeds)
       places.push_back(glm::clamp(sim::voxelAt(seed.at_vx), sim::Voxel(0), world.frame().size - 1));
   }
-  std::vector<PlaceLight> lights;
+  std::vector<rules::Exposure> lights;
   if (places.empty()) return lights;
   for (const sim::Light& seen : sim::LightSensor(world.opaque(), light).at(world.opaque(), places))
-    lights.push_back({seen.sun.fraction(), seen.sky.fraction()});
+    lights.push_back(rules::exposureOf(seen));
   return lights;
 }
 
@@ -114,7 +112,7 @@ std::vector<std::optional<SeedFailure>> seedFailures(const std::shared_ptr<const
                                                      const sim::World& grown, const sim::BitVolume& scene,
                                                      std::span<const sim::Plant> plants,
                                                      std::span<const sim::Tally> tallies,
-                                                     std::span<const PlaceLight> lights) {
+                                                     std::span<const rules::Exposure> lights) {
   const rules::RuleBook book(rules);
   std::map<const RuleSet*, std::string> paths;
   rules::forEachSet(*rules, [&](const RuleSet& set, const std::string& path) { paths[&set] = path; });

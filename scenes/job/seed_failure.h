@@ -5,19 +5,15 @@
 #include <string>
 #include <vector>
 
+#include "rules/growth/senses.h"
 #include "rules/language/rule_set.h"
 #include "sim/grow/grow.h"
 
 /// Why a seed did not grow: the facts. seed_failure_words.h puts them into words.
 namespace espalier::scenes {
 
-/// What a place sees before anything grows: shares of all that there is, 0..1.
-struct PlaceLight {
-  double sun = 0.0, sky = 0.0;
-};
-
-/// Of every seed, planting by planting. `world` holds the scene alone.
-std::vector<PlaceLight> lightOfSeeds(const std::vector<sim::Planting>& plantings, const sim::World& world,
+/// What every seed sees before anything grows, planting by planting. `world` holds the scene alone.
+std::vector<rules::Exposure> lightOfSeeds(const std::vector<sim::Planting>& plantings, const sim::World& world,
                                      const sim::LightSource& light);
 
 /// A length that a rule asks for, and how it was written.
@@ -61,6 +57,6 @@ std::vector<std::optional<SeedFailure>> seedFailures(const std::shared_ptr<const
                                                      const sim::World& grown, const sim::BitVolume& scene,
                                                      std::span<const sim::Plant> plants,
                                                      std::span<const sim::Tally> tallies,
-                                                     std::span<const PlaceLight> lights);
+                                                     std::span<const rules::Exposure> lights);
 
 }  // namespace espalier::scenes

@@ -6,6 +6,7 @@ Vec3 awayFromScene(const World& world, Voxel v) {
   const NearSteps near = world.nearSteps();
   const Voxel size = world.frame().size;
   const int beyond = NearSteps::kInVoxel * (world.layers() + 1);
+  constexpr double kOver[] = {0.0, 1.0, 0.5};  // 1 over the square of the step; a third is rounded
   Vec3 gradient(0.0);
   for (int dy = -1; dy <= 1; ++dy) {
     for (int dz = -1; dz <= 1; ++dz) {
@@ -14,7 +15,8 @@ Vec3 awayFromScene(const World& world, Voxel v) {
         const int square = dx * dx + dy * dy + dz * dz;
         if (square == 0) continue;
         const int distance = contains(size, v + step) ? near.at(v + step) : beyond;
-        gradient += Vec3(step * distance) / static_cast<double>(square);
+        const double share = square == 3 ? distance / 3.0 : distance * kOver[square];
+        gradient += Vec3(step) * share;
       }
     }
   }

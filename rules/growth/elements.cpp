@@ -36,19 +36,6 @@ bool isScene(const sim::World& world, sim::Voxel v) {
   return world.solid().at(v) && world.part(world.partAt(v)).kind == sim::PartKind::scene;
 }
 
-/// The voxels of an element, in order and each once.
-void tile(const sim::PlacedElement& element, const Element& rule, Voxels& tiled) {
-  tiled.clear();
-  std::vector<sim::Vec3> corners;
-  for (const auto& polygon : rule.polygons) {
-    corners.clear();
-    for (const sim::Vec3 corner : polygon) corners.push_back(sim::placed(element, corner));
-    sim::tilePolygon(corners, tiled);
-  }
-  std::sort(tiled.begin(), tiled.end(), before);
-  tiled.erase(std::unique(tiled.begin(), tiled.end()), tiled.end());
-}
-
 /// Takes the scene's voxels out of an element's. False where there is one that its own segment does not pass.
 bool clearOfScene(const sim::World& world, const Voxels& own, Voxels& tiled) {
   bool clear = true;
@@ -114,11 +101,12 @@ std::vector<sim::ProposedElement> proposeElements(const sim::SiteView& view, con
   Voxels own = segment, tiled;
   std::sort(own.begin(), own.end(), before);
   const sim::Vec3 stem = glm::normalize(to_vx - around.at_vx);
-  thread_local sim::Nearby nearby;  // what stands, and elements of this very proposal; it keeps its memory
+  // What stands, and elements of this very proposal. They keep their memory.
+  thread_local sim::Nearby nearby;
+  thread_local sim::Facets facets;
   nearby.clear();
   if (!rules.elements.empty())
     view.pieces.gather(reachOf(view, rules, senses.vigour, first_shape, around.at_vx, to_vx), 0, -1, nearby);
-  sim::Facets facets;
   for (std::size_t shape = 0; shape < rules.elements.size(); ++shape) {
     const Element& rule = rules.elements[shape];
     const auto number = first_shape + static_cast<std::int32_t>(shape);
@@ -148,7 +136,8 @@ std::vector<sim::ProposedElement> proposeElements(const sim::SiteView& view, con
         if (!sim::place(element, facet_shape, facets) || !sim::inside(view.world.frame().size, facets) ||
             nearby.clash(facets, {sim::latticePoint(element.position_vx)}))
           continue;
-        tile(element, rule, tiled);
+        tiled.clear();
+        sim::tileTriangles(facets.corners, facet_shape.triangles, tiled);
         if (!clearOfScene(view.world, own, tiled)) continue;
         nearby.add(facets);
         const double share = area * element.scale * element.scale /

@@ -99,11 +99,17 @@ HWY_INLINE Direction perpendicular(Direction unit) {
   return divided(across, length(across));
 }
 
-/// The unit vector at an angle to a unit axis, on the side that a turn about it gives.
-HWY_INLINE Direction leaning(Direction axis, F along, F across, F turn) {
-  const Direction u = perpendicular(axis), v = cross(axis, u);
+/// A unit axis and what stands across it.
+struct Axes {
+  Direction axis, u, v;
+
+  HWY_INLINE explicit Axes(Direction unit) : axis(unit), u(perpendicular(unit)), v(cross(unit, u)) {}
+};
+
+/// The unit vector at an angle to an axis, on the side that a turn about it gives.
+HWY_INLINE Direction leaning(const Axes& to, F along, F across, F turn) {
   const Circle side = circle(turn);
-  return sum(scaled(axis, along), scaled(sum(scaled(u, side.cosine), scaled(v, side.sine)), across));
+  return sum(scaled(to.axis, along), scaled(sum(scaled(to.u, side.cosine), scaled(to.v, side.sine)), across));
 }
 
 /// The numbers of a batch of trials, drawn four at a time where somebody asks.
@@ -136,26 +142,35 @@ HWY_INLINE Direction bent(Direction direction, const Pull& pull, Numbers& number
   return chosen(bends, divided(mixed, long_), direction);
 }
 
-HWY_INLINE Direction directionOf(const Ways& ways, hn::Vec<Whole> trial, Numbers& numbers) {
-  const Floats d;
-  const Whole whole;
-  Direction axis = set(ways.axis);
-  if (ways.branch) {
-    const Circle angle =
-        circle(hn::Mul(numbers.value(ways.side_angle_deg, TrialSlot::side_angle), set(1.0f / 360)));
-    axis = leaning(axis, angle.cosine, angle.sine, numbers.uniform(TrialSlot::side_turn));
+/// Of half the cone's angle. `narrow`: all trials are before those that wander farther and farther.
+HWY_INLINE F cosineOfWander(const Ways& ways, bool narrow, hn::Vec<Whole> trial, Numbers& numbers) {
+  F wander = numbers.value(ways.wander_deg, TrialSlot::wander);
+  if (!narrow) {
+    const F beyond = hn::ConvertTo(Floats(), hn::Sub(trial, hn::Set(Whole(), ways.narrow - 1)));
+    const F share = hn::Div(beyond, set(static_cast<float>(std::max(1, ways.widest - ways.narrow))));
+    wander = hn::Mul(hn::Add(set(1.0f), hn::Max(set(0.0f), share)), wander);
   }
-  const F beyond = hn::ConvertTo(d, hn::Sub(trial, hn::Set(whole, ways.narrow - 1)));
-  const F widening = hn::Add(
-      set(1.0f),
-      hn::Max(set(0.0f), hn::Div(beyond, set(static_cast<float>(std::max(1, ways.widest - ways.narrow))))));
-  const F wander = hn::Min(set(180.0f), hn::Mul(widening, numbers.value(ways.wander_deg, TrialSlot::wander)));
-  const F cosine = circle(hn::Mul(wander, set(1.0f / 360))).cosine;
+  return circle(hn::Mul(hn::Min(set(180.0f), wander), set(1.0f / 360))).cosine;
+}
+
+/// `axes`: of the limb; `narrow`: as above.
+HWY_INLINE Direction directionOf(const Ways& ways, const Axes& axes, bool narrow, hn::Vec<Whole> trial,
+                                 Numbers& numbers) {
+  const F cosine = cosineOfWander(ways, narrow, trial, numbers);
   // Even in height is even on the sphere (Archimedes).
   const F along =
       hn::Sub(set(1.0f), hn::Mul(numbers.uniform(TrialSlot::cone_height), hn::Sub(set(1.0f), cosine)));
   const F across = hn::Sqrt(hn::Max(set(0.0f), hn::Sub(set(1.0f), hn::Mul(along, along))));
-  Direction direction = leaning(axis, along, across, numbers.uniform(TrialSlot::cone_turn));
+  const F turn = numbers.uniform(TrialSlot::cone_turn);
+  Direction direction = axes.axis;
+  if (ways.branch) {
+    const Circle angle =
+        circle(hn::Mul(numbers.value(ways.side_angle_deg, TrialSlot::side_angle), set(1.0f / 360)));
+    const Axes side(leaning(axes, angle.cosine, angle.sine, numbers.uniform(TrialSlot::side_turn)));
+    direction = leaning(side, along, across, turn);
+  } else {
+    direction = leaning(axes, along, across, turn);
+  }
   for (std::size_t i = 0; i < ways.pull_count; ++i) direction = bent(direction, ways.pulls[i], numbers);
   if (ways.flat[0] || ways.flat[1] || ways.flat[2]) {
     if (ways.flat[0]) direction.x = set(0.0f);
@@ -170,13 +185,15 @@ HWY_INLINE Direction directionOf(const Ways& ways, hn::Vec<Whole> trial, Numbers
 void TrialEnds(const Ways& ways, unsigned first, std::size_t count, sim::Offsets& ends) {
   const Whole whole;
   const Words words;
+  const Axes axes(set(ways.axis));
+  const bool narrow = first + count <= static_cast<std::size_t>(std::max(0, ways.narrow));
   for (std::size_t i = 0; i < count; i += hn::Lanes(whole)) {
     const auto trial = hn::Iota(whole, static_cast<std::int32_t>(first + i));
     Numbers numbers{
         ways,
         hn::Or(hn::Set(words, ways.numbers.counter[3]), hn::ShiftLeft<8>(hn::BitCast(words, trial))),
         {}};
-    const Direction direction = directionOf(ways, trial, numbers);
+    const Direction direction = directionOf(ways, axes, narrow, trial, numbers);
     const F length = hn::Mul(numbers.value(ways.length_vx, TrialSlot::length), set(sim::Offsets::kToAVoxel));
     hn::Store(hn::NearestInt(hn::Mul(direction.x, length)), whole, ends.x + i);
     hn::Store(hn::NearestInt(hn::Mul(direction.y, length)), whole, ends.y + i);

@@ -4,8 +4,6 @@
 #include <cstdint>
 #include <utility>
 
-#include "sim/tile/tiling.h"
-
 namespace espalier::sim {
 namespace {
 
@@ -150,10 +148,6 @@ bool near(const LatticeBox& a, const LatticeBox& b) {
   constexpr int kExtent = 1 << 20;
   const LatticePoint span = glm::max(a.high, b.high) - glm::min(a.low, b.low);
   return std::max({span.x, span.y, span.z}) < kExtent;
-}
-
-LatticePoint latticePoint(Vec3 p_vx) {
-  return LatticePoint(fixedFromVoxel(p_vx));
 }
 
 bool cross(const LatticeTriangle& a, const LatticeTriangle& b) {

@@ -3,6 +3,7 @@
 #include <glm/common.hpp>
 
 #include "sim/base/vec.h"
+#include "sim/tile/tiling.h"
 
 /// Whether triangles and straight lines cross. Points lie on tiling's lattice (sim/tile/tiling.h: 1/4096 of a
 /// voxel width, |component| below 2^26), and all arithmetic is exact integers: no tolerance, and the same
@@ -29,7 +30,9 @@ inline LatticeBox boxOf(LatticePoint a, LatticePoint b) {
 inline LatticeBox boxOf(const LatticeTriangle& t) {
   return {glm::min(glm::min(t[0], t[1]), t[2]), glm::max(glm::max(t[0], t[1]), t[2])};
 }
-LatticePoint latticePoint(Vec3 p_vx);
+inline LatticePoint latticePoint(Vec3 p_vx) {
+  return LatticePoint(fixedFromVoxel(p_vx));
+}
 
 /// Whether two triangles cross: what they share has a length or, where they lie in one plane, an area. Those
 /// that only touch, at a corner or with an edge from one side, do not; a triangle without area crosses

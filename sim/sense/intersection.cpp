@@ -9,6 +9,7 @@ Fit fit(const World& world, std::span<const Voxel> piece, std::span<const Voxel>
   const BitVolume &occupied = world.occupied(), &solid = world.solid();
   const auto gives = [&](Voxel v) { return !solid.at(v) && world.part(world.partAt(v)).plant == gives_way; };
   takes.clear();
+  takes.reserve(piece.size());
   for (const Voxel v : piece) {
     if (!contains(occupied.size(), v)) return Fit::outside;
     if (!occupied.at(v) || gives(v)) {

@@ -26,19 +26,42 @@ inline bool Nearby::apart(const Bounds& a, const Bounds& b) {
   return signs < 0;
 }
 
-/// Whether all corners lie beyond one of the planes: by more than rounding of the arithmetic could feign.
-inline bool Nearby::apart(const Slab& slab, std::span<const Facet> facets) {
-  constexpr double kMargin = 0.5;
-  bool above = true, below = true;
-  for (const Facet& facet : facets) {
-    for (const LatticePoint corner : facet.corners) {
-      const double at = glm::dot(slab.normal, Vec3(corner));
-      above = above && at > slab.high + kMargin;
-      below = below && at < slab.low - kMargin;
-    }
-    if (!above && !below) return false;
+namespace {
+
+/// Whether all corners lie beyond one of two planes: by more than rounding of the arithmetic could feign.
+class Beyond {
+ public:
+  Beyond(const Vec3& normal, double low, double high) : normal_(normal), low_(low), high_(high) {}
+
+  /// False as soon as it is settled that they do not.
+  bool add(LatticePoint corner) {
+    constexpr double kMargin = 0.5;
+    const double at = glm::dot(normal_, Vec3(corner));
+    above_ = above_ && at > high_ + kMargin;
+    below_ = below_ && at < low_ - kMargin;
+    return above_ || below_;
   }
-  return true;
+
+ private:
+  Vec3 normal_;
+  double low_, high_;
+  bool above_ = true, below_ = true;
+};
+
+}  // namespace
+
+inline bool Nearby::apart(const Slab& slab, std::span<const Facet> facets) {
+  Beyond beyond(slab.normal, slab.low, slab.high);
+  return std::all_of(facets.begin(), facets.end(), [&](const Facet& facet) {
+    return std::all_of(facet.corners.begin(), facet.corners.end(),
+                       [&](LatticePoint corner) { return beyond.add(corner); });
+  });
+}
+
+inline bool Nearby::apart(const Slab& slab, const Facets& element) {
+  Beyond beyond(slab.normal, slab.low, slab.high);
+  return std::all_of(element.corners.begin(), element.corners.end(),
+                     [&](LatticePoint corner) { return beyond.add(corner); });
 }
 
 Nearby::Slab Nearby::slabOf(std::span<const Facet> facets) {
@@ -96,7 +119,7 @@ void Nearby::open(Body& body) {
 /// Whether the element that is asked of crosses one that is open; both may be near each other.
 bool Nearby::cross(const Body& body, bool near) const {
   const auto facets = std::span(facets_).subspan(body.first, body.last - body.first);
-  if (apart(asked_slab_, facets) || apart(body.slab, asked_)) return false;
+  if (apart(asked_slab_, facets)) return false;
   for (const Facet& mine : asked_) {
     throwIfStopped();  // of shapes with thousands of triangles each asks thousands
     for (const Facet& other : facets) {
@@ -122,6 +145,8 @@ bool Nearby::clash(const Facets& element, const Attachment& attachment) {
   asked_.clear();
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
     if (apart(body_bounds_[i], bounds)) continue;
+    open(bodies_[i]);
+    if (apart(bodies_[i].slab, element)) continue;
     if (asked_.empty()) {
       for (std::size_t k = 0; k < facets; ++k) {
         const LatticeTriangle corners = triangleOf(element, k);
@@ -129,7 +154,6 @@ bool Nearby::clash(const Facets& element, const Attachment& attachment) {
       }
       asked_slab_ = slabOf(asked_);
     }
-    open(bodies_[i]);
     const LatticeBox other{body_bounds_[i].low, body_bounds_[i].high};
     if (!cross(bodies_[i], near(element.box, other))) continue;
     // What is in the way once is likely to be so again: it is asked first.

@@ -71,9 +71,7 @@ PieceGrid::PieceGrid(Voxel size)
     : cells_((size + (kCell - 1)) / kCell),
       blocks_((cells_ + 1) / 2),
       block_of_(static_cast<std::size_t>(blocks_.x) * static_cast<std::size_t>(blocks_.y) *
-                static_cast<std::size_t>(blocks_.z)),
-      contents_(1),
-      chunks_(1) {}
+                static_cast<std::size_t>(blocks_.z)) {}
 
 void PieceGrid::addPart(PartId part, int plant, std::shared_ptr<const FacetShape> shape) {
   const auto number = static_cast<std::size_t>(part);
@@ -164,7 +162,7 @@ std::uint32_t PieceGrid::keep(const Facets& element) {
 }
 
 void PieceGrid::add(const Limb& limb) {
-  pieces_.push_back({limb.from, limb.to, static_cast<std::uint32_t>(limb.node), -limb.stem});
+  pieces_.emplace_back() = {limb.from, limb.to, static_cast<std::uint32_t>(limb.node), -limb.stem};
   const LatticeBox box = boxOf(limb.from, limb.to);
   if (cellsOf(box).count() <= kFewCells) return list(size(), box);
   pieces_.back().data |= kByParts;
@@ -172,7 +170,7 @@ void PieceGrid::add(const Limb& limb) {
 }
 
 void PieceGrid::add(PartId part, const Facets& element) {
-  pieces_.push_back({element.box.low, element.box.high, keep(element), part});
+  pieces_.emplace_back() = {element.box.low, element.box.high, keep(element), part};
   if (cellsOf(element.box).count() <= kFewCells) return list(size(), element.box);
   pieces_.back().data |= kByParts;
   for (const auto& t : element.shape->triangles)

@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include "sim/base/pages.h"
 #include "sim/sense/crossing.h"
 #include "sim/world/world.h"
 
@@ -15,8 +16,8 @@ namespace espalier::sim {
 
 /// A shape's polygons, as triangles of the fans that tiling makes of them.
 struct FacetShape {
-  std::vector<Vec3> corners;                            ///< local frame, each once
-  std::vector<std::array<std::uint32_t, 3>> triangles;  ///< numbers of their corners
+  std::vector<Vec3> corners;  ///< local frame, each once
+  std::vector<CornerNumbers> triangles;
 };
 
 /// Polygons of three or more corners each.
@@ -84,6 +85,7 @@ class Nearby {
 
   static bool apart(const Bounds& a, const Bounds& b);
   static bool apart(const Slab& slab, std::span<const Facet> facets);
+  static bool apart(const Slab& slab, const Facets& element);
   static Slab slabOf(std::span<const Facet> facets);
   void open(Body& body);
   bool cross(const Body& body, bool near) const;
@@ -123,9 +125,9 @@ class PieceGrid {
   friend class Nearby;
   // A limb from `a` to `b`, or an element with the bounds `a` and `b`. Numbers count from 1.
   struct Piece {
-    LatticePoint a, b;
-    std::uint32_t data;  // a limb's node; where an element's corners stand; bit 31: listed part by part
-    PartId part;         // of an element; of a limb's stem, negative
+    LatticePoint a{0}, b{0};
+    std::uint32_t data = 0;  // a limb's node; where an element's corners stand; bit 31: listed part by part
+    PartId part = kFree;     // of an element; of a limb's stem, negative
   };
   // Numbers of pieces that touch a cell, in order, 0 where there is room; the youngest chunk is the first.
   struct Chunk {
@@ -152,9 +154,9 @@ class PieceGrid {
 
   Voxel cells_, blocks_;
   std::vector<std::uint32_t> block_of_;  // by place; 0: nothing there
-  std::deque<Block> contents_;
-  std::deque<Chunk> chunks_;
-  std::deque<Piece> pieces_;
+  Pages<Block> contents_{1};
+  Pages<Chunk> chunks_{1};
+  Pages<Piece> pieces_{0};
   std::deque<std::vector<std::uint16_t>> corners_;
   std::vector<Kind> kinds_;  // by part
 };

@@ -1,6 +1,7 @@
 #include "sim/tile/tiling.h"
 
-#include <cassert>
+#include <algorithm>
+#include <bit>
 #include <cstdlib>
 
 #include "sim/base/stop.h"
@@ -8,14 +9,6 @@
 
 namespace espalier::sim {
 namespace {
-
-std::int64_t rounded(double voxels) {
-  [[maybe_unused]] constexpr std::int64_t kReach = std::int64_t{1} << 26;  // a release build asserts nothing
-  const double scaled = voxels * static_cast<double>(kFixedOne) + 0.5;
-  assert(scaled > -static_cast<double>(kReach) && scaled < static_cast<double>(kReach));
-  const auto towards_zero = static_cast<std::int64_t>(scaled);
-  return towards_zero - (scaled < static_cast<double>(towards_zero) ? 1 : 0);
-}
 
 bool beforeInRows(Voxel a, Voxel b) {
   if (a.y != b.y) return a.y < b.y;
@@ -25,20 +18,6 @@ bool beforeInRows(Voxel a, Voxel b) {
 
 void sortTail(std::vector<Voxel>& voxels, std::size_t from) {
   std::sort(voxels.begin() + static_cast<std::ptrdiff_t>(from), voxels.end(), beforeInRows);
-}
-
-/// Makes one set of two: the voxels from `start` and those from `middle`, each without repeats.
-void uniteTail(std::vector<Voxel>& voxels, std::size_t start, std::size_t middle) {
-  const auto first = voxels.begin() + static_cast<std::ptrdiff_t>(start);
-  const auto added = voxels.begin() + static_cast<std::ptrdiff_t>(middle);
-  constexpr std::size_t kFew = 64;  // a leaf's voxels: looking through them is quicker than sorting them
-  if (voxels.size() - start <= kFew) {
-    const auto known = [&](Voxel v) { return std::find(first, added, v) != added; };
-    voxels.erase(std::remove_if(added, voxels.end(), known), voxels.end());
-  } else {
-    std::sort(first, voxels.end(), beforeInRows);
-    voxels.erase(std::unique(first, voxels.end()), voxels.end());
-  }
 }
 
 /// One axis of a segment on its way through the planes between voxels.
@@ -121,11 +100,17 @@ void tileFixed(const std::array<Fixed, 3>& q, std::vector<Voxel>& voxels) {
   });
 }
 
-}  // namespace
-
-Fixed fixedFromVoxel(Vec3 p_vx) {
-  return {rounded(p_vx.x), rounded(p_vx.y), rounded(p_vx.z)};
+/// The corners of triangles, measured from the low corner of voxel (0, 0, 0).
+template <typename Visit>
+void forEachTriangle(std::span<const glm::ivec3> corners, std::span<const CornerNumbers> triangles,
+                     Visit visit) {
+  for (const auto& [a, b, c] : triangles) {
+    throwIfStopped();
+    visit({fromCorner(Fixed(corners[a])), fromCorner(Fixed(corners[b])), fromCorner(Fixed(corners[c]))});
+  }
 }
+
+}  // namespace
 
 Voxel tilePoint(Vec3 p_vx) {
   return cellOf(cornerFixed(p_vx));
@@ -139,18 +124,42 @@ void tileTriangle(const std::array<Vec3, 3>& corners_vx, std::vector<Voxel>& vox
   tileFixed({cornerFixed(corners_vx[0]), cornerFixed(corners_vx[1]), cornerFixed(corners_vx[2])}, voxels);
 }
 
-void tilePolygon(const std::vector<Vec3>& corners_vx, std::vector<Voxel>& voxels) {
-  assert(corners_vx.size() >= 3);
+void tileTriangles(std::span<const glm::ivec3> corners, std::span<const CornerNumbers> triangles,
+                   std::vector<Voxel>& voxels) {
+  using Corners = const std::array<Fixed, 3>&;
+  if (triangles.empty()) return;
+  glm::ivec3 low = corners[0], high = corners[0];
+  for (const glm::ivec3 corner : corners) low = glm::min(low, corner), high = glm::max(high, corner);
+  const Voxel first = cellOf(fromCorner(Fixed(low))), span = cellOf(fromCorner(Fixed(high))) - first + 1;
+  constexpr int kRows = 256, kWordBits = 64;  // what is small is gathered in bits, row by row
   const std::size_t start = voxels.size();
-  const Fixed hub = cornerFixed(corners_vx[0]);
-  Fixed previous = cornerFixed(corners_vx[1]);
-  for (std::size_t i = 2; i < corners_vx.size(); ++i) {
-    throwIfStopped();
-    const Fixed next = cornerFixed(corners_vx[i]);
-    const std::size_t known = voxels.size();
-    tileFixed({hub, previous, next}, voxels);
-    uniteTail(voxels, start, known);
-    previous = next;
+  if (span.x > kWordBits || std::int64_t{span.y} * span.z > kRows) {
+    forEachTriangle(corners, triangles, [&](Corners q) { tileFixed(q, voxels); });
+    sortTail(voxels, start);
+    voxels.erase(std::unique(voxels.begin() + static_cast<std::ptrdiff_t>(start), voxels.end()),
+                 voxels.end());
+    return;
+  }
+  std::array<std::uint64_t, kRows> rows{};
+  const auto rowAt = [&](int y, int z) -> std::uint64_t& {
+    return rows[static_cast<std::size_t>((y - first.y) * span.z + z - first.z)];
+  };
+  forEachTriangle(corners, triangles, [&](Corners q) {
+    if (normalOf(q) == glm::i64vec3(0)) {
+      tileFlat(q, voxels);
+      for (; voxels.size() > start; voxels.pop_back())
+        rowAt(voxels.back().y, voxels.back().z) |= std::uint64_t{1} << (voxels.back().x - first.x);
+      return;
+    }
+    forEachTriangleRow(q, first, first + span - 1, [&](int y, int z, int from, int to) {
+      rowAt(y, z) |= ~std::uint64_t{0} >> (kWordBits - 1 - (to - from)) << (from - first.x);
+    });
+  });
+  for (int y = 0; y < span.y; ++y) {
+    for (int z = 0; z < span.z; ++z) {
+      for (std::uint64_t left = rows[static_cast<std::size_t>(y * span.z + z)]; left != 0; left &= left - 1)
+        voxels.push_back(first + Voxel(std::countr_zero(left), y, z));
+    }
   }
 }
 

@@ -1,6 +1,8 @@
 #pragma once
 #include <array>
+#include <cassert>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "sim/base/vec.h"
@@ -19,7 +21,16 @@ namespace espalier::sim {
 using Fixed = glm::i64vec3;
 inline constexpr std::int64_t kFixedOne = 4096;
 
-Fixed fixedFromVoxel(Vec3 p_vx);
+inline std::int64_t fixedFromVoxel(double voxels) {
+  [[maybe_unused]] constexpr double kReach = 1 << 26;  // a release build asserts nothing
+  const double scaled = voxels * static_cast<double>(kFixedOne) + 0.5;
+  assert(scaled > -kReach && scaled < kReach);
+  const auto towards_zero = static_cast<std::int64_t>(scaled);
+  return towards_zero - (scaled < static_cast<double>(towards_zero) ? 1 : 0);
+}
+inline Fixed fixedFromVoxel(Vec3 p_vx) {
+  return {fixedFromVoxel(p_vx.x), fixedFromVoxel(p_vx.y), fixedFromVoxel(p_vx.z)};
+}
 
 /// The voxel of a point.
 Voxel tilePoint(Vec3 p_vx);
@@ -31,8 +42,11 @@ void tileSegment(Vec3 a_vx, Vec3 b_vx, std::vector<Voxel>& voxels);
 /// segment or point that they are.
 void tileTriangle(const std::array<Vec3, 3>& corners_vx, std::vector<Voxel>& voxels);
 
-/// Appends the voxels of a planar polygon with three or more corners, as a fan of triangles about corner 0;
-/// each voxel once.
-void tilePolygon(const std::vector<Vec3>& corners_vx, std::vector<Voxel>& voxels);
+/// A triangle by the numbers of its corners.
+using CornerNumbers = std::array<std::uint32_t, 3>;
+
+/// Appends the voxels of triangles that share corners, given as Fixed, in (y, z, x) order, each once.
+void tileTriangles(std::span<const glm::ivec3> corners, std::span<const CornerNumbers> triangles,
+                   std::vector<Voxel>& voxels);
 
 }  // namespace espalier::sim

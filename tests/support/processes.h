@@ -7,7 +7,7 @@
 
 #include "sim/grow/process.h"
 #include "sim/sense/intersection.h"
-#include "sim/tile/tiling.h"
+#include "tests/support/plain_tiling.h"
 
 /// Two small growth processes, unlike each other, with which growth itself is tested.
 namespace espalier::tests {
@@ -171,7 +171,7 @@ class Tiler : public sim::Process {
       for (const double z : {-x, x}) corners.push_back(sim::placed(tile.element, {x, 0, z}));
     }
     std::vector<sim::Voxel> passes;
-    sim::tilePolygon(corners, passes);
+    tilePolygon(corners, passes);
     if (sim::fit(view.world, passes, {}, tile.passage, sim::kNoPlant, tile.takes) == sim::Fit::outside) {
       proposal.outcome = sim::Outcome::out_of_world;
       return proposal;

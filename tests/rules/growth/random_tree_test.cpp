@@ -12,7 +12,7 @@
 #include "sim/base/parallel.h"
 #include "sim/grow/grow.h"
 #include "sim/sense/proximity.h"
-#include "sim/tile/tiling.h"
+#include "tests/support/plain_tiling.h"
 #include "tests/support/crossings.h"
 #include "tests/support/lively.h"
 #include "tests/support/plots.h"
@@ -124,7 +124,7 @@ TEST(RandomTree, NothingIntersectsButAtItsAttachment) {
         std::vector<Vec3> corners;
         for (const Vec3 c : polygon) corners.push_back(sim::placed(e, c));
         tiled.clear();
-        sim::tilePolygon(corners, tiled);
+        tests::tilePolygon(corners, tiled);
         for (const Voxel v : tiled) {
           EXPECT_FALSE(before.at(v));
           EXPECT_TRUE(world.occupied().at(v));  // by whoever came first

@@ -15,21 +15,18 @@ namespace {
 using rules::RuleSet;
 using sim::Outcome;
 
-std::uint64_t timesOf(const sim::OutcomeCounts& counts, Outcome outcome) {
-  return counts[static_cast<std::size_t>(outcome)];
-}
-
 /// The most frequent of some outcomes; the first of those that are equally frequent.
 template <std::size_t N>
 Outcome mostly(const sim::OutcomeCounts& counts, const std::array<Outcome, N>& among) {
-  return *std::max_element(among.begin(), among.end(),
-                           [&](Outcome a, Outcome b) { return timesOf(counts, a) < timesOf(counts, b); });
+  return *std::max_element(among.begin(), among.end(), [&](Outcome a, Outcome b) {
+    return sim::timesOf(counts, a) < sim::timesOf(counts, b);
+  });
 }
 
 /// What ended a site, or else what it met most often.
 Outcome reasonOf(const sim::Tally& tally) {
   for (const Outcome end : {Outcome::forbidden, Outcome::too_dark, Outcome::too_bright}) {
-    if (timesOf(tally.sites, end) > 0) return end;
+    if (sim::timesOf(tally.sites, end) > 0) return end;
   }
   const Outcome often =
       mostly(tally.sites, std::array{Outcome::no_trial, Outcome::resting, Outcome::claimed});

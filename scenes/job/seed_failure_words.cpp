@@ -17,10 +17,6 @@ namespace {
 using Plant = Report::Growth::Plant;
 using sim::Outcome;
 
-std::uint64_t timesOf(const sim::OutcomeCounts& counts, Outcome outcome) {
-  return counts[static_cast<std::size_t>(outcome)];
-}
-
 /// Who asks: "the rules", or one of the sets that they lead to.
 std::string nameOf(const SeedFailure::Set& set) {
   return set.path.empty() ? "the rules ask" : inQuotes(set.path) + " asks";
@@ -100,7 +96,7 @@ std::string others(const sim::OutcomeCounts& trials) {
   std::vector<std::pair<std::uint64_t, const char*>> told;
   std::uint64_t all = 0;
   for (const auto& [outcome, words] : kRejections) {
-    const std::uint64_t times = timesOf(trials, outcome);
+    const std::uint64_t times = sim::timesOf(trials, outcome);
     all += times;
     if (times > 0) told.emplace_back(times, words);
   }
@@ -185,12 +181,11 @@ std::string soonStopped(const std::vector<const Plant*>& stand) {
   std::nth_element(segments.begin(), middle, segments.end());
   if (poor.empty() || *middle < kMany) return "";
   return fmt::format(
-      "note: {} of {} plants of '{}' stopped at fewer than {} segments: {}; of their buds {} found no way, "
-      "{} "
-      "were too dark, {} too bright, {} in forbidden regions\n",
+      "note: {} of {} plants of '{}' stopped at fewer than {} segments: {}; of their buds {} found "
+      "no way, {} were too dark, {} too bright, {} in forbidden regions\n",
       poor.size(), stand.size(), stand.front()->planting, kFew, firstOf(poor),
-      timesOf(ends, Outcome::no_trial), timesOf(ends, Outcome::too_dark), timesOf(ends, Outcome::too_bright),
-      timesOf(ends, Outcome::forbidden));
+      sim::timesOf(ends, Outcome::no_trial), sim::timesOf(ends, Outcome::too_dark),
+      sim::timesOf(ends, Outcome::too_bright), sim::timesOf(ends, Outcome::forbidden));
 }
 
 }  // namespace
@@ -207,12 +202,12 @@ std::string whyItDidNotGrow(const SeedFailure& failure) {
       const SeedFailure::Set* const set = triedOf(failure);
       return fmt::format(
           "it rested in all {} iterations: with {:.2f} of the light the rules let it grow in one of {:.3g}",
-          timesOf(failure.tally.sites, Outcome::resting), set != nullptr ? set->exposure : 0.0,
+          sim::timesOf(failure.tally.sites, Outcome::resting), set != nullptr ? set->exposure : 0.0,
           set != nullptr ? 1.0 / set->pace : 1.0);
     }
     case Outcome::claimed:
       return fmt::format("others took its voxels first, {} times",
-                         timesOf(failure.tally.sites, Outcome::claimed));
+                         sim::timesOf(failure.tally.sites, Outcome::claimed));
     default:
       return ofTrials(failure);
   }

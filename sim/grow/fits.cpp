@@ -28,9 +28,8 @@ std::string Fits::whyNot(const Grown& so_far, std::size_t sites) const {
   constexpr double kGigabyte = 1024.0 * 1024.0 * 1024.0;
   return fmt::format(
       "growth stopped after {} iterations with {} segments: with the next, and its files, it would need "
-      "{:.2f} "
-      "GB of memory more, and {:.2f} are free for it here; limit iterations, or light or proximity in the "
-      "rules",
+      "{:.2f} GB of memory more, and {:.2f} are free for it here; limit iterations, or light or proximity in "
+      "the rules",
       so_far.iterations, so_far.segments, needed / kGigabyte, free / kGigabyte);
 }
 

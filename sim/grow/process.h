@@ -39,6 +39,9 @@ inline constexpr std::size_t kOutcomes = 11;
 std::string_view nameOf(Outcome outcome);
 
 using OutcomeCounts = std::array<std::uint64_t, kOutcomes>;
+inline std::uint64_t timesOf(const OutcomeCounts& counts, Outcome outcome) {
+  return counts[static_cast<std::size_t>(outcome)];
+}
 
 /// A place where something may grow: the tip of a limb, the side of a node, a spot beside a paving tile.
 struct Site {

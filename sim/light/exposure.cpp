@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <bit>
-#include <limits>
 
 namespace espalier::sim {
 
@@ -71,16 +70,6 @@ Lookout::Lookout(const BitVolume& shape, const DirectionSet& directions) {
 }
 
 namespace {
-
-/// How many whole periods of v fit between p and the edge of the world.
-int periodsInside(Voxel size, Voxel p, Voxel v) {
-  int periods = std::numeric_limits<int>::max();
-  for (int axis = 0; axis < 3; ++axis) {
-    if (v[axis] > 0) periods = std::min(periods, (size[axis] - 1 - p[axis]) / v[axis]);
-    if (v[axis] < 0) periods = std::min(periods, p[axis] / -v[axis]);
-  }
-  return periods;
-}
 
 }  // namespace
 

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <bit>
-#include <limits>
 
 // Vectors whose length is known when compiling: they are kept in arrays.
 #define HWY_DISABLED_TARGETS (HWY_SVE | HWY_SVE2 | HWY_SVE_256 | HWY_SVE2_128 | HWY_RVV)
@@ -102,16 +101,6 @@ HWY_INLINE bool anyOf(const std::uint64_t* words, std::ptrdiff_t start, const st
     hit = hn::Or(hit, hn::Shr(read, hn::And(hn::BitCast(du, at), hn::Set(du, 63))));
   }
   return !hn::AllTrue(du, hn::Eq(hn::And(hit, hn::Set(du, 1)), hn::Zero(du)));
-}
-
-/// How many whole periods of v fit between p and the edge of the world.
-int periodsInside(Voxel size, Voxel p, Voxel v) {
-  int periods = std::numeric_limits<int>::max();
-  for (int axis = 0; axis < 3; ++axis) {
-    if (v[axis] > 0) periods = std::min(periods, (size[axis] - 1 - p[axis]) / v[axis]);
-    if (v[axis] < 0) periods = std::min(periods, p[axis] / -v[axis]);
-  }
-  return periods;
 }
 
 /// From where the legs end, with a look ahead from time to time.

@@ -2,12 +2,22 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
 
 #include "sim/tile/tiling.h"
 #include "sim/world/field.h"
 
 namespace espalier::sim {
+
+int periodsInside(Voxel size, Voxel p, Voxel v) {
+  int periods = std::numeric_limits<int>::max();
+  for (int axis = 0; axis < 3; ++axis) {
+    if (v[axis] > 0) periods = std::min(periods, (size[axis] - 1 - p[axis]) / v[axis]);
+    if (v[axis] < 0) periods = std::min(periods, p[axis] / -v[axis]);
+  }
+  return periods;
+}
 
 std::vector<Voxel> crossedVoxels(Voxel v) {
   std::vector<Voxel> voxels;

@@ -42,6 +42,9 @@ int crossedCount(Voxel v);
 /// weight comes to 0 stay in the set. Shares of nothing but 0 give weights of 0.
 DirectionSet directionSet(const std::vector<Voxel>& vectors, const std::vector<double>& shares, int total);
 
+/// How many whole periods of v fit between voxel p of a world and the world's edge.
+int periodsInside(Voxel size, Voxel p, Voxel v);
+
 /// Voxels crossed on one period of v: LatticeDirection::crossed.
 std::vector<Voxel> crossedVoxels(Voxel v);
 

@@ -168,8 +168,9 @@ struct RegionMention {
 
 struct Scene {
   std::string name = "unnamed";
-  std::filesystem::path file;              ///< where it was read from
-  std::vector<sim::InputFile> read_files;  ///< itself and its rule files, in the order of reading
+  std::filesystem::path file;                     ///< where it was read from
+  std::vector<sim::InputFile> read_files;         ///< itself and its rule files, in the order of reading
+  std::vector<std::filesystem::path> read_paths;  ///< where those are, and its meshes
   std::vector<SceneMesh> meshes;
   WorldSpec world;
   SkySpec sky;

@@ -15,13 +15,15 @@
 #include "scenes/show/light_fields.h"
 #include "scenes/show/picture_memory.h"
 #include "scenes/show/pictures.h"
-#include "scenes/write/output_files.h"
+#include "scenes/write/output_folder.h"
 #include "sim/base/error.h"
 #include "sim/light/lighting.h"
 #include "sim/world/band.h"
 
 namespace espalier::scenes {
 namespace {
+
+constexpr const char *kTable = "exposure.csv", *kTableJson = "exposure.json", *kFields = "exposure.vdb";
 
 std::shared_ptr<const sim::VoxelSet> spaceWanted(const sim::World& world, const ExposureSpec& spec) {
   switch (spec.where) {
@@ -54,17 +56,22 @@ ExposeResult exposeScene(const Scene& scene, const RunOptions& options) {
   ExposeResult result;
   Report& report = result.report;
   Stages stages(options, report);
+  std::vector<std::string> names = {kTable, kTableJson, kFields};
   if (options.pictures) {
     PicturesWanted wanted = picturesOf(scene);
     if (wanted.cameras.empty()) wanted.cameras.emplace_back();  // the overview
     wanted.images = exposureImages(scene, wanted.cameras, true);
     requirePicturesFit(scene, wanted);
+    for (std::string& name : fileNames(wanted.images)) names.push_back(std::move(name));
   }
+  names.emplace_back(kReportFile);
+  OutputFolder output(options.folder, std::move(names), scene.read_paths);
   const Site site = stages.run("tiling", [&] {
     Site made = makeSiteForLight(scene);
     requireCamerasInTheOpen(scene, made.world);
     return made;
   });
+  output.protect(site.mesh_paths);
   describeWorld(report, scene, site);
 
   std::shared_ptr<const sim::VoxelSet> space;
@@ -92,9 +99,9 @@ ExposeResult exposeScene(const Scene& scene, const RunOptions& options) {
       stages.run("counting", [&] { return exposureTable(scene.name, site.world, light); });
   result.table = toText(table);
   std::vector<OutputFile> files = {
-      fileOf("exposure.csv", [&] { return toCsv(table); }),
-      fileOf("exposure.json", [&] { return toJson(table); }),
-      {"exposure.vdb", [&](std::ostream& out) {
+      fileOf(kTable, [&] { return toCsv(table); }),
+      fileOf(kTableJson, [&] { return toJson(table); }),
+      {kFields, [&](std::ostream& out) {
          render::writeFieldVdb(out, site.world, exposureFields(light, space.get()), report.made_by);
        }}};
   const std::vector<sim::Attempt> no_attempts;
@@ -112,8 +119,8 @@ ExposeResult exposeScene(const Scene& scene, const RunOptions& options) {
       for (OutputFile& file : pictures) files.push_back(std::move(file));
     });
   }
-  stages.run("writing", [&] { writeAll(options.folder, files); });
-  writeReport(options.folder, files, report);
+  stages.run("writing", [&] { output.write(files); });
+  writeReport(output, files, report);
   return result;
 }
 

@@ -135,10 +135,10 @@ void finishReport(const std::vector<OutputFile>& files, Report& report) {
   report.run.threads = sim::threadCount();
 }
 
-void writeReport(const std::filesystem::path& folder, const std::vector<OutputFile>& files, Report& report) {
+void writeReport(const OutputFolder& output, const std::vector<OutputFile>& files, Report& report) {
   finishReport(files, report);
-  report.files.emplace_back("report.json");
-  sim::writeWhole(folder / "report.json", toJson(report));
+  report.files.emplace_back(kReportFile);
+  output.write({fileOf(kReportFile, [&] { return toJson(report); })});
 }
 
 std::string endOfSummary(const Report& report, const std::filesystem::path& folder) {

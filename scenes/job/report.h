@@ -9,7 +9,7 @@
 #include "scenes/accuracy/certificate.h"
 #include "scenes/job/seed_failure.h"
 #include "scenes/prepare/site.h"
-#include "scenes/write/output_files.h"
+#include "scenes/write/output_folder.h"
 #include "sim/base/provenance.h"
 #include "sim/grow/grow.h"
 #include "sim/light/lighting.h"
@@ -71,6 +71,9 @@ struct Report {
 /// JSON, two spaces deep, keys in the order above.
 std::string toJson(const Report& report);
 
+/// The report's file in the output folder.
+inline constexpr const char* kReportFile = "report.json";
+
 /// Fills in what there is to say of a world before anything grows in it, and what it was made from.
 void describeWorld(Report& report, const Scene& scene, const Site& site);
 
@@ -78,7 +81,7 @@ void describeWorld(Report& report, const Scene& scene, const Site& site);
 void finishReport(const std::vector<OutputFile>& files, Report& report);
 
 /// The same, and writes it as report.json, the last of them. Throws sim::InputError.
-void writeReport(const std::filesystem::path& folder, const std::vector<OutputFile>& files, Report& report);
+void writeReport(const OutputFolder& output, const std::vector<OutputFile>& files, Report& report);
 
 /// The end of a summary: how long the run took, and where its files lie.
 std::string endOfSummary(const Report& report, const std::filesystem::path& folder);

@@ -21,13 +21,15 @@
 #include "scenes/show/light_fields.h"
 #include "scenes/show/picture_memory.h"
 #include "scenes/show/pictures.h"
-#include "scenes/write/output_files.h"
+#include "scenes/write/output_folder.h"
 #include "sim/base/parallel.h"
 #include "sim/light/lighting.h"
 #include "sim/world/band.h"
 
 namespace espalier::scenes {
 namespace {
+
+constexpr const char *kModelFile = "plant.glb", *kWorldFile = "world.vdb";
 
 std::vector<render::PlantModel> modelPlants(const sim::Frame& frame, std::span<const sim::Plant> plants) {
   std::vector<render::PlantModel> models(plants.size());
@@ -99,7 +101,8 @@ struct Prepared {
   std::vector<rules::Exposure> seed_lights;
 };
 
-Prepared prepare(const Scene& scene, const RunOptions& options, Report& report, Stages& stages) {
+Prepared prepare(const Scene& scene, const RunOptions& options, OutputFolder& output, Report& report,
+                 Stages& stages) {
   Prepared prepared = stages.run("tiling", [&] {
     Site site = makeSite(scene);
     auto plantings = makePlantings(scene, site);
@@ -107,6 +110,7 @@ Prepared prepare(const Scene& scene, const RunOptions& options, Report& report, 
     auto lights = lightOfSeeds(plantings, site.world, growthSettings(scene, site).light);
     return Prepared{std::move(site), std::move(plantings), std::move(lights)};
   });
+  output.protect(prepared.site.mesh_paths);
   describeWorld(report, scene, prepared.site);
   std::vector<Problem> warnings = unknownRegions(scene, prepared.site.world);
   warnings.insert(warnings.begin(), scene.warnings.begin(), scene.warnings.end());
@@ -138,8 +142,8 @@ double laterAnElement(const std::vector<sim::Planting>& plantings) {
 
 /// Grows from the beginning or from what was kept, and keeps every so many iterations what has grown.
 sim::Growth growOn(const Scene& scene, Prepared& prepared, std::optional<sim::Growth> kept,
-                   const sim::BitVolume& bare, const RunOptions& options, const Keeping& keeping,
-                   Report& report) {
+                   const sim::BitVolume& bare, const RunOptions& options, const OutputFolder& output,
+                   const Keeping& keeping, Report& report) {
   Site& site = prepared.site;
   std::vector<sim::Planting>& plantings = prepared.plantings;
   sim::GrowthSettings settings = growthSettings(scene, site);
@@ -169,8 +173,7 @@ sim::Growth growOn(const Scene& scene, Prepared& prepared, std::optional<sim::Gr
   while (growing->step()) {
     const sim::Growth& now = growing->growth();
     if (keeping.every > 0 && now.iterations % keeping.every == 0)
-      writeAll(
-          options.folder,
+      output.write(
           {{kStateFile, [&](std::ostream& out) { sim::writeState(out, inputs, site.world, bare, now); }}});
   }
   return growing->take();
@@ -180,9 +183,15 @@ sim::Growth growOn(const Scene& scene, Prepared& prepared, std::optional<sim::Gr
 
 Report runScene(const Scene& scene, const RunOptions& options, const Keeping& keeping) {
   if (options.pictures) requirePicturesFit(scene, picturesOf(scene));
+  std::vector<std::string> names = {kModelFile, kWorldFile, kReportFile};
+  if (keeping.keep || keeping.every > 0) names.emplace_back(kStateFile);
+  if (options.pictures) {
+    for (std::string& name : fileNames(scene.images)) names.push_back(std::move(name));
+  }
+  OutputFolder output(options.folder, std::move(names), scene.read_paths);
   Report report;
   Stages stages(options, report);
-  Prepared prepared = prepare(scene, options, report, stages);
+  Prepared prepared = prepare(scene, options, output, report, stages);
   Site& site = prepared.site;
   const sim::BitVolume bare = site.world.occupied();
   // Plants grow in the site's own world: a run grows once, and a second world would take as much memory.
@@ -196,8 +205,9 @@ Report runScene(const Scene& scene, const RunOptions& options, const Keeping& ke
       }
     });
   }
-  const sim::Growth growth = stages.run(
-      "growing", [&] { return growOn(scene, prepared, std::move(kept), bare, options, keeping, report); });
+  const sim::Growth growth = stages.run("growing", [&] {
+    return growOn(scene, prepared, std::move(kept), bare, options, output, keeping, report);
+  });
   report.growth = growthReport(scene, world, bare, growth, prepared.seed_lights);
   if (!growth.cut_short.empty()) report.warnings.push_back(growth.cut_short);
   report.occupied_voxels = world.occupied().count();
@@ -213,8 +223,8 @@ Report runScene(const Scene& scene, const RunOptions& options, const Keeping& ke
     models = stages.run("modelling", [&] { return modelPlants(world.frame(), growth.plants); });
   std::vector<OutputFile> files;
   files.push_back(
-      {"plant.glb", [&](std::ostream& out) { writeGlb(out, site, growth.plants, models, report.made_by); }});
-  files.push_back({"world.vdb", [&](std::ostream& out) {
+      {kModelFile, [&](std::ostream& out) { writeGlb(out, site, growth.plants, models, report.made_by); }});
+  files.push_back({kWorldFile, [&](std::ostream& out) {
                      render::writeVdb(out, world, worldFields(light, *layers), report.made_by);
                    }});
   if (keeping.keep) {
@@ -231,10 +241,10 @@ Report runScene(const Scene& scene, const RunOptions& options, const Keeping& ke
     });
   }
   stages.run("writing", [&] {
-    writeAll(options.folder, files);
+    output.write(files);
     if (!keeping.keep) dropState(options.folder);
   });
-  writeReport(options.folder, files, report);
+  writeReport(output, files, report);
   if (options.strict && !growth.cut_short.empty())
     throw sim::InputError(scene.file.string() + ": " + growth.cut_short);
   return report;
@@ -246,6 +256,7 @@ Report renderScene(Scene scene, const std::filesystem::path& from, const RunOpti
         fmt::format("{}: it has no images to draw; expected at least one", scene.file.string()));
   }
   requirePicturesFit(scene, picturesOf(scene));
+  OutputFolder output(options.folder, fileNames(scene.images), scene.read_paths);
   Report report;
   Stages stages(options, report);
   std::optional<sim::State> state = stages.run("reading", [&] { return readKept(from); });
@@ -255,7 +266,7 @@ Report renderScene(Scene scene, const std::filesystem::path& from, const RunOpti
   }
   // Strewn seeds and random rays lie where they lay.
   scene.seed = seedOf(*state).value_or(scene.seed);
-  Prepared prepared = prepare(scene, options, report, stages);
+  Prepared prepared = prepare(scene, options, output, report, stages);
   Site& site = prepared.site;
   const sim::BitVolume bare = site.world.occupied();
   const sim::Growth growth = takeUp(std::move(*state), from, scene, site, prepared.plantings, Same::plants);
@@ -269,7 +280,7 @@ Report renderScene(Scene scene, const std::filesystem::path& from, const RunOpti
     const Finished finished{site.meshes, site.world, growth.attempts, light, models};
     return inScene(scene, [&] { return drawPictures(picturesOf(scene, report.made_by), finished); });
   });
-  stages.run("writing", [&] { writeAll(options.folder, files); });
+  stages.run("writing", [&] { output.write(files); });
   finishReport(files, report);
   return report;
 }

@@ -13,8 +13,8 @@
 namespace espalier::scenes {
 
 /// What every seed sees before anything grows, planting by planting. `world` holds the scene alone.
-std::vector<rules::Exposure> lightOfSeeds(const std::vector<sim::Planting>& plantings, const sim::World& world,
-                                     const sim::LightSource& light);
+std::vector<rules::Exposure> lightOfSeeds(const std::vector<sim::Planting>& plantings,
+                                          const sim::World& world, const sim::LightSource& light);
 
 /// A length that a rule asks for, and how it was written.
 struct RuleLength {

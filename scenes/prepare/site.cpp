@@ -17,20 +17,27 @@
 namespace espalier::scenes {
 namespace {
 
+/// Files that meshes were read from.
+struct MeshFiles {
+  std::vector<sim::InputFile> files;
+  std::vector<std::filesystem::path> paths;
+};
+
 /// Adds a mesh's files, called from the scene's file as the mesh is.
-void addFiles(const SceneMesh& spec, const std::vector<sim::InputFile>& read,
-              std::vector<sim::InputFile>& files) {
+void addFiles(const SceneMesh& spec, const std::vector<sim::InputFile>& read, MeshFiles& to) {
   const std::filesystem::path told =
       spec.told.empty() ? spec.file.filename() : std::filesystem::path(spec.told);
   for (const sim::InputFile& file : read) {
     sim::InputFile named = file;
     named.name = file.kind == "mesh" ? cleanText(told.generic_string())
                                      : cleanText((told.parent_path() / file.name).generic_string());
-    if (std::find(files.begin(), files.end(), named) == files.end()) files.push_back(std::move(named));
+    to.paths.push_back(file.kind == "mesh" ? spec.file : spec.file.parent_path() / file.name);
+    if (std::find(to.files.begin(), to.files.end(), named) == to.files.end())
+      to.files.push_back(std::move(named));
   }
 }
 
-std::vector<sim::TiledMesh> readMeshes(const Scene& scene, std::vector<sim::InputFile>& files) {
+std::vector<sim::TiledMesh> readMeshes(const Scene& scene, MeshFiles& files) {
   for (const SceneMesh& spec : scene.meshes) {
     if (spec.optional && !std::filesystem::exists(spec.file)) {
       throw MeshMissing(fmt::format("{}: the mesh {} is not there", scene.file.string(), spec.file.string()));
@@ -89,7 +96,7 @@ sim::Frame frameFor(const Scene& scene, const std::vector<sim::TiledMesh>& meshe
 }  // namespace
 
 Site makeSite(const Scene& scene) {
-  std::vector<sim::InputFile> files;
+  MeshFiles files;
   std::vector<sim::TiledMesh> meshes = readMeshes(scene, files);
   return inScene(scene, [&]() -> Site {
     std::vector<sim::FillReport> fills;
@@ -111,7 +118,8 @@ Site makeSite(const Scene& scene) {
             std::move(sky),
             randomSky(scene.sky, scene.seed),
             std::move(sun),
-            std::move(files)};
+            std::move(files.files),
+            std::move(files.paths)};
   });
 }
 

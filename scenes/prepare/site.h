@@ -28,7 +28,8 @@ struct Site {
   sim::Sky sky;
   std::optional<sim::RandomSky> random_sky;  ///< where the scene asks for it: instead of sky's directions
   sim::Sun sun;
-  std::vector<sim::InputFile> mesh_files;  ///< what the meshes were read from, each once
+  std::vector<sim::InputFile> mesh_files;         ///< what the meshes were read from, each once
+  std::vector<std::filesystem::path> mesh_paths;  ///< where those are
 };
 
 /// Reads a scene's meshes and tiles them, with layersFor() boundary layers. Throws sim::InputError, naming

@@ -82,8 +82,12 @@ Scene readRoot(const YamlNode& root, const fs::path& path, std::uint64_t hash, P
   fillNames(scene);
   scene.region_mentions = loader.mentions();
   scene.read_files.push_back({cleanText(path.filename().string()), "scene", hash});
-  for (const auto& read : loader.readFiles())
+  scene.read_paths.push_back(path);
+  for (const auto& read : loader.readFiles()) {
     scene.read_files.push_back({toldFrom(path, read.path, read.from_root), "rules", read.hash});
+    scene.read_paths.push_back(read.path);
+  }
+  for (const SceneMesh& mesh : scene.meshes) scene.read_paths.push_back(mesh.file);
   scene.warnings = loader.warnings().sorted();
   for (std::size_t i = 0; i < scene.plants.size(); ++i) {
     scene.plants[i].rules_place = placeOf({&root}, fmt::format("plants[{}].rules", i));

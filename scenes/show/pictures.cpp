@@ -241,6 +241,15 @@ PicturesWanted picturesOf(const Scene& scene, const sim::Provenance& made_by) {
   return wanted;
 }
 
+std::vector<std::string> fileNames(const std::vector<ImageSpec>& images) {
+  std::vector<std::string> names;
+  for (const ImageSpec& image : images) {
+    names.push_back(image.name + ".png");
+    if (panelOf(image.kind)) names.push_back(image.name + ".exr");
+  }
+  return names;
+}
+
 std::vector<OutputFile> drawPictures(const PicturesWanted& wanted, const Finished& finished) {
   Studio studio(wanted, finished);
   std::vector<OutputFile> files;

@@ -5,7 +5,7 @@
 
 #include "render/model/plant_model.h"
 #include "scenes/scene.h"
-#include "scenes/write/output_files.h"
+#include "scenes/write/output_folder.h"
 #include "sim/base/provenance.h"
 #include "sim/grow/grow.h"
 #include "sim/light/lighting.h"
@@ -43,6 +43,9 @@ struct Finished {
   const sim::Lighting& light;                     ///< in all of space too, where there is an image of vines
   const std::vector<render::PlantModel>& models;  ///< one a plant
 };
+
+/// The files that drawPictures makes.
+std::vector<std::string> fileNames(const std::vector<ImageSpec>& images);
 
 /// Draws images, in their order: PNG files for the eye, and EXR files with the pure values of the exposure
 /// and colour panels. Throws sim::InputError; sim::Stopped.

@@ -11,6 +11,7 @@
 #include <cmath>
 #include <fstream>
 #include <iterator>
+#include <sstream>
 
 namespace espalier::sim {
 namespace {
@@ -40,12 +41,29 @@ struct Limit {
   bool of_addresses = false;  // RLIMIT_AS is the least
 };
 
+/// The text of a file; empty where there is none.
+std::string textOf(const char* file) {
+  std::ifstream in(file);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+struct InUse {
+  double addresses = 0.0, resident = 0.0;  // bytes
+};
+
+InUse inUse() {
+  std::ifstream in("/proc/self/statm");
+  InUse pages;
+  in >> pages.addresses >> pages.resident;
+  const auto page = static_cast<double>(::sysconf(_SC_PAGE_SIZE));
+  return {page * pages.addresses, page * pages.resident};
+}
+
 Limit findLimit() {
   double least =
       static_cast<double>(::sysconf(_SC_PHYS_PAGES)) * static_cast<double>(::sysconf(_SC_PAGE_SIZE));
-  std::ifstream in("/proc/self/cgroup");
-  const std::string about{std::istreambuf_iterator<char>(in), {}};
-  least = std::min(least, controlGroupLimit(about, "/sys/fs/cgroup"));
+  least = std::min(least, availableIn(textOf("/proc/meminfo")) + inUse().resident);
+  least = std::min(least, controlGroupLimit(textOf("/proc/self/cgroup"), "/sys/fs/cgroup"));
   rlimit addresses{};
   if (::getrlimit(RLIMIT_AS, &addresses) != 0 || addresses.rlim_cur == RLIM_INFINITY) return {least, false};
   const auto most = static_cast<double>(addresses.rlim_cur);
@@ -64,10 +82,17 @@ double memoryBudget() {
 }
 
 double memoryInUse() {
-  std::ifstream in("/proc/self/statm");
-  double addresses = 0.0, resident = 0.0;
-  in >> addresses >> resident;
-  return (limit().of_addresses ? addresses : resident) * static_cast<double>(::sysconf(_SC_PAGE_SIZE));
+  return limit().of_addresses ? inUse().addresses : inUse().resident;
+}
+
+// Lines of "name:   number kB", in units of 1024 bytes.
+double availableIn(std::string_view meminfo) {
+  constexpr std::string_view kName = "MemAvailable:";
+  const std::size_t at = meminfo.find(kName);
+  if (at == meminfo.npos) return INFINITY;
+  std::istringstream in{std::string(meminfo.substr(at + kName.size()))};
+  double kib = INFINITY;
+  return in >> kib ? 1024.0 * kib : INFINITY;
 }
 
 // Lines of "number:controllers:path"; of version 2 "0::path".

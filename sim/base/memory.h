@@ -6,14 +6,18 @@
 
 namespace espalier::sim {
 
-/// Bytes that a job may plan to use: three quarters of the least of the machine's memory, the limits of this
-/// process's control group (Linux) and RLIMIT_AS. The rest is for the system, libraries and the stack. Found
-/// once.
+/// Bytes that a job may plan to use: three quarters of the least of the machine's memory that others leave to
+/// it, the limits of this process's control group (Linux) and RLIMIT_AS. The rest is for the system, libraries
+/// and the stack. Found once.
 double memoryBudget();
 
 /// Bytes that this process uses now: the address space, where RLIMIT_AS is the least of those limits, or else
 /// what is resident. 0 where /proc/self/statm cannot be read.
 double memoryInUse();
+
+/// Bytes that the machine can still give without taking them from anybody, by the text of /proc/meminfo;
+/// infinity where it does not say so.
+double availableIn(std::string_view meminfo);
 
 /// The least limit on memory, in bytes, of a control group and those around it; infinity where there is none.
 /// `about` is what /proc/self/cgroup says, `root` where control groups are mounted (version 2, or 1 with its

@@ -5,6 +5,7 @@
 #include <signal.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <charconv>
@@ -106,11 +107,17 @@ class FileBuffer : public std::streambuf {
   int reason_ = 0;
 };
 
-/// The temporary files of this process. None is made or put in its place but under the lock.
+/// The temporary files and new folders of this process. None is made or put in its place but under the lock.
 struct Parts {
   std::mutex mutex;
   std::set<std::filesystem::path> paths;
+  std::vector<std::filesystem::path> folders;  // new ones, inner ones first
 };
+
+/// Those of them that hold nothing: the system removes no others. What stands in another new one goes first.
+void removeEmpty(const std::vector<std::filesystem::path>& folders) {
+  for (const auto& folder : folders) ::rmdir(folder.c_str());
+}
 
 Parts& parts() {
   static Parts* const all = new Parts;  // never destroyed: a thread may write until the very end
@@ -189,6 +196,33 @@ void NewFile::putInPlace() {
   part_.clear();
 }
 
+NewFolder::NewFolder(const std::filesystem::path& path) : path_(path) {
+  std::error_code error;
+  std::vector<std::filesystem::path> missing;
+  for (auto folder = std::filesystem::absolute(path, error).lexically_normal();
+       !folder.empty() && !std::filesystem::exists(folder, error); folder = folder.parent_path()) {
+    if (folder.has_filename()) missing.push_back(folder);
+  }
+  std::filesystem::create_directories(path, error);
+  if (!error && !std::filesystem::is_directory(path, error) && !error)
+    error = std::make_error_code(std::errc::not_a_directory);
+  if (error) {
+    removeEmpty(missing);
+    throw InputError(fmt::format("{}: cannot make the folder: {}", path.string(), error.message()));
+  }
+  made_ = std::move(missing);
+  const std::lock_guard lock(parts().mutex);
+  parts().folders.insert(parts().folders.begin(), made_.begin(), made_.end());
+}
+
+NewFolder::~NewFolder() {
+  const std::lock_guard lock(parts().mutex);
+  removeEmpty(made_);
+  std::erase_if(parts().folders, [&](const std::filesystem::path& folder) {
+    return std::find(made_.begin(), made_.end(), folder) != made_.end();
+  });
+}
+
 void writeWhole(const std::filesystem::path& path, std::string_view bytes) {
   NewFile(path, [&](std::ostream& out) {
     out.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
@@ -199,6 +233,7 @@ void abandonFiles() {
   parts().mutex.lock();  // and never unlocked
   std::error_code ignored;
   for (const auto& part : parts().paths) std::filesystem::remove(part, ignored);
+  removeEmpty(parts().folders);
 }
 
 void removeLeftovers(const std::filesystem::path& folder) {

@@ -3,6 +3,7 @@
 #include <functional>
 #include <iosfwd>
 #include <string_view>
+#include <vector>
 
 namespace espalier::sim {
 
@@ -28,8 +29,26 @@ class NewFile {
   std::filesystem::path path_, part_;
 };
 
-/// Removes the temporary files of this process for good: from then on what writes files waits for ever and puts
-/// nothing in its place. For a program that is about to end while other threads may be writing.
+/// A folder that is made with those around it where they are not there. Those that were made and hold nothing
+/// are removed with this object.
+class NewFolder {
+ public:
+  /// Throws InputError with the path and the system's reason.
+  explicit NewFolder(const std::filesystem::path& path);
+  NewFolder(const NewFolder&) = delete;
+  NewFolder& operator=(const NewFolder&) = delete;
+  ~NewFolder();
+
+  const std::filesystem::path& path() const { return path_; }
+
+ private:
+  std::filesystem::path path_;
+  std::vector<std::filesystem::path> made_;  // inner ones first
+};
+
+/// Removes the temporary files and the new folders of this process for good: from then on what writes files
+/// waits for ever and puts nothing in its place. For a program that is about to end while other threads may
+/// be writing.
 void abandonFiles();
 
 /// Removes temporary files that a killed run of ours left in a folder, and none that a living one is writing.

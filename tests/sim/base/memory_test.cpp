@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <unistd.h>
+
 #include <cmath>
 
 #include "sim/base/hasher.h"
@@ -32,12 +34,24 @@ TEST(Memory, TheLeastLimitOfAControlGroupAndThoseAroundItHolds) {
 
 TEST(Memory, ThereIsSomeAndNotAllOfTheMachines) {
   EXPECT_GT(memoryBudget(), 1e7);
+  const auto pages = static_cast<double>(::sysconf(_SC_PHYS_PAGES));
+  EXPECT_LT(memoryBudget(),
+            0.75 * pages * static_cast<double>(::sysconf(_SC_PAGE_SIZE)));  // others take some
   EXPECT_EQ(memoryBudget(), memoryBudget());
   EXPECT_EQ(inGigabytes(1.5 * 1024 * 1024 * 1024), "1.5 GB");
 }
 
 TEST(Hasher, HashOfBytesIsTheOneThatIsKnownEverywhere) {
   EXPECT_EQ(hashOf(""), 0x2d06800538d394c2u);  // xxhsum -H3 </dev/null
+}
+
+TEST(Memory, WhatTheMachineCanStillGiveIsRead) {
+  EXPECT_EQ(availableIn(
+                "MemTotal:       24684092 kB\nMemFree:  8 kB\nMemAvailable:   22472484 kB\nBuffers: 1 kB\n"),
+            22472484.0 * 1024.0);
+  EXPECT_TRUE(std::isinf(availableIn("MemTotal: 24684092 kB\nMemFree: 18488304 kB\n")));
+  EXPECT_TRUE(std::isinf(availableIn("MemAvailable: much")));
+  EXPECT_TRUE(std::isinf(availableIn("")));
 }
 
 }  // namespace

@@ -1,0 +1,88 @@
+#include "scenes/write/output_folder.h"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/file.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <memory>
+#include <ostream>
+
+#include "sim/base/error.h"
+#include "sim/base/parallel.h"
+
+namespace espalier::scenes {
+
+OutputFile fileOf(std::string name, std::function<std::string()> bytes) {
+  return {std::move(name), [bytes = std::move(bytes)](std::ostream& out) { out << bytes(); }};
+}
+
+namespace {
+
+namespace fs = std::filesystem;
+
+/// A descriptor of the folder that holds its lock; -1 where the file system knows no locks. The system frees
+/// it when the last process that has the descriptor ends: children of ours do not outlive us.
+int claimOf(const fs::path& folder) {
+  const int descriptor = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  if (descriptor < 0 || ::flock(descriptor, LOCK_EX | LOCK_NB) == 0) return descriptor;
+  const bool taken = errno == EWOULDBLOCK;
+  ::close(descriptor);
+  if (taken) {
+    throw sim::InputError(fmt::format(
+        "{}: another run is writing into this folder; expected another folder, or to wait", folder.string()));
+  }
+  return -1;
+}
+
+}  // namespace
+
+OutputFolder::OutputFolder(const fs::path& folder, std::vector<std::string> names,
+                           std::span<const fs::path> read)
+    : made_(folder), claim_(claimOf(folder)), names_(std::move(names)) {
+  try {
+    protect(read);
+    sim::removeLeftovers(folder);
+    const sim::NewFile trial(folder / "trial", [](std::ostream&) {});
+  } catch (...) {
+    if (claim_ >= 0) ::close(claim_);
+    throw;
+  }
+}
+
+OutputFolder::~OutputFolder() {
+  if (claim_ >= 0) ::close(claim_);
+}
+
+void OutputFolder::protect(std::span<const fs::path> read) {
+  read_.insert(read_.end(), read.begin(), read.end());
+  for (const std::string& name : names_) requireFree(name);
+}
+
+void OutputFolder::requireFree(const std::string& name) const {
+  const fs::path file = path() / name;
+  std::error_code none;
+  const fs::file_status there = fs::status(file, none);
+  if (!fs::exists(there)) return;
+  if (!fs::is_regular_file(there)) {
+    throw sim::InputError(fmt::format(
+        "{}: this is no file, and cannot be written over; expected another output folder", file.string()));
+  }
+  const auto same = [&](const fs::path& read) { return fs::equivalent(read, file, none); };
+  if (std::none_of(read_.begin(), read_.end(), same)) return;
+  throw sim::InputError(fmt::format(
+      "{}: this run reads the file and would write over it; expected another output folder", file.string()));
+}
+
+void OutputFolder::write(const std::vector<OutputFile>& files) const {
+  for (const OutputFile& file : files) requireFree(file.name);
+  std::vector<std::unique_ptr<sim::NewFile>> made(files.size());
+  sim::parallelForEach(files.size(), [&](std::size_t i) {
+    made[i] = std::make_unique<sim::NewFile>(path() / files[i].name, files[i].write);
+  });
+  for (const auto& file : made) file->putInPlace();
+}
+
+}  // namespace espalier::scenes

@@ -101,10 +101,10 @@ std::string explained(const CLI::App& app, const CLI::ParseError& error) {
   if (chosen.empty() && (unread.empty() || !unread.front().starts_with("-"))) {
     const auto commands = commandsOf(app);
     const std::string word = unread.empty() ? "" : unread.front();
-    what = fmt::format(
-        "{}; expected one of {}{}",
-        unread.empty() ? "no command is given" : "there is no command " + scenes::inQuotes(word),
-        scenes::listed(commands), scenes::didYouMean(word, commands));
+    what =
+        fmt::format("{}; expected one of {}{}",
+                    unread.empty() ? "no command is given" : "there is no command " + scenes::inQuotes(word),
+                    scenes::listed(commands), scenes::didYouMean(word, commands));
   } else if (!unread.empty()) {
     what = unexpected(unread.front(), command);
   } else if (dynamic_cast<const CLI::ArgumentMismatch*>(&error) != nullptr) {

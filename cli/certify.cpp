@@ -1,13 +1,13 @@
-#include <fmt/format.h>
-
 #include <CLI/App.hpp>
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
-#include <cstdio>
 #include <memory>
 
 #include "cli/commands.h"
+#include "cli/doing.h"
 #include "cli/interrupt.h"
+#include "cli/job_options.h"
+#include "cli/say.h"
 #include "scenes/accuracy/accuracy_study.h"
 #include "scenes/accuracy/certificate.h"
 #include "scenes/read/read_scene.h"
@@ -23,21 +23,24 @@ struct CertifyArguments {
 int certify(const CertifyArguments& arguments) {
   const Interrupt interrupt;
   if (arguments.scene.empty()) {
-    fmt::print("{}", scenes::accuracyStudy());
+    print(doing("the study", "certifying", [] { return scenes::accuracyStudy(); }));
     return 0;
   }
-  auto scene = scenes::readScene(arguments.scene);
-  if (!scene) {
-    fmt::print(stderr, "{}\n", scenes::format(scene.problems()));
-    return kInputError;
-  }
-  try {
-    const scenes::Certificate certificate = scenes::certify(scenes::makeSiteForLight(*scene), scene->seed);
-    fmt::print("{}", arguments.json ? scenes::toJson(certificate) : scenes::toText(certificate));
-  } catch (const scenes::MeshMissing& missing) {
-    fmt::print(stderr, "{}; skipped, as the scene calls it optional\n", missing.what());
-  }
-  return 0;
+  return doing(arguments.scene, "certifying", [&] {
+    const auto scene = scenes::readScene(arguments.scene);
+    if (!scene) return sayProblems(scene.problems());
+    try {
+      const scenes::Certificate certificate = scenes::certify(scenes::makeSiteForLight(*scene), scene->seed);
+      if (arguments.json) {
+        printJson(scenes::toJson(certificate));
+      } else {
+        print(scenes::toText(certificate));
+      }
+    } catch (const scenes::MeshMissing& missing) {
+      saySkipped(missing);
+    }
+    return 0;
+  });
 }
 
 }  // namespace

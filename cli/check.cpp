@@ -1,12 +1,11 @@
-#include <fmt/format.h>
-
 #include <CLI/App.hpp>
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
-#include <cstdio>
 #include <memory>
 
 #include "cli/commands.h"
+#include "cli/doing.h"
+#include "cli/job_options.h"
 #include "scenes/read/read_scene.h"
 
 namespace espalier::cli {
@@ -18,10 +17,8 @@ void addCheck(CLI::App& app, int& exit_status) {
   command->add_option("file", *files, "Rule and scene files")->required();
   command->callback([files, &exit_status] {
     for (const std::string& file : *files) {
-      const auto problems = scenes::checkFile(file);
-      if (problems.empty()) continue;
-      fmt::print(stderr, "{}\n", scenes::format(problems));
-      exit_status = kInputError;
+      const auto problems = doing(file, "checking", [&] { return scenes::checkFile(file); });
+      if (!problems.empty()) exit_status = sayProblems(problems);
     }
   });
 }

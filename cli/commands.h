@@ -3,9 +3,10 @@
 
 namespace espalier::cli {
 
+inline constexpr int kFailed = 1;      ///< exit status: it could not be done, for no fault of what was given
 inline constexpr int kInputError = 2;  ///< exit status: something is wrong with what was given
 inline constexpr int kStopped = 130;   ///< exit status: Ctrl-C
-inline constexpr const char* kStoppedText = "espalier: stopped\n";
+inline constexpr const char* kStoppedText = "espalier: stopped";
 
 /// Each adds its subcommand; the status that its callback leaves in `exit_status` is the program's.
 void addGrow(CLI::App& app, int& exit_status);

@@ -7,7 +7,9 @@
 
 #include "cli/commands.h"
 #include "cli/job_options.h"
+#include "cli/values.h"
 #include "scenes/job/expose.h"
+#include "sim/base/error.h"
 
 namespace espalier::cli {
 namespace {
@@ -30,19 +32,21 @@ void addExpose(CLI::App& app, int& exit_status) {
       "expose", "Find the sun and the sky that a scene's surfaces see; write maps, fields and tables");
   const auto arguments = std::make_shared<ExposeArguments>();
   addJobOptions(*command, arguments->job);
-  command
-      ->add_option("--where", arguments->where,
-                   "surfaces, band (the free space near them too) or everything (all free space), instead "
-                   "of the scene's exposure.where")
-      ->check(CLI::IsMember({"surfaces", "band", "everything"}));
-  command->add_option("--band", arguments->band_vx, "How many voxels wide a band is; implies --where band")
-      ->check(CLI::Range(1, 64));
+  addChoice(
+      *command, "--where", sceneKey("exposure.where"),
+      [arguments](const std::string& where) { arguments->where = where; },
+      "surfaces, band (the free space near them too) or everything (all free space), instead of the scene's "
+      "exposure.where");
+  addWhole(
+      *command, "--band", sceneKey("exposure.band"),
+      [arguments](std::int64_t band) { arguments->band_vx = static_cast<int>(band); },
+      "How many voxels wide a band is; implies --where band");
   command->callback([arguments, &exit_status] {
     const auto& where = arguments->where;
     const auto& band_vx = arguments->band_vx;
     if (band_vx && where && *where != "band") {
-      throw CLI::ValidationError(
-          "--band", "a band means nothing to --where " + *where + "; expected --where band, or no --band");
+      throw sim::InputError("espalier: --band means nothing to --where " + *where +
+                            "; expected --where band, or no --band");
     }
     exit_status = runJob(arguments->job, [&](scenes::Scene scene, const scenes::RunOptions& run) {
       if (band_vx) {

@@ -6,6 +6,7 @@
 
 #include "cli/commands.h"
 #include "cli/job_options.h"
+#include "cli/values.h"
 #include "scenes/job/run.h"
 
 namespace espalier::cli {
@@ -27,14 +28,20 @@ void addGrow(CLI::App& app, int& exit_status) {
   const auto arguments = std::make_shared<GrowArguments>();
   addJobOptions(*command, arguments->job);
   addStrict(*command, arguments->job);
-  command->add_option("--seed", arguments->seed, "Random seed instead of the scene's own")
-      ->check(CLI::Range(std::uint64_t{0}, std::uint64_t{9'007'199'254'740'991}));  // as in scene files
-  command->add_option("--iterations", arguments->iterations, "Iterations instead of the scene's own")
-      ->check(CLI::Range(0, 100'000));
-  command
-      ->add_option("--save-every", arguments->keeping.every,
-                   "Keep the state of growth in the output folder after every so many iterations")
-      ->check(CLI::Range(1, 100'000));
+  addWhole(
+      *command, "--seed", sceneKey("seed"),
+      [arguments](std::int64_t seed) { arguments->seed = static_cast<std::uint64_t>(seed); },
+      "Random seed instead of the scene's own");
+  addWhole(
+      *command, "--iterations", sceneKey("iterations"),
+      [arguments](std::int64_t number) { arguments->iterations = static_cast<int>(number); },
+      "Iterations instead of the scene's own");
+  rules::Key every = sceneKey("iterations");
+  every.limits.min = 1.0;
+  addWhole(
+      *command, "--save-every", every,
+      [arguments](std::int64_t number) { arguments->keeping.every = static_cast<int>(number); },
+      "Keep the state of growth in the output folder after every so many iterations");
   command->add_flag("--resume", arguments->keeping.resume,
                     "Go on from the state in the output folder, or begin if there is none");
   command->add_flag("--no-state", arguments->no_state, "Leave no state of growth behind at the end");

@@ -27,8 +27,10 @@ sigset_t stopSignals() {
 /// Ends the program under the hands of its other threads.
 [[noreturn]] void leave() {
   sim::abandonFiles();
-  const std::string text = (::isatty(STDERR_FILENO) == 1 ? "\r\033[K" : "") + std::string(kStoppedText);
-  static_cast<void>(!::write(STDERR_FILENO, text.data(), text.size()));  // another may hold stderr's lock
+  const std::string text =
+      (::isatty(STDERR_FILENO) == 1 ? "\r\033[K" : "") + std::string(kStoppedText) + "\n";
+  // Once, whatever comes of it: it must not wait.
+  static_cast<void>(!::write(STDERR_FILENO, text.data(), text.size()));
   ::_exit(kStopped);
 }
 

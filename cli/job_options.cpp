@@ -4,25 +4,67 @@
 
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
-#include <cstdio>
 
 #include "cli/commands.h"
+#include "cli/doing.h"
 #include "cli/interrupt.h"
 #include "cli/progress.h"
+#include "cli/say.h"
+#include "cli/values.h"
 #include "scenes/prepare/site.h"
 #include "scenes/read/read_scene.h"
 #include "sim/base/parallel.h"
 
 namespace espalier::cli {
 
+namespace {
+
+int run(const JobOptions& options, const JobWork& work) {
+  const Interrupt interrupt;
+  auto scene = scenes::readScene(options.scene);
+  if (!scene) return sayProblems(scene.problems());
+  scenes::RunOptions run;
+  run.folder = options.folder.empty() ? "out/" + scene->file.stem().string() : options.folder;
+  run.pictures = !options.no_pictures;
+  run.strict = options.strict;
+  run.stop = interrupt.token();
+  JobOutcome outcome;
+  try {
+    Progress progress(options.quiet || options.json);
+    run.on_stage = [&](const std::string& name) {
+      nowDoing(options.scene, name);
+      progress.stage(name);
+    };
+    run.on_growth = [&](const sim::GrowthProgress& growth) { progress.growth(growth); };
+    run.on_warning = [&](const std::string& text) {
+      if (!options.quiet) progress.warning(text);
+    };
+    sim::onThreads(options.threads, [&] { outcome = work(std::move(*scene), run); });
+  } catch (const scenes::MeshMissing& missing) {
+    saySkipped(missing);
+    return 0;
+  }
+  if (options.json) {
+    printJson(outcome.json);
+  } else if (!options.quiet) {
+    print(outcome.summary);
+  }
+  return 0;
+}
+
+}  // namespace
+
 void addSceneOptions(CLI::App& command, JobOptions& options, const std::string& default_folder) {
   options.threads = sim::threadCount();
   command.add_option("scene", options.scene, "Scene file")->required();
   command.add_option("-o,--output", options.folder, "Folder to write to (default: " + default_folder + ")");
-  command
-      .add_option("--threads", options.threads,
-                  "Threads to use; the result does not depend on it (default: all)")
-      ->check(CLI::Range(1, 1024));
+  rules::Key threads;
+  threads.kind = rules::Kind::whole;
+  threads.limits = {1.0, 1024.0};
+  addWhole(
+      command, "--threads", threads,
+      [&options](std::int64_t number) { options.threads = static_cast<int>(number); },
+      "Threads to use; the result does not depend on it (default: all)");
   command.add_flag("--quiet", options.quiet, "Say nothing but errors");
   command.add_flag("--json", options.json, "Print the report as JSON on standard output, and no progress");
 }
@@ -37,39 +79,17 @@ void addStrict(CLI::App& command, JobOptions& options) {
                    "Take warnings, such as a rule for a region that the scene does not have, for errors");
 }
 
+int sayProblems(const std::vector<scenes::Problem>& problems) {
+  for (const scenes::Problem& problem : problems) say(scenes::format(problem));
+  return kInputError;
+}
+
+void saySkipped(const scenes::MeshMissing& missing) {
+  say(fmt::format("{}; skipped, as the scene calls it optional", missing.what()));
+}
+
 int runJob(const JobOptions& options, const JobWork& work) {
-  const Interrupt interrupt;
-  auto scene = scenes::readScene(options.scene);
-  if (!scene) {
-    fmt::print(stderr, "{}\n", scenes::format(scene.problems()));
-    return kInputError;
-  }
-  scenes::RunOptions run;
-  run.folder = options.folder.empty() ? "out/" + scene->file.stem().string() : options.folder;
-  run.pictures = !options.no_pictures;
-  run.strict = options.strict;
-  run.stop = interrupt.token();
-  JobOutcome outcome;
-  {
-    Progress progress(options.quiet || options.json);
-    run.on_stage = [&](const std::string& stage) { progress.stage(stage); };
-    run.on_growth = [&](const sim::GrowthProgress& growth) { progress.growth(growth); };
-    run.on_warning = [&](const std::string& text) {
-      if (!options.quiet) progress.warning(text);
-    };
-    try {
-      sim::onThreads(options.threads, [&] { outcome = work(std::move(*scene), run); });
-    } catch (const scenes::MeshMissing& missing) {
-      fmt::print(stderr, "{}; skipped, as the scene calls it optional\n", missing.what());
-      return 0;
-    }
-  }
-  if (options.json) {
-    fmt::print("{}", outcome.json);
-  } else if (!options.quiet) {
-    fmt::print("{}", outcome.summary);
-  }
-  return 0;
+  return doing(options.scene, "reading", [&] { return run(options, work); });
 }
 
 }  // namespace espalier::cli

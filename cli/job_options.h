@@ -4,6 +4,8 @@
 #include <string>
 
 #include "scenes/job/run.h"
+#include "scenes/prepare/site.h"
+#include "scenes/problem.h"
 #include "scenes/scene.h"
 
 namespace espalier::cli {
@@ -23,6 +25,11 @@ void addSceneOptions(CLI::App& command, JobOptions& options, const std::string& 
 void addJobOptions(CLI::App& command, JobOptions& options);
 /// --strict, of commands that prepare plants.
 void addStrict(CLI::App& command, JobOptions& options);
+
+/// Says each, and gives kInputError back.
+int sayProblems(const std::vector<scenes::Problem>& problems);
+/// Says that a scene is skipped, which is no failure.
+void saySkipped(const scenes::MeshMissing& missing);
 
 /// What is printed when the work is done.
 struct JobOutcome {

@@ -1,50 +1,74 @@
-#include <fmt/format.h>
-
 #include <CLI/App.hpp>
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
 #include <csignal>
-#include <cstdio>
 #include <exception>
-#include <new>
+#include <sstream>
+#include <string>
 
 #include "cli/commands.h"
+#include "cli/doing.h"
+#include "cli/say.h"
+#include "cli/values.h"
+#include "scenes/problem.h"
 #include "sim/base/error.h"
+
+namespace espalier::cli {
+namespace {
+
+int parse(int argc, char** argv) {
+  int exit_status = 0;
+  CLI::App app("Espalier grows plants that feel their way through a world of voxels.", "espalier");
+  app.require_subcommand(1);
+  app.option_defaults()->disable_flag_override();  // of all commands: --json=maybe says nothing
+  app.set_version_flag("--version", "espalier " ESPALIER_VERSION);
+  addGrow(app, exit_status);
+  addRender(app, exit_status);
+  addExpose(app, exit_status);
+  addCheck(app, exit_status);
+  addCertify(app, exit_status);
+  addSchema(app, exit_status);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::Success& asked) {  // --help and --version
+    std::ostringstream text;
+    app.exit(asked, text, text);
+    print(text.str());
+  } catch (const CLI::ParseError& error) {
+    say(explained(app, error));
+    return kInputError;
+  }
+  return exit_status;
+}
+
+int run(int argc, char** argv) {
+  try {
+    return doing("espalier", "reading the command line", [&] { return parse(argc, argv); });
+  } catch (const sim::Stopped&) {
+    say(kStoppedText);
+    return kStopped;
+  } catch (const scenes::ManyLines& error) {
+    for (const std::string& line : error.lines()) say(line);
+    return kInputError;
+  } catch (const sim::InputError& error) {
+    say(error.what());
+    return kInputError;
+  } catch (const std::exception& error) {
+    say(error.what());
+    return kFailed;
+  }
+}
+
+}  // namespace
+}  // namespace espalier::cli
 
 int main(int argc, char** argv) {
   using namespace espalier;
-  int exit_status = 0;
+  cli::keepStandardStreams();
+  cli::keepLastWords();
   // A file that grows beyond a limit, or a closed pipe, is a failed write with a reason, not the end of the
   // program.
   std::signal(SIGXFSZ, SIG_IGN);
   std::signal(SIGPIPE, SIG_IGN);
-  try {
-    CLI::App app("Espalier grows plants that feel their way through a world of voxels.", "espalier");
-    app.require_subcommand(1);
-    app.set_version_flag("--version", "espalier " ESPALIER_VERSION);
-    cli::addGrow(app, exit_status);
-    cli::addRender(app, exit_status);
-    cli::addExpose(app, exit_status);
-    cli::addCheck(app, exit_status);
-    cli::addCertify(app, exit_status);
-    cli::addSchema(app, exit_status);
-    try {
-      app.parse(argc, argv);
-    } catch (const CLI::ParseError& error) {
-      return app.exit(error) == 0 ? 0 : cli::kInputError;  // --help and --version end here too
-    }
-  } catch (const sim::Stopped&) {
-    fmt::print(stderr, "{}", cli::kStoppedText);
-    return cli::kStopped;
-  } catch (const sim::InputError& error) {
-    fmt::print(stderr, "{}\n", error.what());
-    return cli::kInputError;
-  } catch (const std::bad_alloc&) {
-    fmt::print(stderr, "espalier: out of memory; use larger voxels, fewer iterations or smaller images\n");
-    return 1;
-  } catch (const std::exception& error) {
-    fmt::print(stderr, "espalier: {}\n", error.what());
-    return 1;
-  }
-  return exit_status;
+  return cli::statusWithLoss(cli::run(argc, argv));
 }

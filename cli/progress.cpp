@@ -4,7 +4,8 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <cstdio>
+
+#include "cli/say.h"
 
 namespace espalier::cli {
 namespace {
@@ -21,17 +22,16 @@ Progress::Progress(bool quiet)
       last_line_(Clock::now()) {}
 
 Progress::~Progress() {
-  if (open_line_) fmt::print(stderr, "\r\033[K");
+  if (open_line_) unsay();
 }
 
 void Progress::line(const std::string& text) {
   if (terminal_) {
-    fmt::print(stderr, "\r\033[K{}", text);
+    sayForNow(text);
     open_line_ = true;
   } else {
-    fmt::print(stderr, "{}\n", text);
+    say(text);
   }
-  std::fflush(stderr);
   last_line_ = Clock::now();
 }
 
@@ -42,8 +42,9 @@ void Progress::stage(const std::string& name) {
 }
 
 void Progress::warning(const std::string& text) {
-  fmt::print(stderr, "{}{}\n", open_line_ ? "\r\033[K" : "", text);
+  if (open_line_) unsay();
   open_line_ = false;
+  say(text);
 }
 
 void Progress::growth(const sim::GrowthProgress& growth) {

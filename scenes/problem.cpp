@@ -4,53 +4,72 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <span>
+#include <array>
+#include <utility>
+
+#include "scenes/clean_text.h"
 
 namespace espalier::scenes {
 namespace {
 
-constexpr std::size_t kLongestWord = 64;
+constexpr std::size_t kLongestWord = 64;  ///< that may be a misspelt one
+constexpr std::size_t kMostShown = 40;    ///< characters of a text in a message
 
 char lower(char c) {
   return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
 }
 
-/// Insertions, deletions, substitutions and swaps of neighbours, in any letter case.
-std::size_t editDistance(std::string_view a, std::string_view b) {
-  std::vector<std::vector<std::size_t>> d(a.size() + 1, std::vector<std::size_t>(b.size() + 1));
-  for (std::size_t i = 0; i <= a.size(); ++i) d[i][0] = i;
-  for (std::size_t j = 0; j <= b.size(); ++j) d[0][j] = j;
+/// Insertions, deletions, substitutions and swaps of neighbours, in any letter case; `most` + 1 where it is
+/// more than that. A message may ask for thousands of words.
+std::size_t editDistance(std::string_view a, std::string_view b, std::size_t most) {
+  if (std::max(a.size(), b.size()) > kLongestWord) return most + 1;
+  const auto [less, more] = std::minmax(a.size(), b.size());
+  if (more - less > most) return most + 1;
+  using Row = std::array<std::size_t, kLongestWord + 1>;
+  std::array<Row, 3> rows{};  // of this letter of `a` and the two before it
+  for (std::size_t j = 0; j <= b.size(); ++j) rows[0][j] = j;
   const auto same = [&](std::size_t i, std::size_t j) { return lower(a[i - 1]) == lower(b[j - 1]); };
   for (std::size_t i = 1; i <= a.size(); ++i) {
+    Row& row = rows[i % 3];
+    const Row& last = rows[(i + 2) % 3];
+    const Row& before = rows[(i + 1) % 3];
+    row[0] = i;
+    std::size_t least = i;
     for (std::size_t j = 1; j <= b.size(); ++j) {
-      d[i][j] = std::min({d[i - 1][j] + 1, d[i][j - 1] + 1, d[i - 1][j - 1] + (same(i, j) ? 0 : 1)});
-      if (i > 1 && j > 1 && same(i, j - 1) && same(i - 1, j))
-        d[i][j] = std::min(d[i][j], d[i - 2][j - 2] + 1);
+      row[j] = std::min({last[j] + 1, row[j - 1] + 1, last[j - 1] + (same(i, j) ? 0 : 1)});
+      if (i > 1 && j > 1 && same(i, j - 1) && same(i - 1, j)) row[j] = std::min(row[j], before[j - 2] + 1);
+      least = std::min(least, row[j]);
     }
+    if (least > most) return most + 1;  // later rows are no nearer: a swap costs what one change does
   }
-  return d[a.size()][b.size()];
+  return std::min(rows[a.size() % 3][b.size()], most + 1);
+}
+
+/// Those that a misspelt word may have meant, the nearest first.
+std::vector<const std::string*> nearTo(std::string_view word, const std::vector<std::string>& candidates) {
+  const std::size_t most = std::max<std::size_t>(1, word.size() / 3);
+  std::vector<std::pair<std::size_t, const std::string*>> near;
+  if (word.empty()) return {};
+  for (const auto& candidate : candidates) {
+    const std::size_t distance = editDistance(word, candidate, most);
+    if (distance <= most) near.emplace_back(distance, &candidate);
+  }
+  std::stable_sort(near.begin(), near.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+  std::vector<const std::string*> words;
+  for (const auto& [distance, candidate] : near) words.push_back(candidate);
+  return words;
 }
 
 std::string placed(const Problem& problem, std::string_view kind) {
   const auto& [path, line, column, text] = problem;
-  return line == 0 ? fmt::format("{}: {}{}", path, kind, text)
-                   : fmt::format("{}:{}:{}: {}{}", path, line, column, kind, text);
+  return oneLine(line == 0 ? fmt::format("{}: {}{}", path, kind, text)
+                           : fmt::format("{}:{}:{}: {}{}", path, line, column, kind, text));
 }
 
-/// Fit for one line: control characters are spaces, and what is long is cut short.
-std::string shortened(std::string_view text) {
-  constexpr std::size_t kMost = 40;
-  std::string shown;
-  for (const char c : text) {
-    if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) {
-      shown += ' ';
-      continue;
-    }
-    // Cut between characters, never inside one.
-    if (shown.size() >= kMost && (static_cast<unsigned char>(c) & 0xc0) != 0x80) return shown + "...";
-    shown += c;
-  }
-  return shown;
+std::vector<std::string> linesOf(const std::vector<Problem>& problems) {
+  std::vector<std::string> lines;
+  for (const Problem& problem : problems) lines.push_back(format(problem));
+  return lines;
 }
 
 }  // namespace
@@ -64,13 +83,13 @@ std::string formatWarning(const Problem& warning) {
 }
 
 std::string format(const std::vector<Problem>& problems) {
-  std::string all;
-  for (const auto& problem : problems) {
-    if (!all.empty()) all += '\n';
-    all += format(problem);
-  }
-  return all;
+  return fmt::format("{}", fmt::join(linesOf(problems), "\n"));
 }
+
+ManyLines::ManyLines(std::vector<std::string> lines)
+    : InputError(fmt::format("{}", fmt::join(lines, "\n"))), lines_(std::move(lines)) {}
+
+ManyLines::ManyLines(const std::vector<Problem>& problems) : ManyLines(linesOf(problems)) {}
 
 void Problems::add(const Place& place, std::string text) {
   if (full()) return;
@@ -90,33 +109,30 @@ std::vector<Problem> Problems::sorted() const {
 }
 
 std::string didYouMean(std::string_view word, const std::vector<std::string>& candidates) {
-  if (word.empty() || word.size() > kLongestWord) return "";
-  const std::string* best = nullptr;
-  std::size_t distance = std::max<std::size_t>(1, word.size() / 3) + 1;
-  for (const auto& candidate : candidates) {
-    if (candidate.size() > kLongestWord) continue;
-    const auto [less, more] = std::minmax(word.size(), candidate.size());
-    if (more - less >= distance) continue;
-    const auto d = editDistance(word, candidate);
-    if (d < distance) {
-      distance = d;
-      best = &candidate;
-    }
-  }
-  return best ? fmt::format("; did you mean '{}'?", *best) : "";
+  const auto near = nearTo(word, candidates);
+  return near.empty() ? "" : fmt::format("; did you mean '{}'?", printable(*near.front()));
 }
 
-std::string listed(const std::vector<std::string>& words) {
-  constexpr std::size_t kMost = 16;
+std::string listed(const std::vector<std::string>& words, std::string_view near) {
+  constexpr std::size_t kAll = 16, kFew = 8;
   if (words.empty()) return "none";
+  const bool some = words.size() > kAll && !near.empty();
+  const std::size_t most = some ? kFew : kAll;
+  std::vector<const std::string*> chosen;
+  if (some) chosen = nearTo(near, words);
+  chosen.resize(std::min(chosen.size(), most));
+  for (const auto& word : words) {
+    if (chosen.size() == most) break;
+    if (std::find(chosen.begin(), chosen.end(), &word) == chosen.end()) chosen.push_back(&word);
+  }
   std::vector<std::string> shown;
-  for (const auto& word : std::span(words).first(std::min(words.size(), kMost)))
-    shown.push_back(shortened(word));
-  return fmt::format("{}{}", fmt::join(shown, ", "), words.size() > kMost ? ", ..." : "");
+  for (const std::string* word : chosen) shown.push_back(shortened(printable(*word), kMostShown));
+  const std::size_t left = words.size() - chosen.size();
+  return fmt::format("{}{}", fmt::join(shown, ", "), left > 0 ? fmt::format(" and {} more", left) : "");
 }
 
 std::string inQuotes(std::string_view text) {
-  return fmt::format("'{}'", shortened(text));
+  return fmt::format("'{}'", shortened(printable(text), kMostShown));
 }
 
 }  // namespace espalier::scenes

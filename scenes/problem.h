@@ -7,6 +7,8 @@
 #include <utility>
 #include <vector>
 
+#include "sim/base/error.h"
+
 /// What is wrong with an input file, and where. A reader finds all of a file's problems in one run.
 namespace espalier::scenes {
 
@@ -18,12 +20,25 @@ struct Problem {
   friend bool operator==(const Problem&, const Problem&) = default;
 };
 
-/// "path:line:column: text".
+/// "path:line:column: text", in one line whatever path and text are.
 std::string format(const Problem& problem);
-/// "path:line:column: warning: text".
+/// "path:line:column: warning: text", likewise.
 std::string formatWarning(const Problem& warning);
 /// One line each.
 std::string format(const std::vector<Problem>& problems);
+
+/// Wrong input that takes several lines to tell. What any other sim::InputError says is one line, whatever
+/// line breaks a name in it has.
+class ManyLines : public sim::InputError {
+ public:
+  explicit ManyLines(std::vector<std::string> lines);
+  /// Of problems, one line each.
+  explicit ManyLines(const std::vector<Problem>& problems);
+  const std::vector<std::string>& lines() const { return lines_; }
+
+ private:
+  std::vector<std::string> lines_;
+};
 
 /// A value, or the problems that kept it from being one.
 template <class T>
@@ -70,9 +85,10 @@ class Problems {
 
 /// "; did you mean 'x'?" for the candidate nearest to a misspelt word, or nothing where none is near.
 std::string didYouMean(std::string_view word, const std::vector<std::string>& candidates);
-/// Words joined by commas, as many and as much of each as a reader will look at.
-std::string listed(const std::vector<std::string>& words);
-/// A text from a file for use in a message: in quotes, cut short.
+/// Words joined by commas, as many and as much of each as a reader will look at: of many, those nearest to
+/// the word `near` first, and how many more there are.
+std::string listed(const std::vector<std::string>& words, std::string_view near = {});
+/// A text from a file for use in a message: in quotes, printable and cut short.
 std::string inQuotes(std::string_view text);
 
 }  // namespace espalier::scenes

@@ -153,6 +153,7 @@ struct ImageSpec {
   std::string name;  ///< file name without an ending
   ImageKind kind = ImageKind::vines;
   std::string camera;  ///< empty: the first one
+  std::string plant;   ///< threshold: whose it is; empty: that of the first one
   std::string caption;
   std::string letter;           ///< on a contact sheet; empty: A, B, C .. in order
   char axis = 'y';              ///< section: which way the cut looks

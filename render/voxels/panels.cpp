@@ -180,7 +180,7 @@ PanelPainter::PanelPainter(const Visibility& seen, const PanelWorld& world, Pane
     prepare(colour_, [&](const Fragment& f) { return world.colour(f.voxel); });
 }
 
-PanelPicture PanelPainter::paint(Panel panel) const {
+PanelPicture PanelPainter::paint(Panel panel, const LightNeeds& needs) const {
   const auto neutral = [&](int, int y) {
     return neutralBackdrop(static_cast<float>(y) / static_cast<float>(seen_.height));
   };
@@ -196,7 +196,7 @@ PanelPicture PanelPainter::paint(Panel panel) const {
         {name, "coverage"}};
   };
   const auto exposure = [&](const std::vector<float>& sun, const std::vector<float>& skies, std::size_t i) {
-    return look_.blend_sun * sun[i] + look_.blend_sky * skies[i];
+    return needs.sun * sun[i] + needs.sky * skies[i];
   };
   switch (panel) {
     case Panel::sun_exposure:
@@ -207,15 +207,15 @@ PanelPicture PanelPainter::paint(Panel panel) const {
       return field(hours_, look_.hours_map, look_.most_hours, "sun_hours");
     case Panel::threshold: {
       const auto shade = [&](std::size_t i) {
-        const float above = smoothStep(look_.threshold - 0.006f, look_.threshold + 0.006f,
-                                       exposure(sun_.smooth, sky_.smooth, i));
+        const float above =
+            smoothStep(needs.least - 0.006f, needs.least + 0.006f, exposure(sun_.smooth, sky_.smooth, i));
         return relief_[i] * (0.45f + 0.55f * sky_.smooth[i]) * glm::mix(kBelow, kAbove, above);
       };
       return {compose(seen_, shade, neutral),
               measure<2>(seen_, true,
                          [&](std::size_t i) {
                            const float e = exposure(sun_.pure, sky_.pure, i);
-                           return std::array{e >= look_.threshold ? 1.0f : 0.0f, e};
+                           return std::array{e >= needs.least ? 1.0f : 0.0f, e};
                          }),
               {"above_threshold", "exposure", "coverage"}};
     }

@@ -38,10 +38,15 @@ struct PanelWorld {
   FaceValue sun_hours = {};
 };
 
+/// The light that a plant asks for.
+struct LightNeeds {
+  float sun = 0.8f, sky = 0.2f;  ///< their shares of exposure, 1 together
+  float least = 0.3f;            ///< exposure at which it still grows
+  friend bool operator==(const LightNeeds&, const LightNeeds&) = default;
+};
+
 struct PanelLook {
-  float blend_sun = 0.8f, blend_sky = 0.2f;  ///< of exposure
-  float threshold = 0.3f;                    ///< least exposure at which the plant lives
-  sim::Vec3 to_sun{0.0, 1.0, 0.0};           ///< unit; the sun of the shadow matte and of the first pass
+  sim::Vec3 to_sun{0.0, 1.0, 0.0};  ///< unit; the sun of the shadow matte and of the first pass
   std::string sun_map = "magma";
   std::string sky_map = "viridis";
   std::string hours_map = "plasma";
@@ -64,8 +69,8 @@ class PanelPainter {
   /// Prepares what these panels need. What is given must outlive the painter.
   PanelPainter(const Visibility& seen, const PanelWorld& world, PanelLook look,
                std::span<const Panel> panels);
-  /// One of the panels named to the constructor.
-  PanelPicture paint(Panel panel) const;
+  /// One of the panels named to the constructor; a threshold is that of a plant with these needs.
+  PanelPicture paint(Panel panel, const LightNeeds& needs = {}) const;
 
  private:
   const Visibility& seen_;

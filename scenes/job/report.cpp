@@ -6,6 +6,7 @@
 #include <fstream>
 #include <string>
 
+#include "scenes/clean_text.h"
 #include "scenes/job/seed_failure_words.h"
 #include "scenes/show/light_json.h"
 #include "sim/base/parallel.h"
@@ -126,7 +127,7 @@ std::string toJson(const Report& report) {
     json["run"]["proposals"] = report.run.proposals;
     json["run"]["went_on_from"] = report.run.went_on_from ? Json(*report.run.went_on_from) : Json();
   }
-  return json.dump(2) + "\n";
+  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";  // paths may be no UTF-8
 }
 
 void finishReport(const std::vector<OutputFile>& files, Report& report) {
@@ -155,7 +156,7 @@ std::string endOfSummary(const Report& report, const std::filesystem::path& fold
                       static_cast<double>(report.run.peak_memory_bytes) / 1e6);
   if (report.growth) text += fmt::format(", state {:016x}", report.growth->state_hash);
   text += "\nwrote\n";
-  for (const std::string& file : report.files) text += "  " + (folder / file).string() + "\n";
+  for (const std::string& file : report.files) text += "  " + oneLine((folder / file).string()) + "\n";
   return text;
 }
 

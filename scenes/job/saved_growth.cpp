@@ -58,12 +58,14 @@ std::vector<std::string> differences(const sim::Inputs& was, const sim::Inputs& 
   return found;
 }
 
-std::string told(const std::vector<std::string>& differences) {
+/// Some of them, a line each.
+std::vector<std::string> told(const std::vector<std::string>& differences) {
   constexpr std::size_t kMost = 4;
-  std::string text;
-  for (std::size_t i = 0; i < std::min(kMost, differences.size()); ++i) text += "\n  " + differences[i];
-  if (differences.size() > kMost) text += fmt::format("\n  and {} more", differences.size() - kMost);
-  return text;
+  std::vector<std::string> lines;
+  for (std::size_t i = 0; i < std::min(kMost, differences.size()); ++i)
+    lines.push_back("  " + differences[i]);
+  if (differences.size() > kMost) lines.push_back(fmt::format("  and {} more", differences.size() - kMost));
+  return lines;
 }
 
 }  // namespace
@@ -122,8 +124,10 @@ sim::Growth takeUp(sim::State state, const std::filesystem::path& folder, const 
   const std::filesystem::path path = folder / kStateFile;
   const auto different = differences(state.inputs, inputsOf(scene, site), same);
   if (!different.empty()) {
-    throw sim::InputError(fmt::format("{}: it was grown from something else than {} says now:{}",
-                                      path.string(), scene.file.string(), told(different)));
+    std::vector<std::string> lines = told(different);
+    lines.insert(lines.begin(), fmt::format("{}: it was grown from something else than {} says now:",
+                                            path.string(), scene.file.string()));
+    throw ManyLines(std::move(lines));
   }
   const bool trials_wanted =
       std::any_of(scene.images.begin(), scene.images.end(),

@@ -6,7 +6,7 @@ namespace espalier::scenes {
 
 void warn(const std::vector<Problem>& warnings, const std::filesystem::path& scene_file,
           const RunOptions& options, Report& report) {
-  if (options.strict && !warnings.empty()) throw sim::InputError(format(warnings));
+  if (options.strict && !warnings.empty()) throw ManyLines(warnings);
   const auto folder = std::filesystem::absolute(scene_file).lexically_normal().parent_path();
   for (Problem warning : warnings) {
     if (options.on_warning) options.on_warning(formatWarning(warning));

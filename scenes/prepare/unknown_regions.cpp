@@ -23,7 +23,7 @@ class Regions {
 
   void require(const std::string& region, const Place& place, Problems& problems) const {
     if (known_.contains(region) || problems.full()) return;
-    const auto expected = names_.empty() ? "a mesh that has it" : "one of " + listed(names_);
+    const auto expected = names_.empty() ? "a mesh that has it" : "one of " + listed(names_, region);
     problems.add(place, fmt::format("no mesh of the scene has a region {}; expected {}{}", inQuotes(region),
                                     expected, didYouMean(region, names_)));
   }
@@ -51,7 +51,7 @@ void requireRegionsToScatterOver(const Scene& scene, const sim::World& world) {
     const Place& place = plant.scatter->region_place;
     regions.require(plant.scatter->region, place.path ? place : Place{file, 0, 0}, problems);
   }
-  if (!problems.empty()) throw sim::InputError(format(problems.sorted()));
+  if (!problems.empty()) throw ManyLines(problems.sorted());
 }
 
 }  // namespace espalier::scenes

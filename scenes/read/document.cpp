@@ -2,10 +2,75 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <string_view>
+
 #include "scenes/clean_text.h"
 #include "scenes/yaml/yaml_text.h"
 
 namespace espalier::scenes {
+namespace {
+
+constexpr std::string_view kHeader = "espalier";
+
+/// Whether "espalier:" comes first, in quotes or not.
+bool isHeader(std::string_view text) {
+  constexpr std::string_view kSpace = " \t\r";
+  const auto skip = [&](std::string_view characters) {
+    text.remove_prefix(std::min(text.find_first_not_of(characters), text.size()));
+  };
+  skip(" \t\"'");
+  if (!text.starts_with(kHeader)) return false;
+  text.remove_prefix(kHeader.size());
+  skip(" \t\"'");
+  return text == ":" || (text.starts_with(':') && kSpace.find(text[1]) != kSpace.npos);
+}
+
+/// What a text says that it is, before anything in it is repeated: a file that is not ours may hold what
+/// nobody else should read.
+struct FirstLook {
+  bool ours = false;        ///< "espalier:" begins one of the lines that stand as far
+                            ///< left as the first
+  std::string_view line{};  ///< the first one that says something
+};
+
+FirstLook lookAt(std::string_view text) {
+  FirstLook look;
+  std::size_t first_indent = 0;
+  while (!text.empty() && !look.ours) {
+    const auto end = std::min(text.find('\n'), text.size());
+    auto line = text.substr(0, end);
+    text.remove_prefix(std::min(end + 1, text.size()));
+    const auto indent = std::min(line.find_first_not_of(" \t\r"), line.size());
+    line.remove_prefix(indent);
+    if (line.empty() || line.front() == '#' || line.starts_with("---")) continue;
+    if (look.line.empty()) {
+      look.line = line;
+      first_indent = indent;
+    }
+    look.ours = indent == first_indent && isHeader(line);
+    if (look.line.front() != '{') continue;  // in braces keys stand anywhere
+    for (auto at = line.find_first_of("{,"); at != line.npos && !look.ours;
+         at = line.find_first_of("{,", at + 1))
+      look.ours = isHeader(line.substr(at + 1));
+    look.ours = look.ours || isHeader(line);
+  }
+  return look;
+}
+
+/// Says so where the file is asked for; of the file itself no more than that it may have misspelt its header.
+void refuseAsForeign(const std::string& path, const Place& asker, std::string_view first_line,
+                     Problems& problems) {
+  constexpr std::string_view kExpected = "expected 'espalier: rules' or 'espalier: scene' first";
+  const bool asks_itself = *asker.path == path;
+  problems.add(
+      asks_itself ? Place{asker.path, 1, 1} : asker,
+      fmt::format("{}{}; {}{}", asks_itself ? "" : path + ": ",
+                  first_line.empty() ? "an empty file" : "the file does not say what it is", kExpected,
+                  didYouMean(first_line.substr(0, first_line.find(':')), {std::string(kHeader)})));
+}
+
+}  // namespace
 
 std::filesystem::path beside(const YamlNode& node, std::string_view path) {
   return (std::filesystem::path(*node.place.path).parent_path() / path).lexically_normal();
@@ -20,16 +85,7 @@ std::string toldFrom(const std::filesystem::path& scene_file, const std::filesys
 }
 
 std::optional<FileKind> headerOf(const YamlNode& root, Problems& problems) {
-  const auto* header = root.entry("espalier");
-  if (!header) {
-    problems.add(
-        root.place,
-        fmt::format(
-            "the file does not say what it is; expected 'espalier: rules' or 'espalier: scene' first{}",
-            root.entries.empty() ? "" : didYouMean(root.entries.front().key, {"espalier"})));
-    return std::nullopt;
-  }
-  const auto& value = header->value;
+  const auto& value = root.entry(kHeader)->value;
   if (value.refused) return std::nullopt;
   const auto slash = value.text.find('/');
   const auto kind = value.text.substr(0, slash);
@@ -53,9 +109,14 @@ std::shared_ptr<const YamlNode> readDocument(const std::string& path, const Plac
                                              std::uint64_t* hash) {
   const auto text = readText(path, asker, problems, hash);
   if (!text) return nullptr;
-  auto root = parseYaml(*text, path, problems);
-  if (!root) return nullptr;
-  // A missing or damaged header is no reason not to read on.
+  const auto look = lookAt(*text);
+  const auto root = look.ours ? parseYaml(*text, path, problems) : nullptr;
+  if (look.ours && !root) return nullptr;
+  if (!root || !root->entry(kHeader)) {
+    refuseAsForeign(path, asker, look.line, problems);
+    return nullptr;
+  }
+  // A damaged header is no reason not to read on.
   const auto kind = headerOf(*root, problems);
   if (!kind || !expected || *kind == *expected) return root;
   problems.add(root->entry("espalier")->value.place,

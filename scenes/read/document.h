@@ -14,13 +14,14 @@ namespace espalier::scenes {
 /// What a file's first key says of it.
 enum class FileKind { rules, scene };
 
-/// A file's root mapping, or null. `asker` is the place that names the file; the file itself where nothing
-/// does. Without `expected` any kind will do. `hash` is of all the file's bytes.
+/// A file's root mapping, with a header, or null. `asker` is the place that names the file; the file itself
+/// where nothing does. Of a file without a header no word is repeated: it is not ours. Without `expected` any
+/// kind will do. `hash` is of all the file's bytes.
 std::shared_ptr<const YamlNode> readDocument(const std::string& path, const Place& asker,
                                              std::optional<FileKind> expected, Problems& problems,
                                              std::uint64_t* hash = nullptr);
 
-/// The kind that the header names, or nothing after a problem was reported.
+/// The kind that a root's header, which must be there, names, or nothing after a problem was reported.
 std::optional<FileKind> headerOf(const YamlNode& root, Problems& problems);
 
 /// A path as it stands in the file of `node`, from where that file lies.

@@ -3,6 +3,7 @@
 #include "rules/language/key_builder.h"
 #include "scenes/read/light_keys.h"
 #include "scenes/scene.h"
+#include "sim/tile/build_world.h"
 
 namespace espalier::scenes {
 namespace {
@@ -64,7 +65,7 @@ std::shared_ptr<const Table> worldKeys() {
   return TableOf<WorldSpec>()
       .metres("voxel", &WorldSpec::voxel_m,
               {.unit = kMetres,
-               .limits = {1e-5, 1e6},
+               .limits = {sim::kLeastVoxel_m, sim::kMostVoxel_m},
                .meaning = "Edge of a voxel; either this or a resolution."})
       .whole("resolution", &WorldSpec::resolution,
              {.unit = "voxels",
@@ -164,6 +165,8 @@ std::shared_ptr<const Table> imageKeys() {
       .name("name", &ImageSpec::name,
             {.meaning = "The picture's file name without an ending; without it, its kind."})
       .text("camera", &ImageSpec::camera, {.meaning = "One of the scene's cameras; without it, the first."})
+      .text("plant", &ImageSpec::plant,
+            {.meaning = "Of a threshold: whose, one of the scene's plants; without it, the first's."})
       .text("caption", &ImageSpec::caption, {.meaning = "A line below the picture."})
       .text("letter", &ImageSpec::letter,
             {.meaning = "On a contact sheet, beside the caption; by default A, B, C .. in order."})

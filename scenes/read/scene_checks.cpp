@@ -144,7 +144,7 @@ void checkImageCameras(const Scene& scene, const Given&, const Complain& complai
     } else if (std::find(names.begin(), names.end(), image.camera) == names.end()) {
       complain(path + ".camera",
                fmt::format("no camera is called {}; expected one of {}{}", inQuotes(image.camera),
-                           listed(names), didYouMean(image.camera, names)));
+                           listed(names, image.camera), didYouMean(image.camera, names)));
     }
   }
 }
@@ -158,12 +158,28 @@ void checkImages(const Scene& scene, const Given& given, const Complain& complai
       complain(path + "." + key, fmt::format("{} means nothing to kind: {}; expected it with kind: section",
                                              key, nameOf(image.kind)));
     }
+    if (image.kind != ImageKind::threshold && given(path + ".plant"))
+      complain(path + ".plant",
+               fmt::format("plant means nothing to kind: {}; expected it with kind: threshold",
+                           nameOf(image.kind)));
     const bool is_sheet = image.kind == ImageKind::contact_sheet;
     if (!is_sheet && given(path + ".of"))
       complain(path + ".of", fmt::format("of means nothing to kind: {}; expected it with kind: contact_sheet",
                                          nameOf(image.kind)));
     if (is_sheet && image.of.empty())
       complain(path, "a contact_sheet of no images; expected of: [name, ...]");
+  }
+}
+
+void checkImagePlants(const Scene& scene, const Given&, const Complain& complain) {
+  std::vector<std::string> names;
+  for (const auto& plant : scene.plants) names.push_back(plant.name);
+  for (std::size_t i = 0; i < scene.images.size(); ++i) {
+    const std::string& plant = scene.images[i].plant;
+    if (plant.empty() || std::find(names.begin(), names.end(), plant) != names.end()) continue;
+    complain(fmt::format("images[{}].plant", i),
+             fmt::format("no plant is called {}; expected one of {}{}", inQuotes(plant), listed(names, plant),
+                         didYouMean(plant, names)));
   }
 }
 
@@ -177,8 +193,8 @@ void checkSheets(const Scene& scene, const Given&, const Complain& complain) {
     for (std::size_t k = 0; k < of.size(); ++k) {
       if (std::find(names.begin(), names.end(), of[k]) != names.end()) continue;
       complain(fmt::format("images[{}].of[{}]", i, k),
-               fmt::format("no image is called {}; expected one of {}{}", inQuotes(of[k]), listed(names),
-                           didYouMean(of[k], names)));
+               fmt::format("no image is called {}; expected one of {}{}", inQuotes(of[k]),
+                           listed(names, of[k]), didYouMean(of[k], names)));
     }
   }
 }
@@ -204,6 +220,7 @@ const std::vector<Check>& sceneChecks() {
       check({}, checkCameras),
       check({"cameras"}, checkImageCameras),
       check({"images"}, checkImages),
+      check({"plants", "images"}, checkImagePlants),
       check({"images"}, checkSheets),
   };
   return checks;

@@ -2,6 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
+#include <string>
+#include <string_view>
+
+#include "scenes/show/pictures.h"
 
 namespace espalier::scenes {
 namespace {
@@ -51,30 +56,64 @@ NamedCamera overview(const sim::Frame& frame, const std::vector<sim::TiledVoxel>
   return {"overview", {eye, eye - glm::length(sim::Vec3(frame.size)) * frame.voxel_m * back, kFov}};
 }
 
-std::vector<ImageSpec> exposureImages(const Scene& scene, const std::vector<NamedCamera>& cameras, bool sun) {
-  std::vector<std::pair<ImageKind, const char*>> kinds = {{ImageKind::sky_exposure, "Sky exposure"}};
-  if (sun) {
-    kinds.insert(kinds.begin(), {ImageKind::sun_exposure, "Sun exposure"});
-    // On an arc, which takes twelve hours by definition, hours would be sun_exposure in another unit.
-    if (scene.sun.place) kinds.emplace_back(ImageKind::sun_hours, "Hours of direct sun");
-  }
-  if (!scene.plants.empty()) kinds.emplace_back(ImageKind::threshold, "Enough light for the plant");
-  if (sun) kinds.emplace_back(ImageKind::shadow_matte, "Shadows");
-  kinds.emplace_back(ImageKind::surface_colour, "Surface colour");
-  if (sun) kinds.emplace_back(ImageKind::first_pass, "Lit by sun and sky");
+namespace {
+
+/// Kind and caption of each, for one camera.
+std::vector<ImageSpec> exposureKinds(const Scene& scene, bool sun) {
   std::vector<ImageSpec> images;
+  const auto add = [&](ImageKind kind, const std::string& caption, const std::string& plant = "") {
+    ImageSpec image;
+    image.name = std::string(nameOf(kind)) + (plant.empty() ? "" : "_" + plant);
+    image.kind = kind;
+    image.caption = caption;
+    image.plant = plant;
+    images.push_back(std::move(image));
+  };
+  if (sun) add(ImageKind::sun_exposure, "Sun exposure");
+  add(ImageKind::sky_exposure, "Sky exposure");
+  // On an arc, which takes twelve hours by definition, hours would be sun_exposure in another unit.
+  if (sun && scene.sun.place) add(ImageKind::sun_hours, "Hours of direct sun");
+  std::vector<PlantLight> needs;  // each once, by the first plant that has them
+  for (const PlantSpec& plant : scene.plants) {
+    const render::LightNeeds own = lightNeeds(*plant.rules);
+    const auto same = [&](const PlantLight& other) { return other.needs == own; };
+    const auto at = std::find_if(needs.begin(), needs.end(), same);
+    if (at == needs.end()) needs.push_back({plant.name, own});
+  }
+  for (const PlantLight& plant : needs) {
+    const bool alone = needs.size() == 1;
+    add(ImageKind::threshold, "Enough light for " + (alone ? "the plant" : plant.name),
+        alone ? "" : plant.name);
+  }
+  if (sun) add(ImageKind::shadow_matte, "Shadows");
+  add(ImageKind::surface_colour, "Surface colour");
+  if (sun) add(ImageKind::first_pass, "Lit by sun and sky");
+  return images;
+}
+
+/// What a file may be called, as near to the name as can be, and as no other is.
+std::string fileName(std::string name, std::set<std::string>& taken) {
+  constexpr std::string_view kAllowed = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-.";
+  std::replace_if(
+      name.begin(), name.end(), [&](char c) { return kAllowed.find(c) == kAllowed.npos; }, '_');
+  while (!taken.insert(name).second) name += '_';
+  return name;
+}
+
+}  // namespace
+
+std::vector<ImageSpec> exposureImages(const Scene& scene, const std::vector<NamedCamera>& cameras, bool sun) {
+  std::vector<ImageSpec> images;
+  std::set<std::string> taken;
   for (const NamedCamera& camera : cameras) {
     const std::string end = cameras.size() > 1 ? "_" + camera.name : "";
     ImageSpec sheet;
-    sheet.name = "contact_sheet" + end;
+    sheet.name = fileName("contact_sheet" + end, taken);
     sheet.kind = ImageKind::contact_sheet;
     sheet.caption = scene.name;
-    for (const auto& [kind, caption] : kinds) {
-      ImageSpec image;
-      image.name = std::string(nameOf(kind)) + end;
-      image.kind = kind;
+    for (ImageSpec& image : exposureKinds(scene, sun)) {
+      image.name = fileName(image.name + end, taken);
       image.camera = camera.name;
-      image.caption = caption;
       sheet.of.push_back(image.name);
       images.push_back(std::move(image));
     }

@@ -14,7 +14,7 @@ NamedCamera overview(const sim::Frame& frame, const std::vector<sim::TiledVoxel>
                      const sim::Sun& sun, double aspect);
 
 /// The panels that make sense for a scene's light, with a sun or without, for each camera, with a contact
-/// sheet for each.
+/// sheet for each. A threshold for each of the plants that asks for another light than those before it.
 std::vector<ImageSpec> exposureImages(const Scene& scene, const std::vector<NamedCamera>& cameras, bool sun);
 
 }  // namespace espalier::scenes

@@ -49,11 +49,21 @@ std::optional<Panel> panelOf(ImageKind kind) {
   }
 }
 
+/// Whose threshold an image shows: the plant that it names, or the first; without plants, one of no name.
+PlantLight plantOf(const PicturesWanted& wanted, const ImageSpec& image) {
+  for (const PlantLight& plant : wanted.plants) {
+    if (image.plant.empty() || plant.name == image.plant) return plant;
+  }
+  return {};
+}
+
 /// What an image's numbers are, for its header.
 render::Metadata metadataOf(const PicturesWanted& wanted, const sim::LightAbout& about,
                             const ImageSpec& image) {
   render::Metadata metadata = {{"Title", wanted.title + ": " + image.name}};
   for (auto& entry : render::textsOf(wanted.made_by)) metadata.push_back(std::move(entry));
+  if (image.kind == ImageKind::threshold && wanted.plants.size() > 1)
+    metadata.emplace_back("espalier:plant", plantOf(wanted, image).name);
   metadata.emplace_back("espalier:voxel_m", fmt::format("{:.6g}", about.voxel_m));
   for (const auto& [name, text] : texts(about)) metadata.emplace_back("espalier:" + name, text);
   return metadata;
@@ -89,7 +99,7 @@ class Studio {
   Studio(const PicturesWanted& wanted, const Finished& finished);
   render::PanelPicture paint(const ImageSpec& image, Panel panel);
   /// Draws a panel's legend onto its picture.
-  std::function<void(Image&)> legend(Panel panel) const;
+  std::function<void(Image&)> legend(const ImageSpec& image, Panel panel) const;
   Image vines(const ImageSpec& image) const;
 
  private:
@@ -129,11 +139,6 @@ Studio::Studio(const PicturesWanted& wanted, const Finished& finished)
              },
              faces(finished.light.sun_hours)} {
   look_.most_hours = std::max(0.01f, static_cast<float>(finished.light.about.sun_hours));
-  if (wanted.plant_light) {
-    look_.blend_sun = wanted.plant_light->sun;
-    look_.blend_sky = wanted.plant_light->sky;
-    look_.threshold = wanted.plant_light->least;
-  }
   look_.to_sun = wanted.to_sun;
 }
 
@@ -150,10 +155,10 @@ render::PanelPicture Studio::paint(const ImageSpec& image, Panel panel) {
                     wanted_.width_px, wanted_.height_px, mostFragments(wanted_)),
         world_, look_, panels);
   }
-  return view->painter.paint(panel);
+  return view->painter.paint(panel, plantOf(wanted_, image).needs);
 }
 
-std::function<void(Image&)> Studio::legend(Panel panel) const {
+std::function<void(Image&)> Studio::legend(const ImageSpec& image, Panel panel) const {
   const auto bar = [](const std::string& title, const std::string& note, const std::string& map,
                       float most = 1.0f, float step = 0.25f) {
     return [=](Image& picture) {
@@ -174,10 +179,11 @@ std::function<void(Image&)> Studio::legend(Panel panel) const {
                                            : 0.5f);
     case Panel::threshold: {
       const auto [above, below] = render::thresholdColours();
+      const PlantLight plant = plantOf(wanted_, image);
       const render::SwatchLegend swatches{
-          "exposure of the vine",
-          fmt::format("{:.2g} sun + {:.2g} sky\n{}", look_.blend_sun, look_.blend_sky, sky),
-          {{above, fmt::format("{:.2g} and more: it grows", look_.threshold)}, {below, "less: too dark"}}};
+          wanted_.plants.size() > 1 ? "exposure of " + plant.name : "exposure of the vine",
+          fmt::format("{:.2g} sun + {:.2g} sky\n{}", plant.needs.sun, plant.needs.sky, sky),
+          {{above, fmt::format("{:.2g} and more: it grows", plant.needs.least)}, {below, "less: too dark"}}};
       return [swatches](Image& picture) { render::drawLegend(picture, swatches); };
     }
     default:
@@ -228,16 +234,22 @@ Image contactSheet(const PicturesWanted& wanted, const sim::LightAbout& about, c
 
 }  // namespace
 
+render::LightNeeds lightNeeds(const rules::RuleSet& rules) {
+  const double sum = rules.light.sun + rules.light.sky;
+  return {static_cast<float>(rules.light.sun / sum), static_cast<float>(rules.light.sky / sum),
+          static_cast<float>(rules.require.exposure_min)};
+}
+
 PicturesWanted picturesOf(const Scene& scene, const sim::Provenance& made_by) {
-  PicturesWanted wanted{scene.name,   scene.image_width,          scene.image_height, scene.cameras,
-                        scene.images, shadowDirection(scene.sun), std::nullopt,       made_by};
-  if (!scene.plants.empty()) {
-    const rules::RuleSet& rules = *scene.plants.front().rules;
-    const double sum = rules.light.sun + rules.light.sky;
-    wanted.plant_light = {static_cast<float>(rules.light.sun / sum),
-                          static_cast<float>(rules.light.sky / sum),
-                          static_cast<float>(rules.require.exposure_min)};
-  }
+  PicturesWanted wanted{scene.name,
+                        scene.image_width,
+                        scene.image_height,
+                        scene.cameras,
+                        scene.images,
+                        shadowDirection(scene.sun),
+                        {},
+                        made_by};
+  for (const PlantSpec& plant : scene.plants) wanted.plants.push_back({plant.name, lightNeeds(*plant.rules)});
   return wanted;
 }
 
@@ -285,12 +297,12 @@ std::vector<OutputFile> drawPictures(const PicturesWanted& wanted, const Finishe
     if (const auto panel = panelOf(image.kind)) {
       render::PanelPicture& painted = panels.at(image.name);
       const auto display = keep(image, std::move(painted.display));
-      files.push_back(
-          fileOf(image.name + ".png", [display, legend = studio.legend(*panel), about = metadata(image)] {
-            Image labelled = *display;
-            legend(labelled);
-            return render::encodePng(labelled, about);
-          }));
+      files.push_back(fileOf(image.name + ".png",
+                             [display, legend = studio.legend(image, *panel), about = metadata(image)] {
+                               Image labelled = *display;
+                               legend(labelled);
+                               return render::encodePng(labelled, about);
+                             }));
       const auto measured = std::make_shared<const Image>(std::move(painted.measured));
       files.push_back(
           fileOf(image.name + ".exr", [measured, channels = painted.channel_names, about = metadata(image)] {

@@ -1,9 +1,9 @@
 #pragma once
-#include <optional>
 #include <string>
 #include <vector>
 
 #include "render/model/plant_model.h"
+#include "render/voxels/panels.h"
 #include "scenes/scene.h"
 #include "scenes/write/output_folder.h"
 #include "sim/base/provenance.h"
@@ -14,10 +14,10 @@
 
 namespace espalier::scenes {
 
-/// The light that a plant's rules ask for.
+/// A plant whose threshold panels can show.
 struct PlantLight {
-  float sun = 0.0f, sky = 0.0f;  ///< their shares of exposure, 1 together
-  float least = 0.0f;            ///< exposure at which it still grows
+  std::string name;
+  render::LightNeeds needs;
 };
 
 /// What to draw.
@@ -27,12 +27,14 @@ struct PicturesWanted {
   std::vector<NamedCamera> cameras;
   std::vector<ImageSpec> images;
   sim::Vec3 to_sun{0.0, 1.0, 0.0};  ///< unit: of the shadow matte, the first pass and the vines
-  /// Of the plant whose threshold the panels show; none: render::PanelLook's own.
-  std::optional<PlantLight> plant_light;
-  sim::Provenance made_by = {};  ///< for the files' headers
+  std::vector<PlantLight> plants;   ///< those of the scene
+  sim::Provenance made_by = {};     ///< for the files' headers
 };
 
-/// All that the scene itself asks for. Threshold panels speak of its first plant.
+/// What a plant's outermost rule set asks for.
+render::LightNeeds lightNeeds(const rules::RuleSet& rules);
+
+/// All that the scene itself asks for.
 PicturesWanted picturesOf(const Scene& scene, const sim::Provenance& made_by = {});
 
 /// What pictures are made from, once growth is done. Borrowed.

@@ -9,6 +9,7 @@
 #include <cerrno>
 #include <cstring>
 
+#include "scenes/clean_text.h"
 #include "sim/base/hasher.h"
 
 namespace espalier::scenes {
@@ -27,33 +28,6 @@ class Descriptor {
  private:
   int descriptor_;
 };
-
-/// Bytes of the character at the front, 0 where it is no well-formed UTF-8 (RFC 3629).
-std::size_t characterBytes(std::string_view rest, std::uint32_t& code) {
-  const auto byte = [&](std::size_t i) {
-    return static_cast<std::uint32_t>(static_cast<unsigned char>(rest[i]));
-  };
-  const std::uint32_t first = byte(0);
-  const std::size_t bytes = first < 0x80   ? 1
-                            : first < 0xc2 ? 0
-                            : first < 0xe0 ? 2
-                            : first < 0xf0 ? 3
-                            : first < 0xf5 ? 4
-                                           : 0;
-  if (bytes == 0 || rest.size() < bytes) return 0;
-  code = bytes == 1 ? first : first & (0x7fu >> bytes);
-  for (std::size_t i = 1; i < bytes; ++i) {
-    if ((byte(i) & 0xc0) != 0x80) return 0;
-    code = (code << 6) | (byte(i) & 0x3f);
-  }
-  const bool overlong = (bytes == 3 && code < 0x800) || (bytes == 4 && code < 0x10000);
-  const bool surrogate = code >= 0xd800 && code < 0xe000;
-  return overlong || surrogate || code > 0x10ffff ? 0 : bytes;
-}
-
-bool isControl(std::uint32_t code) {
-  return (code < 0x20 && code != '\t' && code != '\n') || (code >= 0x7f && code < 0xa0);
-}
 
 /// YAML indents by spaces only; yaml-cpp's word for a tab there is "illegal map value".
 bool checkIndents(const std::string& text, const std::shared_ptr<const std::string>& path,
@@ -113,10 +87,10 @@ bool checkText(const std::string& text, const std::shared_ptr<const std::string>
   bool good = true;
   int line = 1, column = 1, last_bad_line = 0;
   for (std::size_t i = 0; i < text.size();) {
-    std::uint32_t code = 0;
-    const std::size_t bytes = characterBytes(std::string_view(text).substr(i), code);
-    const bool line_end = code == '\r' && i + 1 < text.size() && text[i + 1] == '\n';
-    if ((bytes == 0 || (isControl(code) && !line_end)) && line != last_bad_line) {
+    const auto [code, bytes] = characterAt(std::string_view(text).substr(i));
+    const bool is_space =
+        code == '\t' || code == '\n' || (code == '\r' && i + 1 < text.size() && text[i + 1] == '\n');
+    if ((bytes == 0 || (isControl(code) && !is_space)) && line != last_bad_line) {
       problems.add(
           {path, line, column},
           bytes == 0 ? fmt::format("byte 0x{:02x} is no UTF-8; expected text in UTF-8",

@@ -11,6 +11,7 @@
 #include <unordered_map>
 #include <utility>
 
+#include "scenes/clean_text.h"
 #include "scenes/yaml/yaml_hints.h"
 #include "scenes/yaml/yaml_text.h"
 
@@ -19,6 +20,16 @@ namespace {
 
 /// Ends the parse where going on would cost too much.
 struct Enough {};
+
+/// Escapes such as "\x1b" can put them into a text that has none itself.
+bool hasControls(std::string_view value) {
+  while (!value.empty()) {
+    const auto [code, bytes] = characterAt(value);
+    if (bytes > 0 && code != '\n' && isControl(code)) return true;
+    value.remove_prefix(std::max<std::size_t>(bytes, 1));
+  }
+  return false;
+}
 
 /// yaml-cpp marks count bytes; people count characters.
 class Places {
@@ -104,10 +115,7 @@ class TreeBuilder : public YAML::EventHandler {
               "a text in quotes that runs over the end of its line; expected a closing {} on the same line",
               first));
     }
-    const auto isControl = [](char c) {
-      return (static_cast<unsigned char>(c) < 0x20 && c != '\n') || c == 0x7f;
-    };
-    if (std::any_of(value.begin(), value.end(), isControl)) {
+    if (hasControls(value)) {
       node.refused = true;
       problems_.add(node.place,
                     fmt::format("the text {} has control characters; expected text of printed characters",

@@ -107,6 +107,7 @@ Growing::Growing(World& world, std::vector<Planting> plantings, GrowthSettings s
       fits_(settings_.memory) {
   if (growth_.stands.size() != plantings_.size())
     throw BrokenContract("what was grown before has other plantings than those that shall go on");
+  requireProcesses(plantings_);
   Wants wants;
   for (const Planting& planting : plantings_) {
     wants.light = wants.light || planting.process->wants().light;
@@ -139,6 +140,7 @@ namespace {
 
 /// Plants as seeds: a node each, and parts in the world.
 Growth seeded(World& world, const std::vector<Planting>& plantings, bool record) {
+  requireProcesses(plantings);
   requireSeeds(world, plantings);
   Growth growth;
   growth.recorded = record;

@@ -7,6 +7,8 @@
 #include <cmath>
 #include <map>
 
+#include "sim/base/error.h"
+
 namespace espalier::sim {
 namespace {
 
@@ -41,6 +43,12 @@ std::vector<Seed> seedsAt(const Frame& frame, const std::vector<Vec3>& places_vx
     seeds.push_back({place, keyOfPlace(place_m, met[quantized(place_m)]++)});
   }
   return seeds;
+}
+
+void requireProcesses(const std::vector<Planting>& plantings) {
+  for (const Planting& planting : plantings) {
+    if (!planting.process) throw BrokenContract("the planting '" + planting.name + "' has no growth process");
+  }
 }
 
 Tally total(const Growth& growth) {

@@ -30,6 +30,9 @@ struct Planting {
   std::vector<Seed> seeds;                 ///< inside the world, in free voxels
 };
 
+/// Throws BrokenContract where one has no process.
+void requireProcesses(const std::vector<Planting>& plantings);
+
 /// What became of a plant's sites and trials.
 struct Tally {
   OutcomeCounts sites{}, trials{};

@@ -52,6 +52,7 @@ std::vector<std::string> namesOf(const Skeleton& skeleton) {
 }  // namespace
 
 Growth restore(State state, World& world, const std::vector<Planting>& plantings, const std::string& file) {
+  requireProcesses(plantings);
   const auto require = [&](bool holds, const std::string& what) {
     if (!holds) throw InputError(fmt::format("{}: {}", file, what));
   };

@@ -8,6 +8,10 @@
 
 namespace espalier::sim {
 
+/// Edges that a voxel may have: OpenVDB takes transforms of 1.4e-5 and less for singular; beyond a thousand
+/// kilometres nothing grows.
+inline constexpr double kLeastVoxel_m = 2e-5, kMostVoxel_m = 1e6;
+
 /// A mesh to be tiled, in place in world space.
 struct TiledMesh {
   Mesh mesh;
@@ -32,8 +36,8 @@ struct FillReport {
 World buildWorld(const Frame& frame, const std::vector<TiledMesh>& meshes, int layers,
                  std::vector<FillReport>* fills = nullptr);
 
-/// The smallest frame of whole voxels that holds the meshes plus a margin on every side.
-/// Throws InputError where there is nothing to hold or voxel_m is not positive.
+/// The smallest frame of whole voxels that holds the meshes plus a margin on every side. Throws InputError
+/// where there is nothing to hold or no voxel can have such an edge.
 Frame frameAround(const std::vector<TiledMesh>& meshes, double voxel_m, double margin_m);
 
 /// What a world is for, as far as it takes memory.

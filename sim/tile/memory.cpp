@@ -43,6 +43,14 @@ double fittingVoxel(Vec3 size, double voxel_m, const WorldUse& use) {
   return rounded(high);
 }
 
+constexpr const char* kScaleHelps = "a scale for the meshes makes all of it larger or smaller";
+
+void requireEdge(double voxel_m) {
+  if (voxel_m >= kLeastVoxel_m && voxel_m <= kMostVoxel_m) return;
+  throw InputError(fmt::format("voxels of {:.4g} m; expected {} to {:.0f} m: {}", voxel_m, kLeastVoxel_m,
+                               kMostVoxel_m, kScaleHelps));
+}
+
 }  // namespace
 
 void requireFits(Vec3 size, double voxel_m, const WorldUse& use) {
@@ -58,14 +66,17 @@ void requireFits(Vec3 size, double voxel_m, const WorldUse& use) {
         fmt::format("a world of {:.0f} x {:.0f} x {:.0f} voxels: expected at least one along each axis",
                     size.x, size.y, size.z));
   }
-  if (fits(size, use)) return;
+  if (fits(size, use)) return requireEdge(voxel_m);
   const std::string reason =
       longest > kLongestAxis ? fmt::format("has more than {} voxels along an axis", kLongestAxis)
                              : fmt::format("needs {} of memory, and {} are free for it here",
                                            inGigabytes(worldBytes(size, use)), inGigabytes(memoryBudget()));
-  throw InputError(fmt::format(
-      "a world of {:.15g} x {:.15g} x {:.15g} voxels of {:.6g} m {}; a voxel size of {:.6g} m would fit",
-      size.x, size.y, size.z, voxel_m, reason, fittingVoxel(size, voxel_m, use)));
+  const double fitting_m = fittingVoxel(size, voxel_m, use);
+  throw InputError(fmt::format("a world of {:.15g} x {:.15g} x {:.15g} voxels of {:.6g} m {}; {}", size.x,
+                               size.y, size.z, voxel_m, reason,
+                               fitting_m <= kMostVoxel_m
+                                   ? fmt::format("a voxel size of {:.6g} m would fit", fitting_m)
+                                   : fmt::format("expected it smaller: {}", kScaleHelps)));
 }
 
 void requireFits(const Frame& frame, const WorldUse& use) {

@@ -29,11 +29,10 @@ std::vector<Image> paintAll(int width, int height) {
   const PanelWorld world{garden.occupied(), bricks, tests::inFront(sun), tests::inFront(sky),
                          [&](sim::Voxel v) { return garden.colour(v); }};
   PanelLook look;
-  look.threshold = 0.55f;
   look.to_sun = glm::normalize(sim::Vec3(-0.55, 0.75, 0.5));
   const PanelPainter painter(seen, world, look, kPanels);
   std::vector<Image> pictures;
-  for (const Panel panel : kPanels) pictures.push_back(painter.paint(panel).display);
+  for (const Panel panel : kPanels) pictures.push_back(painter.paint(panel, {.least = 0.55f}).display);
   return pictures;
 }
 

@@ -3,8 +3,13 @@
 #include <gtest/gtest.h>
 
 #include <map>
+#include <set>
 #include <sstream>
+#include <string>
+#include <utility>
+#include <vector>
 
+#include "scenes/show/expose_pictures.h"
 #include "sim/base/error.h"
 #include "sim/light/sky.h"
 #include "tests/support/meshes.h"
@@ -12,25 +17,56 @@
 namespace espalier::scenes {
 namespace {
 
-PlantSpec plantThatNeeds(double sun, double sky, double least) {
+PlantSpec plantThatNeeds(const std::string& name, double sun, double sky, double least) {
   auto rules = std::make_shared<rules::RuleSet>();
   rules->light.sun = sun;
   rules->light.sky = sky;
   rules->require.exposure_min = least;
   PlantSpec plant;
+  plant.name = name;
   plant.rules = rules;
   return plant;
 }
 
-TEST(Pictures, ThresholdPanelsSpeakOfTheFirstPlant) {
+TEST(Pictures, ThresholdPanelsCanShowEachPlant) {
   Scene scene;
-  EXPECT_FALSE(picturesOf(scene).plant_light);
-  scene.plants = {plantThatNeeds(1.0, 3.0, 0.2), plantThatNeeds(1.0, 0.0, 0.7)};
-  const auto light = picturesOf(scene).plant_light;
-  ASSERT_TRUE(light);
-  EXPECT_EQ(light->sun, 0.25f);
-  EXPECT_EQ(light->sky, 0.75f);
-  EXPECT_EQ(light->least, 0.2f);
+  EXPECT_TRUE(picturesOf(scene).plants.empty());
+  scene.plants = {plantThatNeeds("fern", 1.0, 3.0, 0.2), plantThatNeeds("rose", 1.0, 0.0, 0.7)};
+  const auto plants = picturesOf(scene).plants;
+  ASSERT_EQ(plants.size(), 2u);
+  EXPECT_EQ(plants[0].name, "fern");
+  EXPECT_EQ(plants[0].needs, (render::LightNeeds{0.25f, 0.75f, 0.2f}));
+  EXPECT_EQ(plants[1].name, "rose");
+  EXPECT_EQ(plants[1].needs, (render::LightNeeds{1.0f, 0.0f, 0.7f}));
+}
+
+TEST(Pictures, OfExposureHaveAThresholdForEachLightThatPlantsAskFor) {
+  Scene scene;
+  const auto thresholds = [&](std::vector<NamedCamera> cameras) {
+    std::vector<std::pair<std::string, std::string>> found;
+    for (const ImageSpec& image : exposureImages(scene, cameras, true)) {
+      if (image.kind == ImageKind::threshold) found.emplace_back(image.name, image.plant);
+    }
+    return found;
+  };
+  using Found = std::vector<std::pair<std::string, std::string>>;
+  EXPECT_EQ(thresholds({{"main", {}}}), Found());
+  scene.plants = {plantThatNeeds("fern", 1, 3, 0.2), plantThatNeeds("moss", 1, 3, 0.2)};
+  EXPECT_EQ(thresholds({{"main", {}}}), (Found{{"threshold", ""}}));
+  scene.plants.push_back(plantThatNeeds("rose", 1, 0, 0.7));
+  EXPECT_EQ(thresholds({{"main", {}}}), (Found{{"threshold_fern", "fern"}, {"threshold_rose", "rose"}}));
+}
+
+TEST(Pictures, OfCamerasWithAnyNamesLieInTheFolder) {
+  Scene scene;
+  std::set<std::string> names;
+  std::size_t images = 0;
+  for (const ImageSpec& image : exposureImages(scene, {{"../up", {}}, {".._up", {}}, {"c\n/d", {}}}, true)) {
+    EXPECT_EQ(image.name.find_first_of("/\n"), std::string::npos) << image.name;
+    names.insert(image.name);
+    ++images;
+  }
+  EXPECT_EQ(names.size(), images);
 }
 
 ImageSpec image(const std::string& name, ImageKind kind) {
@@ -86,11 +122,18 @@ TEST_F(Ground, TheImagesAskedForAreDrawnAndNoOthers) {
 
 TEST_F(Ground, ThresholdPanelsShowThePlantsOwnNeeds) {
   wanted_.images = {image("b", ImageKind::threshold)};
-  wanted_.plant_light = PlantLight{0.0f, 1.0f, 0.1f};
+  const auto none = draw();
+  wanted_.plants = {{"fern", {0.0f, 1.0f, 0.1f}}};
   const auto fern = draw(), again = draw();
-  wanted_.plant_light->least = 0.9f;
   EXPECT_EQ(fern, again);
-  EXPECT_NE(fern, draw());
+  EXPECT_NE(fern, none);
+  wanted_.plants.push_back({"rose", {0.0f, 1.0f, 0.9f}});
+  wanted_.images[0].plant = "rose";
+  const auto rose = draw();
+  wanted_.plants[0].needs.least = 0.5f;
+  EXPECT_EQ(draw(), rose) << "the first plant is another's concern";
+  wanted_.images[0].plant = "fern";
+  EXPECT_NE(draw(), rose);
 }
 
 TEST_F(Ground, AnImageWithoutItsCameraIsNamed) {

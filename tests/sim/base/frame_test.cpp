@@ -2,6 +2,7 @@
 
 #include "sim/base/error.h"
 #include "sim/tile/build_world.h"
+#include "sim/world/world.h"
 #include "tests/support/meshes.h"
 #include "tests/support/messages.h"
 
@@ -51,6 +52,26 @@ TEST(RequireFits, NamesAVoxelSizeThatWouldFit) {
     const double fitting = std::stod(message.substr(at + before.size()));
     EXPECT_NO_THROW(requireFits(frameAround(meshes, fitting, 0.1)));
     EXPECT_ANY_THROW(frameAround(meshes, fitting * 0.8, 0.1));
+  }
+}
+
+TEST(RequireFits, RefusesVoxelsThatNoGridCanHold) {
+  const auto refused = [](double voxel_m) {
+    return tests::messageOf(
+        [=] { requireFits({.origin_m = Vec3(0.0), .voxel_m = voxel_m, .size = Voxel(9)}); });
+  };
+  EXPECT_EQ(refused(1e-30),
+            "voxels of 1e-30 m; expected 2e-05 to 1000000 m: a scale for the meshes makes all of it larger "
+            "or smaller");
+  EXPECT_TRUE(refused(1.9e-5).starts_with("voxels of 1.9e-05 m; expected "));
+  const std::vector<TiledMesh> huge{{tests::boxMesh(Vec3(0.0), Vec3(1e30)), false}};
+  EXPECT_TRUE(tests::messageOf([&] { frameAround(huge, 0.05, 0.0); })
+                  .ends_with("along an axis; expected it smaller: a scale for the meshes makes all of it "
+                             "larger or smaller"));
+  EXPECT_TRUE(refused(1e30).starts_with("voxels of 1e+30 m; expected "));
+  for (const double voxel_m : {kLeastVoxel_m, 0.05, kMostVoxel_m}) {
+    EXPECT_EQ(refused(voxel_m), "no error");
+    EXPECT_NO_THROW(World({.origin_m = Vec3(0.0), .voxel_m = voxel_m, .size = Voxel(9)}));
   }
 }
 

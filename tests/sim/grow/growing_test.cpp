@@ -252,6 +252,17 @@ class Unruly : public Creeper {
   Way way_;
 };
 
+TEST(Growing, APlantingWithoutAProcessIsABrokenContract) {
+  sim::World world = tests::wallPlot();
+  const std::vector<sim::Planting> some = {
+      {"vine", std::make_shared<Creeper>(), sim::seedsAt(world.frame(), {{5, 5, 5}})}, {"moss", nullptr, {}}};
+  EXPECT_THROW(sim::grow(world, some, settings(2)), sim::BrokenContract);
+  sim::Growth grown;
+  grown.stands.resize(2);
+  EXPECT_THROW(sim::Growing(world, some, settings(2), std::move(grown)), sim::BrokenContract);
+  EXPECT_THROW(sim::restore({}, world, some, "growth.state"), sim::BrokenContract);
+}
+
 TEST(Growing, ABrokenContractIsSaidInEveryBuild) {
   using Way = Unruly::Way;
   for (const Way way : {Way::order, Way::node, Way::place, Way::segment, Way::voxel, Way::quantities}) {

@@ -3,6 +3,7 @@
 #include "rules/language/key_builder.h"
 #include "scenes/read/light_keys.h"
 #include "scenes/scene.h"
+#include "sim/tile/build_world.h"
 
 namespace espalier::scenes {
 namespace {
@@ -64,7 +65,7 @@ std::shared_ptr<const Table> worldKeys() {
   return TableOf<WorldSpec>()
       .metres("voxel", &WorldSpec::voxel_m,
               {.unit = kMetres,
-               .limits = {1e-5, 1e6},
+               .limits = {sim::kSmallestVoxel, sim::kLargestVoxel},
                .meaning = "Edge of a voxel; either this or a resolution."})
       .whole("resolution", &WorldSpec::resolution,
              {.unit = "voxels",

@@ -240,6 +240,10 @@ FillReport add(World& world, const TiledMesh& tiled, PartId first_part) {
 
 World buildWorld(const Frame& frame, const std::vector<TiledMesh>& meshes, int layers,
                  std::vector<FillReport>* fills) {
+  if (!(frame.voxel_m >= kSmallestVoxel && frame.voxel_m <= kLargestVoxel)) {
+    throw InputError(fmt::format("world: voxels of {:.3g} m; expected {:g} to {:g} m", frame.voxel_m,
+                                 kSmallestVoxel, kLargestVoxel));
+  }
   requireFits(frame, {.layers = layers});
   for (const TiledMesh& m : meshes) requireSound(m.mesh);
   World world(frame);

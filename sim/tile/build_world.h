@@ -21,6 +21,9 @@ struct FillReport {
   std::size_t doubtful = 0;  ///< voxels where the lines along the axes disagreed: there the mesh leaks
 };
 
+/// The edges of voxels of which a world can be made, metres: OpenVDB takes smaller ones for nothing.
+inline constexpr double kSmallestVoxel = 2e-5, kLargestVoxel = 1e6;
+
 /// Tiles meshes into a new world, in parallel; the result does not depend on the thread count.
 /// A voxel that several triangles cross takes the part that covers most of it, the mean colour by area, and
 /// the area-weighted normal; meshes that come first keep their voxels. Triangles outside the frame are
@@ -28,7 +31,8 @@ struct FillReport {
 /// winding number of their crossings, so overlapping solids stay full, meshes may be inside out, and where a
 /// line leaks its ends contradict each other and the majority of thirteen directions decides
 /// (sim/tile/fill.cpp). Throws InputError if the world is too large for memory, naming the voxel size that
-/// would fit, and for a mesh that is not sound (indices, numbers) or too large to fill.
+/// would fit, for voxels that are too small or too large, and for a mesh that is not sound (indices, numbers)
+/// or too large to fill.
 World buildWorld(const Frame& frame, const std::vector<TiledMesh>& meshes, int layers,
                  std::vector<FillReport>* fills = nullptr);
 

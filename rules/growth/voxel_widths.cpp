@@ -14,7 +14,7 @@ namespace {
 
 constexpr double kShortestSegment = 0.1, kLongestSegment = 60.0;
 constexpr double kFarthestTwist = 64.0;
-constexpr double kThickestTwig = 100.0;
+constexpr double kThinnestTwig = 1e-6, kThickestTwig = 100.0;  // thinner ones are none in single precision
 constexpr double kFarthestCorner = 1e5;  // as far as plain numbers reach: 1000 voxel widths, a hundredfold
 
 // A trial tiles an element whole, and a proposal holds the voxels of all that stand on its segment: with this
@@ -108,13 +108,13 @@ std::string wrongWith(const RuleSet& rules, const std::string& at) {
     return fmt::format("random_tree.length is {:.3g} to {:.3g} voxel widths {}; expected {} to {}", shortest,
                        longest, at, kShortestSegment, kLongestSegment);
   }
-  const auto within = [&](const char* key, const Distance& distance, double most) {
-    if (distance.number > 0.0 && distance.number <= most) return std::string();
-    return fmt::format("{} is {:.3g} voxel widths {}; expected more than 0, at most {}", key, distance.number,
-                       at, most);
+  const auto within = [&](const char* key, const Distance& distance, double least, double most) {
+    if (distance.number > 0.0 && distance.number >= least && distance.number <= most) return std::string();
+    return fmt::format("{} is {:.3g} voxel widths {}; expected {}, at most {}", key, distance.number, at,
+                       least > 0.0 ? fmt::format("at least {}", least) : "more than 0", most);
   };
-  std::string wrong = within("bias.twist.radius", rules.bias.twist_radius, kFarthestTwist);
-  if (wrong.empty()) wrong = within("stem.radius", rules.stem_radius, kThickestTwig);
+  std::string wrong = within("bias.twist.radius", rules.bias.twist_radius, 0.0, kFarthestTwist);
+  if (wrong.empty()) wrong = within("stem.radius", rules.stem_radius, kThinnestTwig, kThickestTwig);
   if (!wrong.empty()) return wrong;
   const double min = rules.require.proximity_min.number, max = rules.require.proximity_max.number;
   if (!(min < max)) {

@@ -12,7 +12,7 @@ namespace espalier::rules {
 /// A rule set and all that it may lead to with every length in voxel widths; a set that stands in several
 /// places stays one. Throws sim::InputError for one that cannot work with such voxels, with the path that
 /// leads to it ("otherwise.regions.brick"): a segment must be 0.1 to 60 voxel widths long, a twist look no
-/// farther than 64, a twig be no thicker than 100, an element's corners lie within 100,000, the
+/// farther than 64, a twig be 1e-6 to 100 thick, an element's corners lie within 100,000, the
 /// elements of one segment take a million voxels at most, and require.proximity.min be less than its max.
 std::shared_ptr<const RuleSet> inVoxelWidths(const std::shared_ptr<const RuleSet>& rules, double voxel_m);
 

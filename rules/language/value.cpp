@@ -1,17 +1,25 @@
 #include "rules/language/value.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace espalier::rules {
 namespace {
+
+/// The value at x of the line through two points, x0 < x1.
+double onLine(const Value::Point& a, const Value::Point& b, double x) {
+  const double rise = (b.y - a.y) * (x - a.x), run = b.x - a.x;
+  if (std::isfinite(rise) && std::isfinite(run)) return a.y + rise / run;
+  // So far apart that their difference is no number.
+  return a.y + (b.y - a.y) * ((0.5 * x - 0.5 * a.x) / (0.5 * b.x - 0.5 * a.x));
+}
 
 double along(const std::vector<Value::Point>& curve, double x) {
   if (curve.empty()) return 0.0;
   if (x <= curve.front().x) return curve.front().y;
   for (std::size_t i = 1; i < curve.size(); ++i) {
-    const auto& [x0, y0] = curve[i - 1];
-    const auto& [x1, y1] = curve[i];
-    if (x <= x1) return x1 > x0 ? y0 + (y1 - y0) * (x - x0) / (x1 - x0) : y1;
+    const Value::Point &before = curve[i - 1], &behind = curve[i];
+    if (x <= behind.x) return behind.x > before.x ? onLine(before, behind, x) : behind.y;
   }
   return curve.back().y;
 }

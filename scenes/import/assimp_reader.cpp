@@ -136,6 +136,15 @@ void requireMeshFormat(const std::filesystem::path& file) {
   formatOf(file);
 }
 
+sim::Mesh meshFrom(const aiScene& scene, const std::filesystem::path& file, const DeclaredCounts& declared,
+                   RegionsFrom regions_from) {
+  const Format format = formatOf(file);
+  for (unsigned m = 0; m < scene.mNumMeshes; ++m) requireSound(*scene.mMeshes[m]);
+  const auto instances = instancesOf(scene);
+  requireDeclared(declared, countFaces(instances), format);
+  return meshOf(scene, instances, regions_from, file.stem().string(), coloursOf(format));
+}
+
 sim::Mesh readWithAssimp(const std::filesystem::path& file, RegionsFrom regions_from,
                          std::vector<sim::InputFile>& files) {
   const Format format = formatOf(file);
@@ -157,11 +166,8 @@ sim::Mesh readWithAssimp(const std::filesystem::path& file, RegionsFrom regions_
                     io->refused().front()));
   }
   if (scene == nullptr || scene->mRootNode == nullptr) failWith(importer.GetErrorString());
-  for (unsigned m = 0; m < scene->mNumMeshes; ++m) requireSound(*scene->mMeshes[m]);
-  const auto instances = instancesOf(*scene);
-  requireDeclared(declared, countFaces(instances), format);
   files = io->files();
-  return meshOf(*scene, instances, regions_from, file.stem().string(), coloursOf(format));
+  return meshFrom(*scene, file, declared, regions_from);
 }
 
 }  // namespace espalier::scenes

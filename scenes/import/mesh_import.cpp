@@ -48,14 +48,15 @@ ChildLimits limitsFor(std::uintmax_t bytes) {
   return limits;
 }
 
-sim::Mesh readInChild(const std::filesystem::path& file, RegionsFrom regions_from, const ChildLimits& limits,
-                      std::vector<sim::InputFile>* files) {
+/// What the child packs of a file.
+std::string readInChild(const std::filesystem::path& file, RegionsFrom regions_from,
+                        const ChildLimits& limits) {
   const auto work = [&] {
     std::vector<sim::InputFile> read;
     const sim::Mesh mesh = readWithAssimp(file, regions_from, read);
     return packMesh(mesh, read);
   };
-  const ChildResult result = runInChild(work, limits);
+  ChildResult result = runInChild(work, limits);
   switch (result.end) {
     case ChildEnd::finished:
       break;
@@ -73,8 +74,12 @@ sim::Mesh readInChild(const std::filesystem::path& file, RegionsFrom regions_fro
           fmt::format("the file is damaged or far too complex: reading it took more than {} MB",
                       limits.memory_bytes >> 20));
   }
+  return std::move(result.bytes);
+}
+
+sim::Mesh unpacked(std::string_view bytes, std::vector<sim::InputFile>* files) {
   try {
-    return unpackMesh(result.bytes, files);
+    return unpackMesh(bytes, files);
   } catch (const std::exception& error) {
     throw sim::InputError(fmt::format("the file is damaged: it confused the mesh reader ({})", error.what()));
   }
@@ -164,12 +169,16 @@ glm::dmat3 turnAbout(int axis, double degrees) {
 
 }  // namespace
 
+sim::Mesh meshFromChild(std::string_view bytes, std::vector<sim::InputFile>* files) {
+  return checked(unpacked(bytes, files));
+}
+
 sim::Mesh importMesh(const std::filesystem::path& file, RegionsFrom regions_from,
                      std::optional<ChildLimits> limits, std::vector<sim::InputFile>* files) {
   try {
     const std::uintmax_t bytes = sizeOf(file);
     requireMeshFormat(file);
-    return checked(readInChild(file, regions_from, limits.value_or(limitsFor(bytes)), files));
+    return meshFromChild(readInChild(file, regions_from, limits.value_or(limitsFor(bytes))), files);
   } catch (const sim::InputError& error) {
     throw sim::InputError(fmt::format("{}: {}", file.string(), error.what()));
   }

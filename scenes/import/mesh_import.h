@@ -1,6 +1,7 @@
 #pragma once
 #include <filesystem>
 #include <optional>
+#include <string_view>
 #include <vector>
 
 #include "scenes/import/child_process.h"
@@ -32,6 +33,10 @@ namespace espalier::scenes {
 sim::Mesh importMesh(const std::filesystem::path& file, RegionsFrom regions_from,
                      std::optional<ChildLimits> limits = std::nullopt,
                      std::vector<sim::InputFile>* files = nullptr);
+
+/// What the reading child sent (scenes/import/mesh_wire.h), unpacked and checked as importMesh does; the bytes are not
+/// trusted. Throws sim::InputError, without the file's name.
+sim::Mesh meshFromChild(std::string_view bytes, std::vector<sim::InputFile>* files = nullptr);
 
 /// The mesh scaled about the origin, turned about the x, then the y, then the z axis, then moved. Quarter
 /// turns are exact. Throws sim::InputError where the result is not finite.

@@ -32,7 +32,8 @@ struct FillReport {
 /// winding number of their crossings, so overlapping solids stay full, meshes may be inside out, and where a
 /// line leaks its ends contradict each other and the majority of thirteen directions decides
 /// (sim/tile/fill.cpp). Throws InputError if the world is too large for memory, naming the voxel size that
-/// would fit, and for a mesh that is not sound (indices, numbers) or too large to fill.
+/// would fit, for voxels that are too small or too large, and for a mesh that is not sound (indices, numbers)
+/// or too large to fill.
 World buildWorld(const Frame& frame, const std::vector<TiledMesh>& meshes, int layers,
                  std::vector<FillReport>* fills = nullptr);
 

@@ -117,6 +117,11 @@ TEST_F(Overhang, EveryByteIsTheSameOnOneTwoAndFiveThreads) {
       EXPECT_TRUE(one[name] == bytes) << folder << '/' << name;
     }
   }
+  scratch_.write("scene.yaml", std::string(kScene) + "sun: {tilt: 21}\n");  // a little more, and it is told
+  ASSERT_EQ(expose("--where band", "other").status, 0);
+  const auto other = files(scratch_.path("other"));
+  for (const char* name : {"exposure.csv", "exposure.json", "exposure.vdb"})
+    EXPECT_FALSE(one.at(name) == other.at(name)) << name;
 }
 
 TEST_F(Overhang, WhereIsToldByTheSceneAndTheCommandLineWins) {

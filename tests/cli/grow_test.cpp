@@ -67,6 +67,14 @@ TEST_F(Plot, EveryByteIsTheSameOnOneTwoAndFiveThreads) {
       EXPECT_TRUE(one[name] == bytes) << folder << '/' << name;
     }
   }
+  // Another seed shows in the report and in every file that shows what grew.
+  ASSERT_EQ(grow("--seed 6", "other").status, 0);
+  json other = report("other");
+  other.erase("run");
+  EXPECT_NE(first, other);
+  const auto others = files(scratch_.path("other"));
+  for (const char* name : {"plant.glb", "world.vdb", "growth.state", "vines.png", "sky_exposure.png", "sky_exposure.exr"})
+    EXPECT_FALSE(one.at(name) == others.at(name)) << name;
 }
 
 TEST_F(Plot, EveryFileSaysFromWhatItWasMadeAndNotWhere) {
@@ -167,6 +175,8 @@ TEST_F(Plot, PicturesDoNotChangeWhatGrows) {
   ASSERT_EQ(grow("", "with").status, 0);
   ASSERT_EQ(grow("--no-pictures", "without").status, 0);
   EXPECT_EQ(report("with")["growth"]["state_hash"], report("without")["growth"]["state_hash"]);
+  ASSERT_EQ(grow("--no-pictures --iterations 13", "shorter").status, 0);
+  EXPECT_NE(report("with")["growth"]["state_hash"], report("shorter")["growth"]["state_hash"]);
   EXPECT_FALSE(fs::exists(scratch_.path("without") / "vines.png"));
   EXPECT_TRUE(fs::exists(scratch_.path("without") / "plant.glb"));
 }

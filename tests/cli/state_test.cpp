@@ -64,6 +64,11 @@ TEST_F(Kept, GoesOnToTheBytesOfARunThatWasNeverInterrupted) {
     EXPECT_EQ(first + proposals(folder), proposals("whole"));  // none is made twice
   }
   EXPECT_TRUE(report("whole")["run"]["went_on_from"].is_null());
+  // Whatever of a result would be another one is told.
+  ASSERT_EQ(grow("--iterations 13", "shorter").status, 0);
+  const auto whole = result("whole"), shorter = result("shorter");
+  for (const char* name : {"report.json", "growth.state", "plant.glb", "world.vdb", "vines.png"})
+    EXPECT_FALSE(whole.at(name) == shorter.at(name)) << name;
   // Further than the scene says, and not back again.
   ASSERT_EQ(grow("--iterations 18", "far").status, 0);
   ASSERT_EQ(grow("--resume --iterations 18", "whole").status, 0);

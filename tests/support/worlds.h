@@ -1,6 +1,6 @@
 #pragma once
 // Small worlds, and what it means that two are the same.
-#include <gtest/gtest.h>
+#include <string>
 
 #include "sim/world/world.h"
 
@@ -29,20 +29,24 @@ inline sim::Part elementPart(std::string object) {
   return part;
 }
 
-inline void expectSameWorld(const sim::World& a, const sim::World& b) {
-  ASSERT_EQ(a.frame(), b.frame());
-  EXPECT_EQ(a.occupied().words(), b.occupied().words());
-  EXPECT_EQ(a.solid().words(), b.solid().words());
-  EXPECT_EQ(a.opaque().words(), b.opaque().words());
-  const auto surfaces_a = a.surfaces();
-  const auto surfaces_b = b.surfaces();
-  ASSERT_EQ(surfaces_a.size(), surfaces_b.size());
+/// The first thing in which two worlds differ; empty where they are the same.
+inline std::string differenceOf(const sim::World& a, const sim::World& b) {
+  if (!(a.frame() == b.frame())) return "frame";
+  if (a.occupied().words() != b.occupied().words()) return "occupied voxels";
+  if (a.solid().words() != b.solid().words()) return "solid voxels";
+  if (a.opaque().words() != b.opaque().words()) return "opaque voxels";
+  const auto at = [](const char* what, sim::Voxel v) {
+    return std::string(what) + " at " + std::to_string(v.x) + " " + std::to_string(v.y) + " " +
+           std::to_string(v.z);
+  };
+  const auto surfaces_a = a.surfaces(), surfaces_b = b.surfaces();
+  if (surfaces_a.size() != surfaces_b.size()) return "number of surfaces";
   for (std::size_t i = 0; i < surfaces_a.size(); ++i) {
     const auto& [voxel_a, s] = surfaces_a[i];
     const auto& [voxel_b, t] = surfaces_b[i];
-    ASSERT_EQ(voxel_a, voxel_b);
-    ASSERT_TRUE(s.part == t.part && s.colour == t.colour && s.coverage == t.coverage &&
-                s.normal == t.normal && s.offset_vx == t.offset_vx);
+    const bool same = voxel_a == voxel_b && s.part == t.part && s.colour == t.colour &&
+                      s.coverage == t.coverage && s.normal == t.normal && s.offset_vx == t.offset_vx;
+    if (!same) return at("surface", voxel_a);
   }
   const sim::Voxel size = a.frame().size;
   for (int y = 0; y < size.y; ++y) {
@@ -50,13 +54,15 @@ inline void expectSameWorld(const sim::World& a, const sim::World& b) {
       for (int x = 0; x < size.x; ++x) {
         const auto m = a.nearnessAt({x, y, z});
         const auto n = b.nearnessAt({x, y, z});
-        ASSERT_EQ(m.has_value(), n.has_value());
-        ASSERT_EQ(a.nearSteps().at({x, y, z}), b.nearSteps().at({x, y, z}));
-        if (!m) continue;
-        ASSERT_TRUE(m->layer == n->layer && m->part == n->part && m->distance_vx == n->distance_vx);
+        const bool same =
+            m.has_value() == n.has_value() &&
+            (!m || (m->layer == n->layer && m->part == n->part && m->distance_vx == n->distance_vx));
+        if (!same) return at("nearness", {x, y, z});
+        if (a.nearSteps().at({x, y, z}) != b.nearSteps().at({x, y, z})) return at("near steps", {x, y, z});
       }
     }
   }
+  return "";
 }
 
 }  // namespace espalier::tests

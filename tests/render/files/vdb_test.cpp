@@ -133,6 +133,7 @@ TEST_F(Vdb, TheSameBytesOnAnyNumberOfThreads) {
   const std::string one = write(1);
   EXPECT_EQ(one, write(1));
   EXPECT_EQ(one, write(5));
+  EXPECT_NE(one, render::vdbBytes(tests::wallPlot({30, 24, 20}, 2), fields()));  // a layer less would show
 }
 
 TEST_F(Vdb, TheFileIdIsAUuidAndFollowsFromTheContents) {

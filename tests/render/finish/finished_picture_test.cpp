@@ -60,6 +60,8 @@ TEST_F(FinishedPicture, IsTheSameOnAnyNumberOfThreads) {
   for (const int threads : {1, 2, 5}) sim::onThreads(threads, [&] { pictures.push_back(draw()); });
   EXPECT_EQ(pictures[0].pixels, pictures[1].pixels);
   EXPECT_EQ(pictures[0].pixels, pictures[2].pixels);
+  scene_.to_sun = {-0.5, 0.7, 0.71};  // a little later it is another picture
+  EXPECT_NE(pictures[0].pixels, draw().pixels);
 }
 
 TEST_F(FinishedPicture, ShowsGreenLeavesOnARedWallUnderABlueSky) {

@@ -63,6 +63,9 @@ TEST(Fits, GrowthEndsAfterTheLastIterationThatFitsAndGoesOnWhereThereIsMore) {
   }
   EXPECT_EQ(more.growth().cut_short, "");
   EXPECT_EQ(sim::stateHash(world, more.growth()), sim::stateHash(whole_world, whole));
+  sim::World shorter_world = tests::wallPlot();
+  const sim::Growth shorter = growIn(shorter_world, tests::brightSettings(29));
+  EXPECT_NE(sim::stateHash(shorter_world, shorter), sim::stateHash(whole_world, whole));
 }
 
 }  // namespace

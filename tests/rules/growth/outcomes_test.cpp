@@ -93,6 +93,7 @@ TEST(Outcomes, RestingDoesNotGoOnToOtherwise) {
   RuleSet other = lively();
   other.random_tree.length = {5.0};
   EXPECT_EQ(alone.hash, grownFar(withOtherwise(first, other)).hash);
+  EXPECT_NE(alone.hash, grownFar(withOtherwise(other, first)).hash);  // were it tried first, that would show
 }
 
 TEST(Outcomes, ASecondSetMayRestInThePlaceOfTheFirst) {

@@ -107,9 +107,18 @@ TEST(VoxelWidths, RefusesWhatSuchVoxelsCannotHold) {
             "than 0, at most 64");
   RuleSet thick = inMetres();
   thick.stem_radius = {3.0, true};
-  EXPECT_EQ(complaint(thick),
-            "rule set 'metric': stem.radius is 150 voxel widths at a voxel of 0.02 m; expected more than 0, "
-            "at most 100");
+  EXPECT_EQ(
+      complaint(thick),
+      "rule set 'metric': stem.radius is 150 voxel widths at a voxel of 0.02 m; expected at least 1e-06, "
+      "at most 100");
+  RuleSet thin = inMetres();  // in single precision it would be as thick as nothing
+  thin.stem_radius = {1e-300};
+  EXPECT_EQ(
+      complaint(thin),
+      "rule set 'metric': stem.radius is 1e-300 voxel widths at a voxel of 0.02 m; expected at least 1e-06, "
+      "at most 100");
+  thin.stem_radius = {1e-6};
+  EXPECT_EQ(complaint(thin), "");
   RuleSet crossed = inMetres();
   crossed.require.proximity_min = {4.5};
   EXPECT_EQ(
@@ -197,11 +206,10 @@ TEST(VoxelWidths, ElementsOfASegmentAreBoundedBeforeAnyIsTiled) {
       << "in full light ten times as many, ten times as long and wide";
   EXPECT_NE(complaint(squares(1000, 0.1, 1.0)), "") << "one may come, however seldom";
   EXPECT_NE(complaint(squares(100, 1, 1.0, 256)), "");
-  EXPECT_EQ(
-      complaint(squares(1000, 100, 10.0)),
-      "rule set 'square': elements may take 2e+11 voxels on one segment at a voxel of 0.02 m in full "
-      "light, most of them elements[0] (size, polygons, per_segment, light.boost); expected at most "
-      "1000000");
+  EXPECT_EQ(complaint(squares(1000, 100, 10.0)),
+            "rule set 'square': elements may take 2e+11 voxels on one segment at a voxel of 0.02 m in full "
+            "light, most of them elements[0] (size, polygons, per_segment, light.boost); expected at most "
+            "1000000");
   RuleSet curved = squares(1, 1, 1.0);
   curved.elements[0].size.kind = Value::Kind::curve;
   curved.elements[0].size.curve = {{0.0, 1.0}, {0.9, 1.0}, {1.0, 2000.0}};

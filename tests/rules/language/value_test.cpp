@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <limits>
+
 namespace espalier::rules {
 namespace {
 
@@ -34,6 +36,18 @@ TEST(Value, ACurveIsLinearBetweenItsPointsAndConstantBeyond) {
   EXPECT_NEAR(evaluate(curve, {0.0, 0.0, 0.4}, 0.5), 2.0, 1e-12);
   EXPECT_EQ(lowest(curve), 1.0);
   EXPECT_EQ(highest(curve), 3.0);
+}
+
+TEST(Value, ACurveMayReachAsFarAsNumbersDo) {
+  constexpr double kMost = std::numeric_limits<double>::max();
+  Value curve;
+  curve.kind = Value::Kind::curve;
+  curve.curve = {{-kMost, 18.0}, {2.0, 10.0}};
+  EXPECT_DOUBLE_EQ(evaluate(curve, {1.0, 0.0, 0.0}, 0.5), 10.0);
+  curve.curve = {{-kMost, 18.0}, {kMost, 10.0}};
+  EXPECT_DOUBLE_EQ(evaluate(curve, {0.0, 0.0, 0.0}, 0.5), 14.0);
+  curve.curve = {{-kMost, 0.25}, {kMost, 0.75}};
+  EXPECT_DOUBLE_EQ(evaluate(curve, {1.0, 0.0, 0.0}, 0.5), 0.5);
 }
 
 }  // namespace

@@ -111,6 +111,9 @@ TEST(Growing, StepsAreTheWholeAndCanBeLookedAt) {
   EXPECT_EQ(steps, 12);
   EXPECT_FALSE(growing.step());
   EXPECT_EQ(sim::stateHash(stepped, growing.growth()), sim::stateHash(whole, all));
+  sim::World shorter = tests::wallPlot();
+  const auto fewer = sim::grow(shorter, plantings(shorter.frame()), settings(11));
+  EXPECT_NE(sim::stateHash(shorter, fewer), sim::stateHash(whole, all));  // a step less would show
 }
 
 TEST(Growing, ACopiedWorldGrowsTheSame) {
@@ -120,6 +123,7 @@ TEST(Growing, ACopiedWorldGrowsTheSame) {
   const auto a = sim::grow(copy, plantings(copy.frame()), settings());
   const auto b = sim::grow(fresh, plantings(fresh.frame()), settings());
   EXPECT_EQ(sim::stateHash(copy, a), sim::stateHash(fresh, b));
+  EXPECT_NE(sim::stateHash(site, a), sim::stateHash(fresh, b));  // and not without the world
   EXPECT_EQ(site.occupied().words(), tests::wallPlot().occupied().words());  // and the first is as it was
   const sim::World grown = copy;
   EXPECT_EQ(grown.occupied().words(), copy.occupied().words());
@@ -139,6 +143,9 @@ TEST(Growing, ASiteCanBeAskedAgain) {
     for (const sim::Site& site : sites[p]) foreseen[p].push_back(growing.propose(due, p, site));
   }
   EXPECT_EQ(sim::stateHash(world, growing.growth()), before);
+  sim::Growth other = growing.growth();
+  sim::column<std::int64_t>(other.commons.at("tiles"), "left")[0] += 1;
+  EXPECT_NE(sim::stateHash(world, other), before);  // nothing of what is remembered could change unseen
   for (const sim::Proposal& p : foreseen[0])
     EXPECT_NE(p.outcome, Outcome::no_trial);  // it knows what due() left
   const std::vector<sim::Plant> old = growing.growth().plants;

@@ -74,6 +74,8 @@ TEST(Moss, IsTheSameOnAnyNumberOfThreads) {
     });
   }
   EXPECT_EQ(hashes[0], hashes[1]);
+  const Grown brighter(150, 0.31);  // a little more light is another moss
+  EXPECT_NE(hashes[0], sim::stateHash(brighter.world, brighter.growth));
 }
 
 TEST(Moss, StandsInThePageAsItIsBuilt) {

@@ -72,6 +72,9 @@ TEST(State, GoesOnAsIfNothingHadHappened) {
     EXPECT_EQ(sim::stateBytes(kInputs, world, site, growing.growth()), whole.bytes) << before;
     EXPECT_EQ(proposals > 0, before < 14);
   }
+  const Saved shorter = savedAfter(13);  // an iteration less would show in both
+  EXPECT_NE(shorter.hash, whole.hash);
+  EXPECT_NE(shorter.bytes, whole.bytes);
 }
 
 TEST(State, KeepsTheTrialsThatWereRecorded) {

@@ -157,10 +157,10 @@ TEST(Lighting, GreenesRaysAgreeWithTheDirectionsAsFarAsTheyCan) {
 TEST(Lighting, IsTheSameOnAnyNumberOfThreads) {
   const World world = wallOnGround();
   std::vector<Lighting> lights;
+  LightWanted wanted;
+  wanted.brightest = true;
   for (const int threads : {1, 2, 5}) {
     onThreads(threads, [&] {
-      LightWanted wanted;
-      wanted.brightest = true;
       lights.push_back(lightOf(world, sky(Weighting::cie_overcast), makeSun(SunArc{}), wanted));
     });
   }
@@ -170,6 +170,11 @@ TEST(Lighting, IsTheSameOnAnyNumberOfThreads) {
     EXPECT_EQ(light.brightest, lights[0].brightest);
     EXPECT_EQ(light.faces, lights[0].faces);
   }
+  // Another sky and another sun are other light.
+  const Lighting other = lightOf(world, sky(Weighting::uniform), makeSun(SunArc{.tilt_deg = 25.0}), wanted);
+  EXPECT_NE(other.sky.values, lights[0].sky.values);
+  EXPECT_NE(other.sun_hours.values, lights[0].sun_hours.values);
+  EXPECT_NE(other.brightest, lights[0].brightest);
 }
 
 }  // namespace

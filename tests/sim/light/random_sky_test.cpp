@@ -94,6 +94,7 @@ TEST(RandomSky, FillsFieldsLikeSingleLooksOnAnyNumberOfThreads) {
   }
   sim::onThreads(3, [&] {
     EXPECT_EQ(sim::randomExposure(bits, sky, Weighting::uniform, nullptr).values, everywhere.values);
+    EXPECT_NE(sim::randomExposure(bits, {20, 4}, Weighting::uniform, nullptr).values, everywhere.values);
   });
 }
 

@@ -226,6 +226,7 @@ TEST(SurfaceLight, IsTheSameOnAnyNumberOfThreads) {
   }
   EXPECT_EQ(answers[0], answers[1]);
   EXPECT_EQ(answers[0], answers[2]);
+  EXPECT_NE(answers[0], judged(world, makeSky({.directions = 65})).sky);  // a direction more would show
 }
 
 }  // namespace

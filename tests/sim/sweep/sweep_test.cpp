@@ -134,7 +134,7 @@ TEST(Sweep, AddsUpToTheLargestSum) {
 }
 
 TEST(Sweep, DoesNotDependOnTheNumberOfThreads) {
-  const auto bits = tests::randomBits({70, 33, 41}, 0.03, 9);
+  auto bits = tests::randomBits({70, 33, 41}, 0.03, 9);
   const auto set = sim::makeSky({.directions = 100}).directions;
   std::vector<std::vector<std::uint16_t>> answers;
   for (const int threads : {1, 2, 5}) {
@@ -142,6 +142,13 @@ TEST(Sweep, DoesNotDependOnTheNumberOfThreads) {
   }
   EXPECT_EQ(answers[0], answers[1]);
   EXPECT_EQ(answers[0], answers[2]);
+  const Voxel free = [&] {  // one voxel more is another answer
+    Voxel v(35, 20, 20);
+    while (bits.at(v)) ++v.x;
+    return v;
+  }();
+  bits.set(free);
+  EXPECT_NE(answers[0], sim::sweepExposure(bits, set).values);
 }
 
 TEST(Sweep, SeesNothingWithoutDirections) {

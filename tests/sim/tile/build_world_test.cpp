@@ -192,12 +192,25 @@ TEST(BuildWorld, IsTheSameOnAnyNumberOfThreads) {
   };
   std::vector<FillReport> fills;
   const World one = make(1, fills);
-  tests::expectSameWorld(one, make(2, fills));
-  tests::expectSameWorld(one, make(5, fills));
+  EXPECT_EQ(tests::differenceOf(one, make(2, fills)), "");
+  EXPECT_EQ(tests::differenceOf(one, make(5, fills)), "");
   for (const FillReport& f : fills) {
     EXPECT_EQ(f.filled, fills[0].filled);
     EXPECT_EQ(f.doubtful, fills[0].doubtful);
   }
+  hole.vertices_m.back().y += 0.5;  // of which the comparison would tell
+  std::vector<FillReport> others;
+  EXPECT_NE(tests::differenceOf(one, make(1, others)), "");
+}
+
+TEST(BuildWorld, RefusesVoxelsThatNoWorldCanHave) {
+  const auto build = [](double voxel_m) {
+    return tests::messageOf([&] { buildWorld({Vec3(0.0), voxel_m, Voxel(3)}, {}, 0); });
+  };
+  EXPECT_TRUE(build(1.2e-5).starts_with("voxels of 1.2e-05 m; expected 2e-05 to 1000000 m")) << build(1.2e-5);
+  EXPECT_TRUE(build(1.1e6).starts_with("voxels of 1.1e+06 m; expected 2e-05 to 1000000 m")) << build(1.1e6);
+  EXPECT_EQ(build(kLeastVoxel_m), "");
+  EXPECT_EQ(build(kMostVoxel_m), "");
 }
 
 TEST(BuildWorld, RefusesMeshesThatAreNotSound) {

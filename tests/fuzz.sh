@@ -1,0 +1,95 @@
+#!/usr/bin/env bash
+# Looks for inputs that break the program. Any that is found is a failure, and is kept. ./run fuzz installs and comes here.
+#
+#   tests/fuzz.sh                            each target for a minute, and 500 drawn scenes
+#   tests/fuzz.sh --seconds 600 yaml ply     these targets, ten minutes each
+#   tests/fuzz.sh --seconds 0 --files 2000   only drawn scenes, under AddressSanitizer and UndefinedBehaviorSanitizer
+#
+# A target is one reader that libFuzzer gives bytes (tests/fuzz/target.h): in the preset fuzz, compiled by clang. What it
+# has learnt stays in build/fuzz/corpus, what it has found lies in build/fuzz/found; for an input again:
+# build/fuzz/tests/fuzz/fuzz_NAME FILE.
+set -euo pipefail
+cd "$(dirname "${BASH_SOURCE[0]}")/.."
+
+# What each target reads with: the sources whose lines are counted.
+declare -A sources=(
+  [yaml]="scenes/yaml scenes/problem.cpp"
+  [rules]="scenes/yaml scenes/read rules/language rules/growth/voxel_widths.cpp"
+  [scenes]="scenes/yaml scenes/read scenes/lights.cpp"
+  [states]="sim/grow/state.cpp sim/grow/restore.cpp sim/grow/columns.h sim/base/cbor_writer.cpp"
+  [mesh_wire]="scenes/import/mesh_wire.cpp scenes/import/mesh_import.cpp"
+  [mesh_scene]="scenes/import/assimp_scene.cpp scenes/import/assimp_reader.cpp scenes/import/triangulate.cpp"
+  [obj]="scenes/import" [stl]="scenes/import" [ply]="scenes/import" [gltf]="scenes/import"
+)
+all=(yaml rules scenes states mesh_wire mesh_scene obj stl ply gltf)
+
+seconds=60 files=500 targets=()
+while [ $# -gt 0 ]; do
+  case $1 in
+    --seconds) seconds=$2 && shift 2 ;;
+    --files) files=$2 && shift 2 ;;
+    *)
+      [ -n "${sources[$1]:-}" ] || { echo "fuzz.sh: unknown target '$1'; expected ${all[*]}" >&2 && exit 2; }
+      targets+=("$1") && shift
+      ;;
+  esac
+done
+[ ${#targets[@]} -gt 0 ] || targets=("${all[@]}")
+
+# build PRESET TARGET...
+build() {
+  local preset=$1 launcher=()
+  command -v ccache >/dev/null && launcher=(-DCMAKE_CXX_COMPILER_LAUNCHER=ccache)
+  mkdir -p "build/$preset"
+  {
+    [ -f "build/$preset/build.ninja" ] || cmake --preset "$preset" "${launcher[@]}"
+    cmake --build --preset "$preset" --parallel "$(nproc)" --target "${@:2}"
+  } >"build/$preset/build.log" 2>&1 || { echo "$preset: FAILED to build" && tail -n 60 "build/$preset/build.log" && exit 1; }
+}
+
+tool() { command -v "$1" || command -v "$1-14" || echo "/usr/lib/llvm-14/bin/$1"; }
+
+# covered TARGET: how many of the lines of its sources it has reached.
+covered() {
+  local there=build/fuzz/coverage/$1
+  "$(tool llvm-profdata)" merge -o "$there.profdata" "$there".*.profraw 2>/dev/null || { echo "unknown" && return; }
+  # shellcheck disable=SC2086
+  "$(tool llvm-cov)" report "build/fuzz/tests/fuzz/fuzz_$1" -instr-profile="$there.profdata" ${sources[$1]} 2>/dev/null |
+    awk '/^TOTAL/ { print $8 - $9 " of " $8 " lines (" $10 ")" }'
+}
+
+failed=0
+export ASAN_OPTIONS=halt_on_error=1:detect_leaks=1:symbolize=1 UBSAN_OPTIONS=halt_on_error=1:print_stacktrace=1
+ASAN_SYMBOLIZER_PATH=$(tool llvm-symbolizer)
+export ASAN_SYMBOLIZER_PATH
+
+# look TARGET: lets libFuzzer have it, from its seeds and from what it learnt before.
+look() {
+  local target=$1 program=build/fuzz/tests/fuzz/fuzz_$1 log=build/fuzz/$1.log status=0
+  mkdir -p "build/fuzz/corpus/$target" build/fuzz/found build/fuzz/coverage
+  rm -f "build/fuzz/coverage/$target".*
+  "build/fuzz/tests/fuzz/replay_$target" --seeds-into "build/fuzz/seeds/$target"
+  LLVM_PROFILE_FILE="build/fuzz/coverage/$target.%p.profraw" "$program" "build/fuzz/corpus/$target" "build/fuzz/seeds/$target" \
+    -max_total_time="$seconds" -timeout=20 -rss_limit_mb=4096 -max_len=8192 -print_final_stats=1 -close_fd_mask=1 \
+    -artifact_prefix="build/fuzz/found/$target-" >"$log" 2>&1 || status=$?
+  local runs
+  runs=$(sed -n 's/^stat::number_of_executed_units: *//p' "$log" | tail -n 1)
+  if [ $status -eq 0 ]; then
+    echo "$target: nothing found in ${runs:-?} executions and $seconds s; $(covered "$target")"
+  else
+    failed=1
+    echo "$target: FOUND something after ${runs:-?} executions; all of it is in $log"
+    tail -n 60 "$log"
+  fi
+}
+
+if [ "$seconds" -gt 0 ]; then
+  build fuzz "${targets[@]/#/fuzz_}" "${targets[@]/#/replay_}"
+  for target in "${targets[@]}"; do look "$target"; done
+fi
+if [ "$files" -gt 0 ]; then
+  build asan legal_files
+  ASAN_OPTIONS=halt_on_error=1:detect_stack_use_after_return=1:strict_init_order=1 \
+    build/asan/tests/fuzz/legal_files --count "$files" --limit-s 10 --folder build/asan/legal_files || failed=1
+fi
+exit $failed

@@ -1,0 +1,354 @@
+#include "tests/fuzz/random_files.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+
+#include "rules/language/registry.h"
+#include "scenes/read/read_scene.h"
+#include "scenes/read/registry.h"
+
+namespace espalier::fuzz {
+namespace {
+
+using rules::Kind;
+
+/// Where the numbers of keys usually lie that cost time or memory, or that few voxels allow; by their path.
+const std::map<std::string, rules::Limits> kUsual = {
+    {"random_tree.length", {0.1, 20.0}},
+    {"random_tree.branch_age_range", {1.0, 6.0}},
+    {"random_tree.trials.min", {1.0, 40.0}},
+    {"random_tree.trials.max", {1.0, 90.0}},
+    {"bias.twist.radius", {0.1, 8.0}},
+    {"require.proximity.min", {0.0, 4.0}},
+    {"require.proximity.max", {0.1, 30.0}},
+    {"prefer.proximity", {0.0, 20.0}},
+    {"stem.radius", {1e-3, 4.0}},
+    {"elements[].trials", {1.0, 12.0}},
+    {"elements[].per_segment", {0.0, 3.0}},
+    {"elements[].size", {0.05, 4.0}},
+    {"world.layers", {0.0, 6.0}},
+    {"sky.accuracy", {0.01, 0.5}},
+    {"sky.directions", {1.0, 300.0}},
+    {"sky.rays", {1.0, 12.0}},
+    {"sun.samples", {1.0, 100.0}},
+    {"sun.step", {20.0, 1440.0}},
+    {"sun.accuracy", {0.3, 10.0}},
+    {"exposure.band", {1.0, 6.0}},
+};
+
+/// What keeps scenes small and plants alive, and would be large by default.
+const std::set<std::string> kAlways = {"scene:iterations",
+                                       "scene:plants",
+                                       "scene:plants[].seeds",
+                                       "scene:cameras",
+                                       "scene:image",
+                                       "scene:image.width",
+                                       "scene:image.height",
+                                       "scene:meshes[].scale",
+                                       "scene:meshes[].translate",
+                                       "scene:world.voxel",
+                                       "scene:world.resolution",
+                                       "scene:world.bounds",
+                                       "scene:world.margin",
+                                       "scene:sky",
+                                       "scene:sky.rays",
+                                       "scene:sky.directions"};
+
+}  // namespace
+
+RandomFiles::RandomFiles(std::uint64_t seed, std::filesystem::path folder)
+    : numbers_(seed),
+      folder_(std::move(folder)),
+      world_(drawWorld(numbers_)),
+      values_(numbers_, world_.voxel_m) {
+  std::filesystem::create_directories(folder_);
+  knowSpecials();
+}
+
+RandomFiles::World RandomFiles::drawWorld(tests::Numbers& numbers) {
+  constexpr std::array kSides{1, 2, 3, 5, 8, 9, 15, 16, 17, 24, 31, 33, 63, 64, 65, 100};
+  constexpr std::array kVoxels{0.04, 0.04, 0.04, 0.01, 1.0, 2e-5, 1e-3, 100.0};
+  constexpr int kMostVoxels = 30'000;
+  World world;
+  do {
+    for (int axis = 0; axis < 3; ++axis) world.size[axis] = numbers.pick(kSides);
+  } while (world.size.x * world.size.y * world.size.z > kMostVoxels);
+  if (numbers.chance(0.4)) world.size = sim::Voxel(numbers.whole(4, 24));
+  world.voxel_m = numbers.pick(kVoxels);
+  if (numbers.chance(0.02)) {
+    world.voxel_m = 1e6;
+    world.size = glm::min(world.size, sim::Voxel(2));
+  } else if (numbers.chance(0.3)) {
+    for (int axis = 0; axis < 3; ++axis) world.middle_m[axis] = numbers.uniform(-20.0, 20.0) * world.voxel_m;
+  }
+  const bool flat = std::min({world.size.x, world.size.y, world.size.z}) < 6;  // a mesh leaves no room there
+  world.meshes = numbers.chance(flat ? 0.1 : 0.7);
+  world.bounds = !world.meshes || numbers.chance(0.5);
+  if (!world.bounds) world.size = sim::Voxel(std::min(30, std::max({world.size.x, world.size.y, world.size.z})));
+  return world;
+}
+
+/// A floor, a wall, a box and a sloping quad between -0.5 and 0.5, each a group and a material of its own.
+std::string RandomFiles::writeMesh() {
+  std::string text = "mtllib paint.mtl\n";
+  int vertices = 0;
+  const auto quad = [&](std::array<sim::Vec3, 4> corners) {
+    for (const sim::Vec3& p : corners) text += fmt::format("v {} {} {}\n", p.x, p.y, p.z);
+    text += fmt::format("f {} {} {} {}\n", vertices + 1, vertices + 2, vertices + 3, vertices + 4);
+    vertices += 4;
+  };
+  const auto group = [&](const char* name, const char* material) {
+    text += fmt::format("g {}\nusemtl {}\n", name, material);
+  };
+  group("floor", "stone");
+  quad({sim::Vec3(-0.5, -0.45, -0.5), {-0.5, -0.45, 0.5}, {0.5, -0.45, 0.5}, {0.5, -0.45, -0.5}});
+  if (numbers_.chance(0.7)) {
+    group("wall", "brick");
+    quad({sim::Vec3(-0.5, -0.45, 0.02), {0.5, -0.45, 0.02}, {0.5, 0.4, 0.02}, {-0.5, 0.4, 0.02}});
+  }
+  if (numbers_.chance(0.5)) {
+    group("roof", "brick");
+    quad({sim::Vec3(-0.4, 0.1, -0.4), {-0.4, 0.1, -0.1}, {0.2, 0.33, -0.1}, {0.2, 0.33, -0.4}});
+  }
+  if (numbers_.chance(0.4)) {
+    group("block", "stone");
+    const sim::Vec3 a(0.1, -0.4, -0.4), b(0.4, -0.1, -0.1);
+    quad({sim::Vec3(a.x, a.y, a.z), {b.x, a.y, a.z}, {b.x, a.y, b.z}, {a.x, a.y, b.z}});
+    quad({sim::Vec3(a.x, b.y, a.z), {a.x, b.y, b.z}, {b.x, b.y, b.z}, {b.x, b.y, a.z}});
+    quad({sim::Vec3(a.x, a.y, a.z), {a.x, b.y, a.z}, {b.x, b.y, a.z}, {b.x, a.y, a.z}});
+    quad({sim::Vec3(a.x, a.y, b.z), {b.x, a.y, b.z}, {b.x, b.y, b.z}, {a.x, b.y, b.z}});
+    quad({sim::Vec3(a.x, a.y, a.z), {a.x, a.y, b.z}, {a.x, b.y, b.z}, {a.x, b.y, a.z}});
+    quad({sim::Vec3(b.x, a.y, a.z), {b.x, b.y, a.z}, {b.x, b.y, b.z}, {b.x, a.y, b.z}});
+  }
+  std::ofstream(folder_ / "paint.mtl") << "newmtl stone\nKd 0.5 0.5 0.5\nnewmtl brick\nKd 0.6 0.2 0.1\n";
+  const std::string name = fmt::format("mesh_{}.obj", numbers_.whole(1, 9));
+  std::ofstream(folder_ / name) << text;
+  return name;
+}
+
+/// A point in the world, or as far outside of it.
+std::string RandomFiles::place(double beyond) {
+  sim::Vec3 at;
+  for (int axis = 0; axis < 3; ++axis)
+    at[axis] = std::clamp(world_.middle_m[axis] + numbers_.uniform(-beyond, beyond) * world_.extent_m()[axis],
+                          -1e6, 1e6);
+  return ValueDrawer::point(at.x, at.y, at.z);
+}
+
+void RandomFiles::knowSpecials() {
+  const auto text = [this](const std::string& path, std::function<std::string()> draw) {
+    specials_["scene:" + path] = [draw = std::move(draw)](Drawn& drawn) {
+      drawn.text = draw();
+      return !drawn.text.empty();
+    };
+  };
+  const bool by_resolution = numbers_.chance(0.3);
+  const int longest = std::max({world_.size.x, world_.size.y, world_.size.z});
+  text("espalier", [this] { return std::string(numbers_.chance(0.5) ? "scene" : "scene/1"); });
+  text("world.voxel", [=, this] { return by_resolution ? "" : fmt::format("{}", world_.voxel_m); });
+  text("world.resolution", [=] { return by_resolution ? fmt::format("{}", longest) : ""; });
+  text("world.margin",
+       [this] { return world_.bounds ? "" : fmt::format("{}", world_.voxel_m * numbers_.whole(0, 6)); });
+  specials_["scene:world.bounds"] = [this](Drawn& drawn) {
+    const sim::Vec3 low = world_.middle_m - 0.5 * world_.extent_m(), high = low + world_.extent_m();
+    drawn.kind = Drawn::Kind::map;
+    drawn.entries = {{"min", {ValueDrawer::point(low.x, low.y, low.z)}, true, "scene:world.bounds.min"},
+                     {"max", {ValueDrawer::point(high.x, high.y, high.z)}, true, "scene:world.bounds.max"}};
+    return world_.bounds;
+  };
+  text("meshes[].file", [this] { return writeMesh(); });
+  text("meshes[].scale", [=, this] { return fmt::format("{}", longest * world_.voxel_m); });
+  text("meshes[].translate",
+       [this] { return ValueDrawer::point(world_.middle_m.x, world_.middle_m.y, world_.middle_m.z); });
+  text("plants[].seeds[].at", [this] { return place(numbers_.chance(0.1) ? 0.5 : 0.45); });
+  text("plants[].scatter.region", [this] { return std::string(numbers_.chance(0.9) ? "floor" : "wall"); });
+  text("plants[].scatter.count", [this] { return fmt::format("{}", numbers_.whole(1, 6)); });
+  text("cameras.<name>.eye", [this] { return place(numbers_.chance(0.9) ? 2.0 : 0.5); });
+  text("cameras.<name>.target", [this] { return place(0.4); });
+  text("images[].camera", [] { return std::string("main"); });
+  specials_["scene:images[].of"] = [this](Drawn& drawn) {
+    constexpr std::array kOf{"[sky_exposure]", "[vines, sky_exposure]", "[section, section, a]"};
+    drawn.text = numbers_.pick(kOf);
+    return true;
+  };
+  text("image.width", [this] { return fmt::format("{}", numbers_.whole(16, 64)); });
+  text("image.height", [this] { return fmt::format("{}", numbers_.whole(16, 48)); });
+  // Of growth that takes long a little is enough.
+  text("iterations", [this] {
+    return fmt::format("{}", values_.beyondUsual() ? numbers_.whole(0, 3) : numbers_.whole(0, 24));
+  });
+  specials_["rules:espalier"] = [this](Drawn& drawn) {
+    drawn.text = numbers_.chance(0.5) ? "rules" : "rules/1";
+    return true;
+  };
+}
+
+bool RandomFiles::wanted(const rules::Key& key, const std::string& path) {
+  if (key.required || key.kind == Kind::header) return true;
+  if (kAlways.contains(path)) return true;
+  if (path == "scene:meshes") return world_.meshes;
+  if (path == "scene:plants[].scatter" || path == "scene:meshes[].rotate")
+    return world_.meshes && numbers_.chance(0.2);
+  const bool holds_others = key.child || key.kind == Kind::rules || key.kind == Kind::regions;
+  return numbers_.chance(holds_others ? 0.5 : 0.35);
+}
+
+Drawn RandomFiles::table(const rules::Table& table, const std::string& path) {
+  Drawn map;
+  map.kind = Drawn::Kind::map;
+  for (const rules::Key& key : table.keys) {
+    if (!wanted(key, path + key.name)) continue;
+    Drawn drawn;
+    if (value(key, path + key.name, drawn))
+      map.entries.push_back(
+          {key.name, std::move(drawn), key.required || key.kind == Kind::header, path + key.name});
+  }
+  return map;
+}
+
+bool RandomFiles::value(const rules::Key& key, const std::string& path, Drawn& drawn) {
+  if (const auto special = specials_.find(path); special != specials_.end()) return special->second(drawn);
+  const rules::Key* const brief = rules::briefOf(key);
+  const auto one = [&](const std::string& at, Drawn& into) {
+    const bool brief_is_enough =
+        brief && std::none_of(key.child->keys.begin(), key.child->keys.end(),
+                              [&](const rules::Key& k) { return kAlways.contains(at + k.name); });
+    if (brief_is_enough && numbers_.chance(0.4)) return value(*brief, at + brief->name, into);
+    into = table(*key.child, at);
+    return true;
+  };
+  switch (key.kind) {
+    case Kind::section:
+      return one(path + ".", drawn);
+    case Kind::entries:
+    case Kind::named: {
+      drawn.kind = key.kind == Kind::named ? Drawn::Kind::map : Drawn::Kind::list;
+      constexpr std::array kNames{"main", "other", "\"third one\""};
+      const int most = key.most > 0 ? static_cast<int>(std::min<std::size_t>(key.most, 3)) : 3;
+      for (int i = 0, count = numbers_.whole(1, most); i < count; ++i) {
+        const std::string name = key.kind == Kind::named ? kNames[static_cast<std::size_t>(i)] : "";
+        Drawn entry;
+        if (one(path + (key.kind == Kind::named ? ".<name>." : "[]."), entry))
+          drawn.entries.push_back({name, std::move(entry)});
+      }
+      return true;
+    }
+    case Kind::base:
+      drawn.text = ruleFile();
+      return !drawn.text.empty();
+    case Kind::rules:
+      return rules(drawn);
+    case Kind::regions:
+      return regions(drawn);
+    default: {
+      const auto usual = kUsual.find(path.substr(path.find(':') + 1));
+      drawn.text = values_.text(key, usual == kUsual.end() ? key.limits : usual->second);
+      return !drawn.text.empty();
+    }
+  }
+}
+
+Drawn RandomFiles::ruleMap() {
+  ++depth_;
+  Drawn map = table(rules::ruleTable(), "rules:");
+  --depth_;
+  return map;
+}
+
+/// A rule set, in place or in a file.
+bool RandomFiles::rules(Drawn& drawn) {
+  constexpr int kDeepest = 3;
+  if (depth_ >= kDeepest) return false;
+  if (numbers_.chance(0.3)) {
+    drawn.text = ruleFile();
+    return !drawn.text.empty();
+  }
+  drawn = ruleMap();
+  // In place the header may be left out, and so it mostly is.
+  if (numbers_.chance(0.9)) std::erase_if(drawn.entries, [](const auto& e) { return e.key == "espalier"; });
+  return true;
+}
+
+bool RandomFiles::regions(Drawn& drawn) {
+  constexpr std::array kRegions{"floor", "wall",  "roof",         "block",
+                                "stone", "brick", rules::kOthers, "\"no such\""};
+  drawn.kind = Drawn::Kind::map;
+  std::set<std::string> seen;
+  for (int i = numbers_.whole(1, 3); i > 0; --i) {
+    const std::string region = numbers_.pick(kRegions);
+    if (!seen.insert(region).second) continue;
+    Drawn rule;
+    if (numbers_.chance(0.25)) {
+      rule.text = "forbid";
+    } else if (!rules(rule)) {
+      continue;
+    } else if (numbers_.chance(0.2)) {
+      Drawn whole;
+      whole.kind = Drawn::Kind::map;
+      whole.entries.push_back({"rules", std::move(rule), true});
+      rule = std::move(whole);
+    }
+    drawn.entries.push_back({region, std::move(rule)});
+  }
+  return true;
+}
+
+/// A new rule file, or one that was written before: none that is still being drawn, so that no circle closes.
+std::string RandomFiles::ruleFile() {
+  constexpr std::size_t kMostFiles = 6;
+  if (!files_.empty() && (files_.size() >= kMostFiles || numbers_.chance(0.4)))
+    return numbers_.pick(files_).name;
+  if (depth_ >= 2) return "";
+  File file;
+  file.root = ruleMap();
+  file.name = fmt::format("rules_{}.yaml", files_.size() + 1);
+  files_.push_back(std::move(file));
+  return files_.back().name;
+}
+
+/// Writes all files; takes out whatever is complained of, and writes them again. What is left to complain of.
+std::string RandomFiles::repaired() {
+  constexpr int kMostRounds = 60;
+  std::string left;
+  for (int round = 0; round < kMostRounds; ++round) {
+    for (File& file : files_) std::ofstream(folder_ / file.name) << write(file.root);
+    const auto problems = scenes::checkFile(folder_ / files_.back().name);
+    if (problems.empty()) return "";
+    left = scenes::format(problems);
+    bool changed = false;
+    // From the end, so that the lines before stay where they are.
+    for (auto problem = problems.rbegin(); problem != problems.rend() && !changed; ++problem) {
+      for (File& file : files_) {
+        if (problem->path == (folder_ / file.name).string()) changed = takeOut(file.root, problem->line);
+      }
+    }
+    if (!changed) break;
+  }
+  return left;
+}
+
+namespace {
+
+void gather(const Drawn& drawn, std::set<std::string>& keys) {
+  for (const DrawnEntry& entry : drawn.entries) {
+    if (!entry.path.empty()) keys.insert(entry.path);
+    gather(entry.value, keys);
+  }
+}
+
+}  // namespace
+
+WrittenScene RandomFiles::scene() {
+  File scene{"scene.yaml", table(scenes::sceneTable(), "scene:")};
+  files_.push_back(std::move(scene));
+  WrittenScene written;
+  written.refused = repaired();
+  written.file = folder_ / files_.back().name;
+  for (const File& file : files_) gather(file.root, written.keys);
+  return written;
+}
+
+}  // namespace espalier::fuzz

@@ -1,0 +1,73 @@
+#pragma once
+#include <array>
+#include <filesystem>
+#include <functional>
+#include <map>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "rules/language/key.h"
+#include "sim/base/vec.h"
+#include "tests/fuzz/draw_values.h"
+#include "tests/fuzz/drawn.h"
+#include "tests/support/numbers.h"
+
+/// Legal scene files and the rule and mesh files that they name, drawn from the registries: every key that
+/// stands there is drawn, with values from all of its range, in worlds of a few thousand voxels.
+namespace espalier::fuzz {
+
+/// A scene that was written, and by what it may be judged.
+struct WrittenScene {
+  std::filesystem::path file;
+  std::set<std::string> keys;  ///< paths of the keys in its files, after "rules:" or "scene:"
+  std::string refused;         ///< what the reader still had to say of it; empty: it is legal
+};
+
+class RandomFiles {
+ public:
+  /// Writes into a folder. Equal numbers give equal files.
+  RandomFiles(std::uint64_t seed, std::filesystem::path folder);
+
+  /// Draws a scene and its files and writes them; what the reader's checks complain of is taken out again,
+  /// key by key.
+  WrittenScene scene();
+
+ private:
+  struct World {
+    double voxel_m = 0.04;
+    sim::Voxel size{1};
+    sim::Vec3 middle_m{0.0};
+    bool meshes = false, bounds = true;
+    sim::Vec3 extent_m() const { return voxel_m * sim::Vec3(size); }
+  };
+  struct File {
+    std::string name;
+    Drawn root;
+  };
+  using Special = std::function<bool(Drawn&)>;  ///< false: leave the key out
+
+  static World drawWorld(tests::Numbers& numbers);
+  std::string writeMesh();
+  void knowSpecials();
+  Drawn table(const rules::Table& table, const std::string& path);
+  bool value(const rules::Key& key, const std::string& path, Drawn& drawn);
+  bool wanted(const rules::Key& key, const std::string& path);
+  bool rules(Drawn& drawn);
+  Drawn ruleMap();
+  bool regions(Drawn& drawn);
+  std::string ruleFile();
+  std::string place(double beyond);
+  std::string repaired();
+
+  tests::Numbers numbers_;
+  std::filesystem::path folder_;
+  World world_;
+  ValueDrawer values_;
+  std::map<std::string, Special>
+      specials_;             ///< keys that must agree with the world or with each other, by path
+  std::vector<File> files_;  ///< the scene last
+  int depth_ = 0;            ///< of rule sets in each other
+};
+
+}  // namespace espalier::fuzz

@@ -1,0 +1,286 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cctype>
+#include <filesystem>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "scenes/job/expose.h"
+#include "scenes/job/run.h"
+#include "scenes/read/read_scene.h"
+#include "scenes/read/read_table.h"
+#include "scenes/read/registry.h"
+#include "sim/base/error.h"
+#include "tests/support/scratch.h"
+
+/// Every key of scene files changes something that comes out: a new one fails here until somebody says below
+/// what. (Those of rule files: tests/rules/growth/every_key_test.cpp.)
+namespace espalier::scenes {
+namespace {
+
+constexpr const char* kMesh = R"(mtllib paint.mtl
+g floor
+usemtl stone
+v -1 0 -1
+v 1 0 -1
+v 1 0 1
+v -1 0 1
+f 1 4 3 2
+g wall
+usemtl brick
+v -1 0 0
+v 1 0 0
+v 1 1 0
+v -1 1 0
+f 5 6 7 8
+g block
+usemtl brick
+v 0.3 0.1 0.3
+v 0.8 0.1 0.3
+v 0.8 0.1 0.8
+v 0.3 0.1 0.8
+v 0.3 0.6 0.3
+v 0.8 0.6 0.3
+v 0.8 0.6 0.8
+v 0.3 0.6 0.8
+f 9 10 11 12
+f 13 16 15 14
+f 9 13 14 10
+f 10 14 15 11
+f 11 15 16 12
+f 12 16 13 9
+)";
+
+constexpr const char* kScene = R"(espalier: scene
+name: plot
+meshes:
+  - {file: plot.obj, name: plot, regions: group}
+world: {voxel: 10 cm, bounds: {min: [-1.1, -0.1, -1.1], max: [1.1, 1.3, 1.1]}}
+sky: {directions: 24}
+sun: {tilt: 20, samples: 12}
+plants:
+  - {name: vine, rules: vine.yaml, seeds: [[-0.4, 0.25, 0.25], {at: [-0.7, 0.25, 0.25], key: one}]}
+iterations: 6
+seed: 5
+image: {width: 40, height: 30}
+cameras:
+  main: {eye: [2.2, 1.6, 3.2], target: [0, 0.5, 0], fov: 40}
+  other: {eye: [-2.2, 1.6, 3.2], target: [0, 0.5, 0]}
+images:
+  - {kind: vines, name: a, camera: main}
+)";
+
+struct Edit {
+  std::string from, to;
+};
+
+/// A key, the output that changes with it, edits that make a scene in which it stands or could stand, and one
+/// more that sets it or gives it another value. Outputs are the files of a run, after "expose: " those of an
+/// exposure; "state_hash" of what grew; "error" where it is whether something comes out at all.
+struct Change {
+  std::string output;
+  std::vector<Edit> before;
+  Edit change;
+};
+
+constexpr const char* kArc = "sun: {tilt: 20, samples: 12}";
+constexpr const char* kBounds = "bounds: {min: [-1.1, -0.1, -1.1], max: [1.1, 1.3, 1.1]}";
+constexpr const char* kImage = "{kind: vines, name: a, camera: main}";
+
+Edit realSun(const std::string& more) {
+  return {kArc, "sun: {place: {latitude: 47, longitude: 8, utc_offset: 1}, step: 60, " + more + "}"};
+}
+
+const std::map<std::string, Change>& changes() {
+  const std::string sun = "expose: exposure.csv";
+  const Edit shadows{kImage, "{kind: shadow_matte, name: a}"};
+  const Edit section{kImage, "{kind: section, name: a, axis: y, at: 0.5}"};
+  const Edit sheet{kImage,
+                   "{kind: surface_colour, name: s, caption: one}\n  - {kind: sky_exposure, name: t}\n"
+                   "  - {kind: contact_sheet, name: a, of: [s]}"};
+  const Edit day = realSun("date: 06-21");
+  static const std::map<std::string, Change> all = {
+      {"espalier", {"error", {}, {"espalier: scene", "espalier: rules"}}},
+      {"name", {"report.json", {}, {"name: plot\nmeshes", "name: else\nmeshes"}}},
+      {"meshes[].file", {"world.vdb", {}, {"plot.obj", "flat.obj"}}},
+      {"meshes[].name",
+       {"report.json",
+        {{"{file: plot.obj", "{solid: true, file: plot.obj"}},
+        {"name: plot,", "name: wall,"}}},
+      {"meshes[].regions", {sun, {}, {"regions: group", "regions: material"}}},
+      {"meshes[].solid", {"world.vdb", {}, {"regions: group", "regions: group, solid: true"}}},
+      {"meshes[].optional",
+       {"error", {{"plot.obj", "none.obj"}}, {"regions: group", "regions: group, optional: true"}}},
+      {"meshes[].scale", {"world.vdb", {}, {"regions: group", "regions: group, scale: 0.7"}}},
+      {"meshes[].rotate", {"world.vdb", {}, {"regions: group", "regions: group, rotate: [0, 30, 0]"}}},
+      {"meshes[].translate",
+       {"world.vdb", {}, {"regions: group", "regions: group, translate: [0, 10 cm, 0]"}}},
+      {"meshes[].colour", {"a.png", {}, {"regions: group", "regions: group, colour: \"#ff0000\""}}},
+      {"world.voxel", {"world.vdb", {}, {"voxel: 10 cm", "voxel: 9 cm"}}},
+      {"world.resolution",
+       {"world.vdb", {{"voxel: 10 cm", "resolution: 22"}}, {"resolution: 22", "resolution: 25"}}},
+      {"world.margin", {"world.vdb", {{kBounds, "margin: 30 cm"}}, {"margin: 30 cm", "margin: 40 cm"}}},
+      {"world.bounds.min", {"world.vdb", {}, {"min: [-1.1", "min: [-1.3"}}},
+      {"world.bounds.max", {"world.vdb", {}, {"max: [1.1", "max: [1.3"}}},
+      {"world.layers", {"world.vdb", {}, {"voxel: 10 cm", "voxel: 10 cm, layers: 9"}}},
+      {"sky.weighting", {sun, {}, {"directions: 24", "directions: 24, weighting: cie_overcast"}}},
+      {"sky.accuracy", {sun, {{"directions: 24", "accuracy: 0.2"}}, {"accuracy: 0.2", "accuracy: 0.1"}}},
+      {"sky.directions", {sun, {}, {"directions: 24", "directions: 40"}}},
+      {"sky.sampling", {sun, {{"directions: 24", ""}}, {"sky: {}", "sky: {sampling: random}"}}},
+      {"sky.rays", {sun, {{"directions: 24", "sampling: random, rays: 20"}}, {"rays: 20", "rays: 30"}}},
+      {"sun.tilt", {sun, {}, {"tilt: 20", "tilt: 50"}}},
+      {"sun.toward", {sun, {}, {"tilt: 20", "tilt: 20, toward: 90"}}},
+      {"sun.samples", {sun, {}, {"samples: 12", "samples: 5"}}},
+      {"sun.place.latitude", {sun, {day}, {"latitude: 47", "latitude: 10"}}},
+      {"sun.place.longitude",
+       {sun, {realSun("date: 06-21, hours: {from: 6, to: 11}")}, {"longitude: 8", "longitude: 60"}}},
+      {"sun.place.utc_offset",
+       {sun, {realSun("date: 06-21, hours: {from: 6, to: 11}")}, {"utc_offset: 1", "utc_offset: 4"}}},
+      {"sun.date", {sun, {day}, {"date: 06-21", "date: 12-21"}}},
+      {"sun.dates.from",
+       {sun, {realSun("dates: {from: 06-01, to: 12-21}, accuracy: 9")}, {"from: 06-01", "from: 10-01"}}},
+      {"sun.dates.to",
+       {sun, {realSun("dates: {from: 06-01, to: 06-21}, accuracy: 9")}, {"to: 06-21", "to: 12-21"}}},
+      {"sun.hours.from", {sun, {realSun("date: 06-21, hours: {from: 6}")}, {"from: 6", "from: 13"}}},
+      {"sun.hours.to", {sun, {realSun("date: 06-21, hours: {to: 18}")}, {"to: 18", "to: 11"}}},
+      {"sun.step", {sun, {day}, {"step: 60", "step: 240"}}},
+      {"sun.weighting", {sun, {day}, {"step: 60", "step: 60, weighting: sine"}}},
+      {"sun.north", {sun, {day}, {"step: 60", "step: 60, north: 90"}}},
+      {"sun.accuracy", {sun, {}, {"tilt: 20", "tilt: 20, accuracy: 10"}}},
+      {"sun.shadow_hour", {"a.png", {shadows}, {"tilt: 20", "tilt: 20, shadow_hour: 8"}}},
+      {"exposure.where", {"expose: exposure.vdb", {}, {"seed: 5", "seed: 5\nexposure: {where: band}"}}},
+      {"exposure.band",
+       {"expose: exposure.vdb",
+        {{"seed: 5", "seed: 5\nexposure: {where: band, band: 1}"}},
+        {"band: 1", "band: 3"}}},
+      {"plants[].rules", {"state_hash", {}, {"rules: vine.yaml", "rules: {bias: {up: 1}}"}}},
+      {"plants[].name", {"report.json", {}, {"name: vine,", "name: ivy,"}}},
+      {"plants[].seeds[].at", {"state_hash", {}, {"[[-0.4,", "[[-0.2,"}}},
+      {"plants[].seeds[].key", {"state_hash", {}, {"key: one", "key: two"}}},
+      {"plants[].scatter.region",
+       {"state_hash",
+        {{"rules: vine.yaml", "rules: vine.yaml, scatter: {region: floor, count: 2}"}},
+        {"region: floor", "region: block"}}},
+      {"plants[].scatter.count",
+       {"state_hash",
+        {{"rules: vine.yaml", "rules: vine.yaml, scatter: {region: floor, count: 2}"}},
+        {"count: 2", "count: 3"}}},
+      {"iterations", {"state_hash", {}, {"iterations: 6", "iterations: 4"}}},
+      {"seed", {"state_hash", {}, {"seed: 5", "seed: 6"}}},
+      {"image.width", {"a.png", {}, {"width: 40", "width: 44"}}},
+      {"image.height", {"a.png", {}, {"height: 30", "height: 34"}}},
+      {"cameras.<name>.eye", {"a.png", {}, {"eye: [2.2", "eye: [1.2"}}},
+      {"cameras.<name>.target", {"a.png", {}, {"target: [0, 0.5, 0], fov", "target: [0.5, 0.5, 0], fov"}}},
+      {"cameras.<name>.fov", {"a.png", {}, {"fov: 40", "fov: 60"}}},
+      {"images[].kind", {"a.png", {}, {"kind: vines", "kind: first_pass"}}},
+      {"images[].name", {"report.json", {}, {"name: a", "name: b"}}},
+      {"images[].camera", {"a.png", {}, {"camera: main", "camera: other"}}},
+      {"images[].caption",
+       {"a.png",
+        {{kImage, "{kind: surface_colour, name: a, caption: one}"}},
+        {"caption: one", "caption: two"}}},
+      {"images[].letter", {"a.png", {sheet}, {"caption: one", "caption: one, letter: Z"}}},
+      {"images[].axis", {"a.png", {section}, {"axis: y", "axis: x"}}},
+      {"images[].at", {"a.png", {section}, {"at: 0.5", "at: 0.1"}}},
+      {"images[].of", {"a.png", {sheet}, {"of: [s]", "of: [t, s]"}}},
+  };
+  return all;
+}
+
+std::string edited(std::string text, const Edit& edit) {
+  const auto at = text.find(edit.from);
+  EXPECT_NE(at, std::string::npos) << edit.from << " is not in\n" << text;
+  return at == std::string::npos ? text : text.replace(at, edit.from.size(), edit.to);
+}
+
+class EverySceneKey : public testing::TestWithParam<std::string> {
+ protected:
+  void SetUp() override {
+    scratch_.write("plot.obj", kMesh);
+    scratch_.write("flat.obj", std::string(kMesh).substr(0, std::string(kMesh).find("g block")));
+    scratch_.write("paint.mtl", "newmtl stone\nKd 0.5 0.5 0.5\nnewmtl brick\nKd 0.6 0.2 0.1\n");
+    scratch_.write(
+        "vine.yaml",
+        "espalier: rules\nrandom_tree: {trials: {min: 4, max: 20}}\nrequire: {exposure: {min: 0.1}}\n"
+        "elements: [{polygons: [[[0, 0, 0], [1, 0, 0], [0, 1, 0]]]}]\n");
+  }
+
+  /// The output of a run of a scene, or why there is none. What a file says of the files that it was made
+  /// from, and a report of the run itself, are left out: they differ with every edit.
+  std::string outputOf(const std::string& text, const std::string& output) {
+    auto scene = readScene(scratch_.write("scene.yaml", text));
+    if (!scene) return "error: " + format(scene.problems());
+    scene->read_files.clear();
+    const std::string exposed = "expose: ";
+    const bool expose = output.starts_with(exposed);
+    const auto folder = scratch_.path("out");
+    std::filesystem::remove_all(folder);
+    RunOptions options;
+    options.folder = folder;
+    try {
+      if (expose) {
+        options.pictures = false;
+        exposeScene(*scene, options);
+      } else {
+        runScene(*scene, options, {.keep = false});
+      }
+    } catch (const MeshMissing&) {
+      return "skipped";
+    } catch (const sim::InputError& error) {
+      return std::string("error: ") + error.what();
+    }
+    if (output == "error") return "none";
+    auto report = nlohmann::json::parse(tests::fileText(folder / "report.json"));
+    if (output == "state_hash") return report["growth"]["state_hash"];
+    if (output != "report.json") return tests::fileText(folder / output.substr(expose ? exposed.size() : 0));
+    report.erase("run");
+    report.erase("inputs");
+    return report.dump(1);
+  }
+
+  tests::Scratch scratch_;
+};
+
+TEST_P(EverySceneKey, ChangesWhatComesOut) {
+  const auto at = changes().find(GetParam());
+  ASSERT_NE(at, changes().end()) << GetParam() << " is new: say what it changes";
+  const Change& change = at->second;
+  std::string text = kScene;
+  for (const Edit& edit : change.before) text = edited(text, edit);
+  const std::string without = outputOf(text, change.output),
+                    with = outputOf(edited(text, change.change), change.output);
+  EXPECT_NE(without, with) << GetParam() << " changes nothing in " << change.output;
+  EXPECT_EQ(without, outputOf(text, change.output)) << "which changes by itself";
+  if (change.output != "error") {
+    EXPECT_FALSE(without.empty() || without.starts_with("error")) << without;
+    EXPECT_FALSE(with.empty() || with.starts_with("error")) << with;
+  }
+}
+
+std::vector<std::string> keys() {
+  std::vector<std::string> paths;
+  forEachKey(sceneTable(), [&](const std::string& path, const rules::Key& key) {
+    if (!key.child) paths.push_back(path);
+  });
+  return paths;
+}
+
+TEST(SceneKeys, OfWhichSomethingIsKnownAreKeys) {
+  const auto paths = keys();
+  const std::set<std::string> known(paths.begin(), paths.end());
+  for (const auto& [path, change] : changes()) EXPECT_TRUE(known.contains(path)) << path;
+}
+
+INSTANTIATE_TEST_SUITE_P(Scene, EverySceneKey, testing::ValuesIn(keys()), [](const auto& key) {
+  std::string name = key.param;
+  std::replace_if(
+      name.begin(), name.end(), [](char c) { return !std::isalnum(static_cast<unsigned char>(c)); }, '_');
+  return name;
+});
+
+}  // namespace
+}  // namespace espalier::scenes

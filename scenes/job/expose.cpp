@@ -79,9 +79,11 @@ ExposeResult exposeScene(const Scene& scene, const RunOptions& options) {
     return sim::lightOf(site.world, site.sky, site.sun, wanted);
   });
   if (light.surfaces.empty() && !space) {
-    throw sim::InputError(fmt::format(
-        "{}: the world has no surface that can be lit; expected a mesh, or exposure: {{where: everything}}",
-        scene.file.string()));
+    throw sim::InputError(
+        fmt::format("{}: the world has no surface that can be lit; expected a mesh that has a side and free "
+                    "space before it "
+                    "within world.bounds, or exposure: {{where: everything}}",
+                    scene.file.string()));
   }
   report.light = light.about;
   report.exposure = {light.surfaces.size(), light.gaps->count(), space ? space->count() : 0};

@@ -1,7 +1,7 @@
 #pragma once
 #include <filesystem>
-#include <vector>
 
+#include "scenes/import/mesh_import.h"
 #include "scenes/scene.h"
 #include "sim/tile/mesh.h"
 
@@ -14,8 +14,7 @@ void requireMeshFormat(const std::filesystem::path& file);
 /// Reads a mesh file through Assimp, in this process. Only for a child process: Assimp can crash or hang on
 /// damaged files; importMesh is the safe way. Degenerate triangles are still there.
 /// Throws sim::InputError, without the file's name.
-/// `files`: what was read, called by its path from the mesh's folder.
-sim::Mesh readWithAssimp(const std::filesystem::path& file, RegionsFrom regions_from,
-                         std::vector<sim::InputFile>& files);
+/// `sources`: what it was read from; warnings do not name the file either.
+sim::Mesh readWithAssimp(const std::filesystem::path& file, RegionsFrom regions_from, MeshSources& sources);
 
 }  // namespace espalier::scenes

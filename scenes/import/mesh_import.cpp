@@ -19,7 +19,6 @@
 namespace espalier::scenes {
 namespace {
 
-constexpr std::uintmax_t kMostBytes = std::uintmax_t{256} << 20;
 constexpr double kThinnest = 1e-7;
 
 /// The size of a regular file; throws for anything else.
@@ -33,9 +32,9 @@ std::uintmax_t sizeOf(const std::filesystem::path& file) {
     throw sim::InputError(fmt::format("cannot open the mesh: {}", std::strerror(errno)));
   const auto bytes = static_cast<std::uintmax_t>(about.st_size);
   if (bytes == 0) throw sim::InputError("the file is empty");
-  if (bytes > kMostBytes) {
-    throw sim::InputError(
-        fmt::format("the file has {} MB; a mesh file may have at most {} MB", bytes >> 20, kMostBytes >> 20));
+  if (bytes > kMostMeshBytes) {
+    throw sim::InputError(fmt::format("the file has {} MB; a mesh file may have at most {} MB", bytes >> 20,
+                                      kMostMeshBytes >> 20));
   }
   return bytes;
 }
@@ -44,14 +43,14 @@ std::uintmax_t sizeOf(const std::filesystem::path& file) {
 ChildLimits limitsFor(std::uintmax_t bytes) {
   ChildLimits limits;
   limits.cpu = std::chrono::seconds(10 + static_cast<long>(bytes >> 22));
-  limits.wall = 3 * limits.cpu;
+  limits.wall = 20 * limits.cpu;  // the reader waits for nothing but a processor
   return limits;
 }
 
 sim::Mesh readInChild(const std::filesystem::path& file, RegionsFrom regions_from, const ChildLimits& limits,
-                      std::vector<sim::InputFile>* files) {
+                      MeshSources& sources) {
   const auto work = [&] {
-    std::vector<sim::InputFile> read;
+    MeshSources read;
     const sim::Mesh mesh = readWithAssimp(file, regions_from, read);
     return packMesh(mesh, read);
   };
@@ -74,7 +73,7 @@ sim::Mesh readInChild(const std::filesystem::path& file, RegionsFrom regions_fro
                       limits.memory_bytes >> 20));
   }
   try {
-    return unpackMesh(result.bytes, files);
+    return unpackMesh(result.bytes, sources);
   } catch (const std::exception& error) {
     throw sim::InputError(fmt::format("the file is damaged: it confused the mesh reader ({})", error.what()));
   }
@@ -165,11 +164,18 @@ glm::dmat3 turnAbout(int axis, double degrees) {
 }  // namespace
 
 sim::Mesh importMesh(const std::filesystem::path& file, RegionsFrom regions_from,
-                     std::optional<ChildLimits> limits, std::vector<sim::InputFile>* files) {
+                     std::optional<ChildLimits> limits, MeshSources* sources) {
   try {
     const std::uintmax_t bytes = sizeOf(file);
     requireMeshFormat(file);
-    return checked(readInChild(file, regions_from, limits.value_or(limitsFor(bytes)), files));
+    MeshSources read;
+    sim::Mesh mesh = checked(readInChild(file, regions_from, limits.value_or(limitsFor(bytes)), read));
+    for (Problem& warning : read.warnings) {
+      warning.path = file.string();
+      warning.text = cleanText(warning.text);
+    }
+    if (sources != nullptr) *sources = std::move(read);
+    return mesh;
   } catch (const sim::InputError& error) {
     throw sim::InputError(fmt::format("{}: {}", file.string(), error.what()));
   }

@@ -8,6 +8,7 @@
 #include "render/files/vdb.h"
 #include "scenes/accuracy/certificate.h"
 #include "scenes/job/stages.h"
+#include "scenes/job/warnings.h"
 #include "scenes/prepare/in_scene.h"
 #include "scenes/prepare/site.h"
 #include "scenes/show/expose_pictures.h"
@@ -66,6 +67,7 @@ ExposeResult exposeScene(const Scene& scene, const RunOptions& options) {
     return made;
   });
   describeWorld(report, scene, site);
+  warn(site.warnings, scene.file, options, report);
 
   std::shared_ptr<const sim::VoxelSet> space;
   const sim::Lighting light = stages.run("lighting", [&] {

@@ -32,7 +32,8 @@ void addFiles(const SceneMesh& spec, const std::vector<sim::InputFile>& read,
   }
 }
 
-std::vector<sim::TiledMesh> readMeshes(const Scene& scene, std::vector<sim::InputFile>& files) {
+std::vector<sim::TiledMesh> readMeshes(const Scene& scene, std::vector<sim::InputFile>& files,
+                                       std::vector<Problem>& warnings) {
   for (const SceneMesh& spec : scene.meshes) {
     if (spec.optional && !std::filesystem::exists(spec.file)) {
       throw MeshMissing(fmt::format("{}: the mesh {} is not there", scene.file.string(), spec.file.string()));
@@ -40,10 +41,14 @@ std::vector<sim::TiledMesh> readMeshes(const Scene& scene, std::vector<sim::Inpu
   }
   std::vector<sim::TiledMesh> meshes;
   for (const SceneMesh& spec : scene.meshes) {
-    std::vector<sim::InputFile> read;
+    MeshSources read;
     sim::Mesh mesh = placeMesh(importMesh(spec.file, spec.regions_from, std::nullopt, &read), spec.scale,
                                spec.rotate_deg, spec.translate_m);
-    addFiles(spec, read, files);
+    addFiles(spec, read.files, files);
+    for (Problem& warning : read.warnings) {  // of materials, which nobody sees under a colour of the scene's
+      if (!spec.colour && std::find(warnings.begin(), warnings.end(), warning) == warnings.end())
+        warnings.push_back(std::move(warning));
+    }
     mesh.name = spec.name;
     if (spec.colour) {
       for (sim::Material& material : mesh.materials) material.colour = *spec.colour;
@@ -100,7 +105,8 @@ sim::World worldFor(const Scene& scene, const std::vector<sim::TiledMesh>& meshe
 
 Site makeSite(const Scene& scene) {
   std::vector<sim::InputFile> files;
-  std::vector<sim::TiledMesh> meshes = readMeshes(scene, files);
+  std::vector<Problem> warnings;
+  std::vector<sim::TiledMesh> meshes = readMeshes(scene, files, warnings);
   return inScene(scene, [&]() -> Site {
     std::vector<sim::FillReport> fills;
     std::optional<sim::World> world;
@@ -117,7 +123,8 @@ Site makeSite(const Scene& scene) {
             std::move(sky),
             randomSky(scene.sky, scene.seed),
             std::move(sun),
-            std::move(files)};
+            std::move(files),
+            std::move(warnings)};
   });
 }
 

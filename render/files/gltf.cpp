@@ -155,11 +155,15 @@ int GlbWriter::node(const std::string& name, int mesh) {
 void GlbWriter::addMesh(const sim::Mesh& mesh) {
   tinygltf::Mesh result;
   result.name = validUtf8(mesh.name);
+  std::vector<std::vector<std::size_t>> triangles_of(mesh.materials.size());
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    if (mesh.material[t] < triangles_of.size()) triangles_of[mesh.material[t]].push_back(t);
+  }
+  std::vector<std::uint32_t> number(mesh.vertices_m.size(), kUnused);
   for (std::size_t m = 0; m < mesh.materials.size(); ++m) {
-    std::vector<std::uint32_t> number(mesh.vertices_m.size(), kUnused), indices;
+    std::vector<std::uint32_t> indices;
     std::vector<sim::Vec3f> vertices;
-    for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
-      if (mesh.material[t] != m) continue;
+    for (const std::size_t t : triangles_of[m]) {
       for (const std::uint32_t corner : mesh.triangles[t]) {
         if (corner >= number.size()) {
           throw sim::InputError(fmt::format("mesh '{}': triangle {} uses vertex {} of {}", mesh.name, t,
@@ -171,6 +175,9 @@ void GlbWriter::addMesh(const sim::Mesh& mesh) {
         }
         indices.push_back(number[corner]);
       }
+    }
+    for (const std::size_t t : triangles_of[m]) {
+      for (const std::uint32_t corner : mesh.triangles[t]) number[corner] = kUnused;
     }
     if (indices.empty()) continue;
     tinygltf::Primitive primitive;

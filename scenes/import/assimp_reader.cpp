@@ -9,14 +9,17 @@
 #include <assimp/Importer.hpp>
 #include <cctype>
 #include <cmath>
+#include <functional>
 #include <new>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "scenes/import/assimp_scene.h"
-#include "scenes/import/mesh_checks.h"
+#include "scenes/import/gltf_check.h"
 #include "scenes/import/mesh_folder_io.h"
+#include "scenes/import/obj_reader.h"
+#include "scenes/import/ply_check.h"
 #include "sim/base/error.h"
 
 namespace espalier::scenes {
@@ -38,11 +41,6 @@ Format formatOf(const std::filesystem::path& file) {
       fmt::format("'{}' is not a mesh format that can be read: use .obj, .gltf, .glb, .ply or .stl", ending));
 }
 
-MeshColours coloursOf(Format format) {
-  if (format == Format::gltf) return MeshColours::linear;
-  return format == Format::obj ? MeshColours::display : MeshColours::none;
-}
-
 /// Leaves one reader: hostile text must not be tried as any of the fifty other formats that Assimp knows.
 void keepOnlyReaderOf(Assimp::Importer& importer, Format format) {
   static constexpr std::array<std::string_view, 4> kNames{"Wavefront Object Importer", "glTF2 Importer",
@@ -57,25 +55,6 @@ void keepOnlyReaderOf(Assimp::Importer& importer, Format format) {
   if (importer.GetImporterCount() != 1) {
     throw sim::InputError("this build of Assimp has no reader for this format");
   }
-}
-
-struct FaceCounts {
-  std::uint64_t vertices = 0;
-  std::uint64_t faces = 0;
-  std::uint64_t triangles = 0;  ///< that the faces give
-};
-
-FaceCounts countFaces(const std::vector<MeshInstance>& instances) {
-  FaceCounts counts;
-  for (const auto& instance : instances) {
-    counts.vertices += instance.mesh->mNumVertices;
-    for (unsigned f = 0; f < instance.mesh->mNumFaces; ++f) {
-      const unsigned corners = instance.mesh->mFaces[f].mNumIndices;
-      ++counts.faces;
-      counts.triangles += corners < 3 ? 0 : corners - 2;
-    }
-  }
-  return counts;
 }
 
 /// What building the mesh relies on.
@@ -102,26 +81,11 @@ void requireSound(const aiMesh& mesh) {
   }
 }
 
-void requireDeclared(const DeclaredCounts& declared, const FaceCounts& read, Format format) {
-  const auto require = [](std::uint64_t promised, std::uint64_t got, const char* what) {
-    if (promised == got) return;
-    throw sim::InputError(fmt::format(
-        "the file promises {} {} and {} could be read: it is cut, or asks for vertices that are not there",
-        promised, what, got));
-  };
-  require(declared.vertices.value_or(read.vertices), read.vertices, "vertices");
-  const auto faces = format == Format::gltf ? read.triangles : read.faces;
-  require(declared.faces.value_or(faces), faces, format == Format::gltf ? "triangles" : "faces");
-}
-
-/// Assimp 5.2.5 puts the faces of an object that is taken up again (`o a`, `o b`, `o a`) into the object
-/// before, and cuts an object's name at its first space. With groups it does neither.
-void objectsAsGroups(std::string& obj) {
-  bool line_begins = true;
-  for (std::size_t at = 0; at + 1 < obj.size(); ++at) {
-    if (line_begins && obj[at] == 'o' && (obj[at + 1] == ' ' || obj[at + 1] == '\t')) obj[at] = 'g';
-    line_begins = obj[at] == '\n' || obj[at] == '\r';
-  }
+void requireAll(std::uint64_t promised, std::uint64_t read, const char* what) {
+  if (promised == read) return;
+  throw sim::InputError(fmt::format(
+      "the file promises {} {} and {} could be read: it is cut, or asks for vertices that are not there",
+      promised, what, read));
 }
 
 [[noreturn]] void failWith(const char* assimps_words) {
@@ -132,42 +96,101 @@ void objectsAsGroups(std::string& obj) {
 
 }  // namespace
 
+void requireSound(const aiScene& scene) {
+  for (unsigned m = 0; m < scene.mNumMeshes; ++m) requireSound(*scene.mMeshes[m]);
+}
+
+namespace {
+
+/// Has Assimp read a file that the handler serves. By its name alone, so that all that the file asks for
+/// comes to the handler as a name in its folder.
+const aiScene& readScene(Assimp::Importer& importer, const MeshFolderIo& io, const std::string& name) {
+  const aiScene* scene = importer.ReadFile(name, 0);
+  if (!io.refused().empty()) {
+    throw sim::InputError(fmt::format(
+        "it names the file '{}', which is not there as a regular file in its folder", io.refused().front()));
+  }
+  if (scene == nullptr || scene->mRootNode == nullptr) failWith(importer.GetErrorString());
+  requireSound(*scene);
+  return *scene;
+}
+
+using ReadScene = std::function<const aiScene&(const std::string& name)>;
+
+sim::Mesh readGltf(MeshFolderIo& io, const std::string& name, RegionsFrom regions_from,
+                   const std::string& stem, const ReadScene& read_scene) {
+  constexpr const char* kShown = "checked.gltf";
+  const std::string* const file = io.read(name);
+  if (file == nullptr) throw sim::InputError("cannot be read");
+  const gltf::Checked checked = gltf::check(*file, [&](const std::string& part) { return io.read(part); });
+  io.show(kShown, checked.json);
+  for (std::size_t i = 0; i < checked.buffers.count(); ++i)
+    io.show(gltf::bufferName(i), checked.buffers.of(i));
+  const aiScene& scene = read_scene(kShown);
+  const auto instances = instancesOf(scene);
+  std::uint64_t triangles = 0;
+  for (const MeshInstance& instance : instances) {
+    for (unsigned f = 0; f < instance.mesh->mNumFaces; ++f)
+      triangles += std::max(instance.mesh->mFaces[f].mNumIndices, 2U) - 2;
+  }
+  requireAll(checked.triangles, triangles, "triangles");
+  return meshOf(instances, materialsOf(scene, stem, MeshColours::linear), regions_from, stem);
+}
+
+sim::Mesh readPly(const std::filesystem::path& file, RegionsFrom regions_from, const std::string& stem,
+                  const ReadScene& read_scene) {
+  const PlyCounts declared = checkPly(file);
+  const aiScene& scene = read_scene(file.filename().string());
+  const auto instances = instancesOf(scene);
+  std::uint64_t vertices = 0, faces = 0;
+  for (const MeshInstance& instance : instances) {
+    vertices += instance.mesh->mNumVertices;
+    faces += instance.mesh->mNumFaces;
+  }
+  requireAll(declared.vertices, vertices, "vertices");
+  requireAll(declared.faces, faces, "faces");
+  return meshOf(instances, materialsOf(scene, stem, MeshColours::none), regions_from, stem);
+}
+
+sim::Mesh readStl(const std::filesystem::path& file, RegionsFrom regions_from, const std::string& stem,
+                  const ReadScene& read_scene) {
+  const aiScene& scene = read_scene(file.filename().string());
+  return meshOf(instancesOf(scene), materialsOf(scene, stem, MeshColours::none), regions_from, stem);
+}
+
+}  // namespace
+
 void requireMeshFormat(const std::filesystem::path& file) {
   formatOf(file);
 }
 
-sim::Mesh meshFrom(const aiScene& scene, const std::filesystem::path& file, const DeclaredCounts& declared,
-                   RegionsFrom regions_from) {
+sim::Mesh readWithAssimp(const std::filesystem::path& file, RegionsFrom regions_from, MeshSources& sources) {
   const Format format = formatOf(file);
-  for (unsigned m = 0; m < scene.mNumMeshes; ++m) requireSound(*scene.mMeshes[m]);
-  const auto instances = instancesOf(scene);
-  requireDeclared(declared, countFaces(instances), format);
-  return meshOf(scene, instances, regions_from, file.stem().string(), coloursOf(format));
-}
-
-sim::Mesh readWithAssimp(const std::filesystem::path& file, RegionsFrom regions_from,
-                         std::vector<sim::InputFile>& files) {
-  const Format format = formatOf(file);
-  DeclaredCounts declared;
-  if (format == Format::ply) declared = checkPly(file);
-  if (format == Format::gltf) declared = checkGltf(file);
-
+  const auto real = std::filesystem::canonical(file);
+  const std::string name = real.filename().string(), stem = file.stem().string();
   Assimp::Importer importer;
   keepOnlyReaderOf(importer, format);
-  const auto real = std::filesystem::canonical(file);
-  auto* io = new MeshFolderIo(real, format == Format::obj ? objectsAsGroups : nullptr);
+  auto* io = new MeshFolderIo(real);
   importer.SetIOHandler(io);  // and owns it
-  // By its name alone, so that all that the file asks for comes to the handler as a name in its folder.
-  const aiScene* scene = importer.ReadFile(real.filename().string(), 0);
-  if (!io->refused().empty()) {
-    throw sim::InputError(
-        fmt::format("it names the file '{}', which is not there as a regular file in its folder; put it "
-                    "there or remove its name",
-                    io->refused().front()));
-  }
-  if (scene == nullptr || scene->mRootNode == nullptr) failWith(importer.GetErrorString());
-  files = io->files();
-  return meshFrom(*scene, file, declared, regions_from);
+  const ReadScene read_scene = [&](const std::string& shown) -> const aiScene& {
+    return readScene(importer, *io, shown);
+  };
+  const auto read = [&] {
+    switch (format) {
+      case Format::obj:
+        return readObj(*io, name, regions_from, stem, read_scene, sources.warnings);
+      case Format::gltf:
+        return readGltf(*io, name, regions_from, stem, read_scene);
+      case Format::ply:
+        return readPly(real, regions_from, stem, read_scene);
+      case Format::stl:
+        break;
+    }
+    return readStl(real, regions_from, stem, read_scene);
+  };
+  sim::Mesh mesh = read();
+  sources.files = io->files();
+  return mesh;
 }
 
 }  // namespace espalier::scenes

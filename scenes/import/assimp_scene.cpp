@@ -7,6 +7,7 @@
 #include <array>
 #include <cmath>
 #include <map>
+#include <optional>
 #include <string_view>
 
 #include "scenes/clean_text.h"
@@ -77,23 +78,28 @@ class MeshBuilder {
 
   void add(const MeshInstance& instance, const std::string& region_name, const sim::Material& material) {
     const auto& from = *instance.mesh;
-    const auto base = static_cast<std::uint32_t>(mesh_.vertices_m.size());
-    for (unsigned v = 0; v < from.mNumVertices; ++v) {
+    const auto base = static_cast<std::uint32_t>(mesh_.vertices_m.size()) - instance.first_vertex;
+    for (unsigned v = instance.first_vertex; v < instance.end_vertex; ++v) {
       const auto& p = from.mVertices[v];
       mesh_.vertices_m.emplace_back(instance.world_from_mesh * glm::dvec4(p.x, p.y, p.z, 1.0));
     }
     std::vector<sim::Vec3> corners;
-    for (unsigned f = 0; f < from.mNumFaces; ++f) {
+    std::optional<std::uint32_t> region_of_all, material_of_all;  // those of triangles alone get a number
+    for (unsigned f = instance.first_face; f < instance.end_face; ++f) {
       const aiFace& face = from.mFaces[f];
       if (face.mNumIndices < 3) continue;  // points and lines
+      if (!region_of_all) {
+        region_of_all = regionIndex(region_name);
+        material_of_all = materialIndex(instance.material, material);
+      }
       corners.clear();
       for (unsigned c = 0; c < face.mNumIndices; ++c)
         corners.push_back(mesh_.vertices_m[base + face.mIndices[c]]);
       for (const auto& [a, b, c] : triangulate(corners)) {
         mesh_.triangles.push_back(
             {base + face.mIndices[a], base + face.mIndices[b], base + face.mIndices[c]});
-        mesh_.region.push_back(regionIndex(region_name));
-        mesh_.material.push_back(materialIndex(from.mMaterialIndex, material));
+        mesh_.region.push_back(*region_of_all);
+        mesh_.material.push_back(*material_of_all);
       }
     }
   }
@@ -107,7 +113,7 @@ class MeshBuilder {
     if (is_new) mesh_.regions.push_back(name);
     return at->second;
   }
-  std::uint32_t materialIndex(unsigned index_in_file, const sim::Material& material) {
+  std::uint32_t materialIndex(std::size_t index_in_file, const sim::Material& material) {
     const auto [at, is_new] =
         material_index_.try_emplace(index_in_file, static_cast<std::uint32_t>(mesh_.materials.size()));
     if (is_new) mesh_.materials.push_back(material);
@@ -115,7 +121,7 @@ class MeshBuilder {
   }
 
   std::map<std::string, std::uint32_t> region_index_;
-  std::map<unsigned, std::uint32_t> material_index_;
+  std::map<std::size_t, std::uint32_t> material_index_;
   sim::Mesh mesh_;
 };
 
@@ -140,7 +146,8 @@ std::vector<MeshInstance> instancesOf(const aiScene& scene) {
         throw sim::InputError(
             fmt::format("there are more than {} triangles; make the mesh simpler first", kMostTriangles));
       }
-      instances.push_back({world_from_mesh, mesh, groupOf(*next.node, *mesh)});
+      instances.push_back({world_from_mesh, mesh, 0, mesh->mNumFaces, 0, mesh->mNumVertices,
+                           groupOf(*next.node, *mesh), mesh->mMaterialIndex});
     }
     for (unsigned i = next.node->mNumChildren; i-- > 0;)
       open.push_back({next.node->mChildren[i], world_from_mesh});
@@ -148,21 +155,27 @@ std::vector<MeshInstance> instancesOf(const aiScene& scene) {
   return instances;
 }
 
-sim::Mesh meshOf(const aiScene& scene, const std::vector<MeshInstance>& instances, RegionsFrom regions_from,
-                 const std::string& stem, MeshColours colours) {
-  const sim::Material plain{.name = stem};
-  std::vector<sim::Material> materials(scene.mNumMaterials, plain);
+std::vector<sim::Material> materialsOf(const aiScene& scene, const std::string& stem, MeshColours colours) {
+  std::vector<sim::Material> materials(scene.mNumMaterials, sim::Material{.name = stem});
   // Behind a glTF file's own materials Assimp puts one more, for primitives that have none.
   const unsigned given = scene.mNumMaterials - (colours == MeshColours::linear ? 1 : 0);
-  for (unsigned i = 0; i < given && colours != MeshColours::none; ++i) {
+  for (unsigned i = 0; i < given && colours != MeshColours::none; ++i)
     materials[i] = materialOf(*scene.mMaterials[i], stem, colours == MeshColours::linear);
-  }
+  return materials;
+}
+
+sim::Material unknownMaterial(const std::string& name) {
+  return {name, sim::Colour(linearFromSrgb(0.6f))};
+}
+
+sim::Mesh meshOf(const std::vector<MeshInstance>& instances, const std::vector<sim::Material>& materials,
+                 RegionsFrom regions_from, const std::string& stem) {
   const bool has_groups =
       std::any_of(instances.begin(), instances.end(), [](const MeshInstance& i) { return !i.group.empty(); });
   const bool by_group = regions_from == RegionsFrom::group && has_groups;
   MeshBuilder builder(stem);
   for (const auto& instance : instances) {
-    const auto& material = materials.at(instance.mesh->mMaterialIndex);
+    const sim::Material& material = materials.at(instance.material);
     const std::string& region = by_group ? instance.group : material.name;
     builder.add(instance, region.empty() ? stem : region, material);
   }

@@ -15,11 +15,14 @@ namespace espalier::scenes {
 /// The most triangles that a mesh may have, instances counted each time.
 constexpr std::size_t kMostTriangles = 8'000'000;
 
-/// One mesh of Assimp's scene where one node puts it.
+/// A mesh of Assimp's scene, or some of its faces, where one node puts it.
 struct MeshInstance {
   glm::dmat4 world_from_mesh{1.0};
   const aiMesh* mesh = nullptr;
-  std::string group;  ///< empty where the file gives no name
+  unsigned first_face = 0, end_face = 0;
+  unsigned first_vertex = 0, end_vertex = 0;  ///< that the faces ask for
+  std::string group;                          ///< empty where the file gives no name
+  std::size_t material = 0;                   ///< its number among the file's
 };
 
 /// The scene's nodes, flattened, in the file's order. Throws sim::InputError above kMostTriangles.
@@ -29,8 +32,13 @@ std::vector<MeshInstance> instancesOf(const aiScene& scene);
 /// (glTF).
 enum class MeshColours { none, display, linear };
 
-/// The instances' triangles as one mesh, named `stem`, with regions and linear base colours.
-sim::Mesh meshOf(const aiScene& scene, const std::vector<MeshInstance>& instances, RegionsFrom regions_from,
-                 const std::string& stem, MeshColours colours);
+/// The scene's materials, with linear base colours. Those without a name get `stem`.
+std::vector<sim::Material> materialsOf(const aiScene& scene, const std::string& stem, MeshColours colours);
+/// One of a file with display values that does not say what it looks like: grey.
+sim::Material unknownMaterial(const std::string& name);
+
+/// The instances' triangles as one mesh, named `stem`, with regions.
+sim::Mesh meshOf(const std::vector<MeshInstance>& instances, const std::vector<sim::Material>& materials,
+                 RegionsFrom regions_from, const std::string& stem);
 
 }  // namespace espalier::scenes

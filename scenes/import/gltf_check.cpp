@@ -1,95 +1,215 @@
-#include <fmt/format.h>
+#include "scenes/import/gltf_check.h"
 
-#include <cstring>
-#include <fstream>
-#include <iterator>
-#include <nlohmann/json.hpp>
-#include <string>
-#include <string_view>
-#include <vector>
+#include <algorithm>
+#include <array>
+#include <initializer_list>
 
-#include "scenes/import/mesh_checks.h"
-#include "sim/base/error.h"
+#include "scenes/import/assimp_scene.h"
+#include "scenes/import/gltf_accessors.h"
+#include "scenes/import/gltf_nodes.h"
+#include "scenes/problem.h"
 
-namespace espalier::scenes {
+namespace espalier::scenes::gltf {
 namespace {
 
-using nlohmann::json;
+constexpr const char* kDraco = "KHR_draco_mesh_compression";
 
-constexpr std::uint64_t kMostNodes = 1'000'000;
-
-std::uint32_t wordAt(std::string_view bytes, std::size_t at) {
-  std::uint32_t word = 0;
-  std::memcpy(&word, bytes.data() + at, sizeof word);
-  return word;
-}
-
-/// The JSON chunk of a GLB file (glTF 2.0, section 4.4: three words of header, then chunks of length, type,
-/// data).
-std::string_view jsonOf(std::string_view glb) {
-  if (glb.size() < 20) throw sim::InputError("the file is cut: a GLB file has at least 20 bytes");
-  if (wordAt(glb, 8) != glb.size()) {
-    throw sim::InputError(fmt::format("the file is damaged or cut: its header promises {} bytes, it has {}",
-                                      wordAt(glb, 8), glb.size()));
+/// The members that are read, where they are there.
+Json only(const Json& object, std::initializer_list<const char*> keys) {
+  Json some = Json::object();
+  for (const char* key : keys) {
+    const auto member = object.find(key);
+    if (member != object.end()) some[key] = *member;
   }
-  const std::size_t length = wordAt(glb, 12);
-  if (glb.substr(16, 4) != "JSON" || length > glb.size() - 20) {
-    throw sim::InputError("the file is damaged: its first chunk is not whole JSON");
+  return some;
+}
+
+void keepName(const Json& from, Json& to) {
+  const auto name = from.find("name");
+  if (name != from.end() && name->is_string()) to["name"] = *name;
+}
+
+/// What a file says that it cannot be read without. Most such extensions are about looks.
+void requireReadable(const Json& document) {
+  static constexpr std::array<std::string_view, 7> kHarmless{
+      "KHR_materials_", "KHR_texture_",   "EXT_texture_", "MSFT_texture_",
+      "KHR_lights_",    "KHR_animation_", kDraco};
+  for (const Json& extension : listIn(document, "extensionsRequired")) {
+    const std::string& name = extension.get_ref<const std::string&>();
+    if (std::none_of(kHarmless.begin(), kHarmless.end(), [&](auto known) { return name.starts_with(known); }))
+      throw sim::InputError(fmt::format("it needs the glTF extension {}, which is not read", inQuotes(name)));
   }
-  return glb.substr(20, length);
 }
 
-const json& entry(const json& document, const char* list, const json& index) {
-  const auto i = index.get<std::uint64_t>();
-  if (i >= document.at(list).size()) throw sim::InputError(fmt::format("{} {} does not exist", list, i));
-  return document.at(list)[i];
-}
+/// Looks at meshes, and copies of them what is read.
+class Meshes {
+ public:
+  Meshes(const Json& document, Accessors& accessors) : document_(document), accessors_(accessors) {}
 
-std::uint64_t trianglesOf(const json& document, const json& primitive) {
-  const int mode = primitive.value("mode", 4);
-  if (mode < 4) return 0;
-  const json& accessor =
-      primitive.contains("indices") ? primitive.at("indices") : primitive.at("attributes").at("POSITION");
-  const auto corners = entry(document, "accessors", accessor).at("count").get<std::uint64_t>();
-  if (mode == 4) return corners / 3;
-  return corners < 3 ? 0 : corners - 2;
-}
-
-std::uint64_t trianglesIn(const json& document) {
-  if (!document.contains("scenes") || document.at("scenes").empty()) {
-    throw sim::InputError("the glTF file has no scene, so no mesh in it is placed anywhere");
+  Json read(const Json& mesh) {
+    Json some = Json::object();
+    keepName(mesh, some);
+    const Json& primitives = listIn(mesh, "primitives");
+    if (primitives.empty()) throw sim::InputError("it has no primitives");
+    triangles_.push_back(0);
+    for (const Json& primitive : primitives)
+      some["primitives"].push_back(
+          inPart("primitive", some["primitives"].size(), [&] { return readPrimitive(primitive); }));
+    return some;
   }
-  std::vector<json> open =
-      entry(document, "scenes", document.value("scene", json(0U))).value("nodes", json::array());
-  std::uint64_t triangles = 0;
-  for (std::uint64_t visited = 0; !open.empty(); ++visited) {
-    if (visited > kMostNodes)
-      throw sim::InputError("the glTF file's nodes form a circle or are shared too often");
-    const json node = entry(document, "nodes", open.back());
-    open.pop_back();
-    if (node.contains("mesh")) {
-      for (const json& primitive : entry(document, "meshes", node.at("mesh")).at("primitives")) {
-        triangles += trianglesOf(document, primitive);
-      }
+  const std::vector<std::uint64_t>& triangles() const { return triangles_; }
+
+ private:
+  Json readPrimitive(const Json& primitive) {
+    const Json& attributes = requiredObject(primitive, "attributes");
+    const std::size_t position = requiredIndex(attributes, "POSITION", document_, "accessors");
+    const auto indices = indexIn(primitive, "indices", document_, "accessors");
+    const std::uint64_t mode = wholeIn(primitive, "mode").value_or(4);
+    if (mode > 6) throw sim::InputError(fmt::format("mode is {}; expected 0 to 6", mode));
+    indexIn(primitive, "material", document_, "materials");
+    Json some = only(primitive, {"indices", "material", "mode"});
+    const bool packed = keepDraco(primitive, some);
+    const Accessors::Accessor& places = accessors_.of(position);
+    if (places.type != "VEC3" || places.component != 5126) {
+      throw sim::InputError(
+          fmt::format("POSITION is accessor {} of {} and componentType {}; expected VEC3 and 5126", position,
+                      places.type, places.component));
     }
-    for (const json& child : node.value("children", json::array())) open.push_back(child);
+    requireData(position, packed);
+    std::uint64_t corners = places.count;
+    if (indices) {
+      requireData(*indices, packed);
+      requireIndices(*indices, places.count);
+      corners = accessors_.of(*indices).count;
+    }
+    corners_ += std::max(corners, places.count);
+    if (corners_ > 3 * kMostTriangles) {
+      throw sim::InputError(
+          fmt::format("there are more than {} triangles; make the mesh simpler first", kMostTriangles));
+    }
+    if (mode >= 4) triangles_.back() += mode == 4 ? corners / 3 : std::max(corners, std::uint64_t{2}) - 2;
+    if (!packed) some["attributes"]["POSITION"] = position;
+    return some;
   }
-  return triangles;
+
+  /// Its decoder wants to see all of the attributes.
+  bool keepDraco(const Json& primitive, Json& some) const {
+    const auto extensions = primitive.find("extensions");
+    if (extensions == primitive.end() || !extensions->contains(kDraco)) return false;
+    const Json& draco = requiredObject(*extensions, kDraco);
+    requiredIndex(draco, "bufferView", document_, "bufferViews");
+    some["extensions"][kDraco] = only(draco, {"bufferView", "attributes"});
+    some["attributes"] = primitive.at("attributes");
+    for (const Json& attribute : some["attributes"]) indexOf(attribute, "attribute", document_, "accessors");
+    return true;
+  }
+
+  void requireData(std::size_t accessor, bool packed) const {
+    if (!packed && !accessors_.of(accessor).has_data)
+      throw sim::InputError(fmt::format("accessor {} has no bufferView", accessor));
+  }
+
+  void requireIndices(std::size_t indices, std::uint64_t vertices) {
+    const Accessors::Accessor& about = accessors_.of(indices);
+    const bool whole = about.component == 5121 || about.component == 5123 || about.component == 5125;
+    if (about.type != "SCALAR" || !whole) {
+      throw sim::InputError(fmt::format(
+          "indices are accessor {} of {} and componentType {}; expected SCALAR and 5121, 5123 or 5125",
+          indices, about.type, about.component));
+    }
+    if (const std::uint64_t highest = accessors_.highest(indices); highest >= vertices) {
+      throw sim::InputError(
+          fmt::format("indices (accessor {}) ask for vertex {}, counted from 0, but there are {}", indices,
+                      highest, vertices));
+    }
+  }
+
+  const Json& document_;
+  Accessors& accessors_;
+  std::vector<std::uint64_t> triangles_;
+  std::uint64_t corners_ = 0;  // of all primitives: Assimp keeps each by itself
+};
+
+Json materialOf(const Json& material) {
+  Json some = Json::object();
+  keepName(material, some);
+  const auto looks = material.find("pbrMetallicRoughness");
+  if (looks == material.end() || !looks->contains("baseColorFactor")) return some;
+  const Json& colour = looks->at("baseColorFactor");
+  if (!colour.is_array() || colour.size() != 4 ||
+      !std::all_of(colour.begin(), colour.end(), [](const Json& v) { return v.is_number(); })) {
+    throw sim::InputError("baseColorFactor is not an array of 4 numbers");
+  }
+  some["pbrMetallicRoughness"]["baseColorFactor"] = colour;
+  return some;
+}
+
+Json accessorOf(const Json& accessor) {
+  Json some = only(accessor, {"bufferView", "byteOffset", "componentType", "count", "type"});
+  const auto sparse = accessor.find("sparse");
+  if (sparse == accessor.end()) return some;
+  some["sparse"] = only(*sparse, {"count"});
+  some["sparse"]["indices"] = only(sparse->at("indices"), {"bufferView", "byteOffset", "componentType"});
+  some["sparse"]["values"] = only(sparse->at("values"), {"bufferView", "byteOffset"});
+  return some;
+}
+
+/// Each entry of a list by `work`, whose errors name it.
+template <class Work>
+Json each(const Json& document, const char* list, const char* part, Work work) {
+  Json some = Json::array();
+  for (const Json& entry : listIn(document, list))
+    some.push_back(inPart(part, some.size(), [&] { return work(entry); }));
+  return some;
+}
+
+Checked checkDocument(const Json& document, const Container& container, const FileBeside& file_beside) {
+  const std::string version = document.at("asset").at("version").get<std::string>();
+  if (!version.starts_with("2.")) throw sim::InputError(fmt::format("glTF {} is not glTF 2", version));
+  requireReadable(document);
+  Checked checked{{}, Buffers(document, container, file_beside), 0};
+  Accessors accessors(document, checked.buffers);
+  Meshes meshes(document, accessors);
+
+  Json some = {{"asset", {{"version", "2.0"}}}};
+  some["meshes"] = each(document, "meshes", "mesh", [&](const Json& mesh) { return meshes.read(mesh); });
+  some["materials"] = each(document, "materials", "material", materialOf);
+  checked.triangles = trianglesInScene(document, meshes.triangles());
+  const std::size_t scene = indexIn(document, "scene", document, "scenes").value_or(0);
+  some["scene"] = 0;
+  some["scenes"] = {only(document["scenes"][scene], {"nodes"})};
+  some["nodes"] = each(document, "nodes", "node", [](const Json& node) {
+    Json kept = only(node, {"mesh", "children", "matrix", "translation", "rotation", "scale"});
+    keepName(node, kept);
+    return kept;
+  });
+  some["accessors"] = each(document, "accessors", "accessor", accessorOf);
+  some["bufferViews"] = each(document, "bufferViews", "bufferView", [](const Json& view) {
+    return only(view, {"buffer", "byteOffset", "byteLength", "byteStride"});
+  });
+  for (std::size_t i = 0; i < checked.buffers.count(); ++i)
+    some["buffers"].push_back({{"byteLength", checked.buffers.of(i).size()}, {"uri", bufferName(i)}});
+  for (const char* key : {"extensionsUsed", "extensionsRequired"}) {
+    const Json& names = listIn(document, key);
+    if (std::find(names.begin(), names.end(), kDraco) != names.end()) some[key] = {kDraco};
+  }
+  checked.json = some.dump();
+  return checked;
 }
 
 }  // namespace
 
-DeclaredCounts checkGltf(const std::filesystem::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  const std::string bytes{std::istreambuf_iterator<char>(in), {}};
+std::string bufferName(std::size_t number) {
+  return fmt::format("buffer{}.bin", number);
+}
+
+Checked check(std::string_view file, const FileBeside& file_beside) {
+  const Container container = containerOf(file);
   try {
-    const json document = json::parse(bytes.starts_with("glTF") ? jsonOf(bytes) : std::string_view(bytes));
-    const std::string version = document.at("asset").at("version").get<std::string>();
-    if (!version.starts_with("2.")) throw sim::InputError(fmt::format("glTF {} is not glTF 2", version));
-    return {std::nullopt, trianglesIn(document)};
-  } catch (const json::exception& error) {
+    return checkDocument(Json::parse(container.json), container, file_beside);
+  } catch (const Json::exception& error) {
     throw sim::InputError(fmt::format("the glTF file's JSON is not as it should be: {}", error.what()));
   }
 }
 
-}  // namespace espalier::scenes
+}  // namespace espalier::scenes::gltf

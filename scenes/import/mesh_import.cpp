@@ -19,7 +19,6 @@
 namespace espalier::scenes {
 namespace {
 
-constexpr std::uintmax_t kMostBytes = std::uintmax_t{256} << 20;
 constexpr double kThinnest = 1e-7;
 
 /// The size of a regular file; throws for anything else.
@@ -33,9 +32,9 @@ std::uintmax_t sizeOf(const std::filesystem::path& file) {
     throw sim::InputError(fmt::format("cannot open the mesh: {}", std::strerror(errno)));
   const auto bytes = static_cast<std::uintmax_t>(about.st_size);
   if (bytes == 0) throw sim::InputError("the file is empty");
-  if (bytes > kMostBytes) {
-    throw sim::InputError(
-        fmt::format("the file has {} MB; a mesh file may have at most {} MB", bytes >> 20, kMostBytes >> 20));
+  if (bytes > kMostMeshBytes) {
+    throw sim::InputError(fmt::format("the file has {} MB; a mesh file may have at most {} MB", bytes >> 20,
+                                      kMostMeshBytes >> 20));
   }
   return bytes;
 }
@@ -44,7 +43,7 @@ std::uintmax_t sizeOf(const std::filesystem::path& file) {
 ChildLimits limitsFor(std::uintmax_t bytes) {
   ChildLimits limits;
   limits.cpu = std::chrono::seconds(10 + static_cast<long>(bytes >> 22));
-  limits.wall = 3 * limits.cpu;
+  limits.wall = 20 * limits.cpu;  // the reader waits for nothing but a processor
   return limits;
 }
 
@@ -52,7 +51,7 @@ ChildLimits limitsFor(std::uintmax_t bytes) {
 std::string readInChild(const std::filesystem::path& file, RegionsFrom regions_from,
                         const ChildLimits& limits) {
   const auto work = [&] {
-    std::vector<sim::InputFile> read;
+    MeshSources read;
     const sim::Mesh mesh = readWithAssimp(file, regions_from, read);
     return packMesh(mesh, read);
   };
@@ -77,9 +76,9 @@ std::string readInChild(const std::filesystem::path& file, RegionsFrom regions_f
   return std::move(result.bytes);
 }
 
-sim::Mesh unpacked(std::string_view bytes, std::vector<sim::InputFile>* files) {
+sim::Mesh unpacked(std::string_view bytes, MeshSources& sources) {
   try {
-    return unpackMesh(bytes, files);
+    return unpackMesh(bytes, sources);
   } catch (const std::exception& error) {
     throw sim::InputError(fmt::format("the file is damaged: it confused the mesh reader ({})", error.what()));
   }
@@ -169,16 +168,23 @@ glm::dmat3 turnAbout(int axis, double degrees) {
 
 }  // namespace
 
-sim::Mesh meshFromChild(std::string_view bytes, std::vector<sim::InputFile>* files) {
-  return checked(unpacked(bytes, files));
+sim::Mesh meshFromChild(std::string_view bytes, MeshSources& sources) {
+  return checked(unpacked(bytes, sources));
 }
 
 sim::Mesh importMesh(const std::filesystem::path& file, RegionsFrom regions_from,
-                     std::optional<ChildLimits> limits, std::vector<sim::InputFile>* files) {
+                     std::optional<ChildLimits> limits, MeshSources* sources) {
   try {
     const std::uintmax_t bytes = sizeOf(file);
     requireMeshFormat(file);
-    return meshFromChild(readInChild(file, regions_from, limits.value_or(limitsFor(bytes))), files);
+    MeshSources read;
+    sim::Mesh mesh = meshFromChild(readInChild(file, regions_from, limits.value_or(limitsFor(bytes))), read);
+    for (Problem& warning : read.warnings) {
+      warning.path = file.string();
+      warning.text = cleanText(warning.text);
+    }
+    if (sources != nullptr) *sources = std::move(read);
+    return mesh;
   } catch (const sim::InputError& error) {
     throw sim::InputError(fmt::format("{}: {}", file.string(), error.what()));
   }

@@ -1,14 +1,26 @@
 #pragma once
+#include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <string_view>
 #include <vector>
 
 #include "scenes/import/child_process.h"
+#include "scenes/problem.h"
 #include "scenes/scene.h"
 #include "sim/tile/mesh.h"
 
 namespace espalier::scenes {
+
+/// The most that a mesh file may have, and each file that it names.
+inline constexpr std::uintmax_t kMostMeshBytes = std::uintmax_t{256} << 20;
+
+/// What a mesh was read from.
+struct MeshSources {
+  std::vector<sim::InputFile> files;  ///< each once: the mesh file and those that it names, called by their
+                                      ///< paths from its folder
+  std::vector<Problem> warnings;  ///< what was asked for and is not there, with its place in the mesh file
+};
 
 /// Reads an OBJ (with its MTL), glTF 2 (.gltf, .glb), PLY or STL file.
 ///
@@ -17,7 +29,8 @@ namespace espalier::scenes {
 /// in the order of first use. Where groups are asked for and the file names none, its materials stand in;
 /// what has no name at all becomes a region named after the file. Materials carry base colours as linear RGB:
 /// glTF's are linear; Kd of an MTL file, of which its format says nothing, is taken as a display value
-/// (sRGB), as a colour picker shows it. Textures and vertex colours are not read.
+/// (sRGB), as a colour picker shows it. Textures and vertex colours are not read. A material that no MTL file
+/// has, as where the file is missing, is grey, with a warning.
 ///
 /// Triangles with two equal corners or a height below 1e-7 of their longest edge are dropped and counted, at
 /// any size.
@@ -28,15 +41,13 @@ namespace espalier::scenes {
 /// format, damaged, without triangles, with more than 8 million, with a vertex that is not finite, or with an
 /// index that is out of range.
 ///
-/// `limits` are by default what suits the file's size. `files`: what was read, each once: the mesh file and
-/// those that it names, called by their paths from its folder.
+/// `limits` are by default what suits the file's size.
 sim::Mesh importMesh(const std::filesystem::path& file, RegionsFrom regions_from,
-                     std::optional<ChildLimits> limits = std::nullopt,
-                     std::vector<sim::InputFile>* files = nullptr);
+                     std::optional<ChildLimits> limits = std::nullopt, MeshSources* sources = nullptr);
 
-/// What the reading child sent (scenes/import/mesh_wire.h), unpacked and checked as importMesh does; the bytes are not
-/// trusted. Throws sim::InputError, without the file's name.
-sim::Mesh meshFromChild(std::string_view bytes, std::vector<sim::InputFile>* files = nullptr);
+/// What the reading child sent (scenes/import/mesh_wire.h), unpacked and checked as importMesh does; the
+/// bytes are not trusted. Throws sim::InputError, without the file's name.
+sim::Mesh meshFromChild(std::string_view bytes, MeshSources& sources);
 
 /// The mesh scaled about the origin, turned about the x, then the y, then the z axis, then moved. Quarter
 /// turns are exact. Throws sim::InputError where the result is not finite.

@@ -76,7 +76,7 @@ void requireBelow(const std::vector<std::uint32_t>& indices, std::size_t limit) 
 
 }  // namespace
 
-std::string packMesh(const sim::Mesh& mesh, const std::vector<sim::InputFile>& files) {
+std::string packMesh(const sim::Mesh& mesh, const MeshSources& sources) {
   Packer out;
   out.putText(mesh.name);
   out.putArray(mesh.vertices_m.data(), mesh.vertices_m.size());
@@ -91,16 +91,22 @@ std::string packMesh(const sim::Mesh& mesh, const std::vector<sim::InputFile>& f
     out.put(material.colour);
   }
   out.put(static_cast<std::uint64_t>(mesh.degenerate_dropped));
-  out.put(static_cast<std::uint64_t>(files.size()));
-  for (const auto& file : files) {
+  out.put(static_cast<std::uint64_t>(sources.files.size()));
+  for (const auto& file : sources.files) {
     out.putText(file.name);
     out.putText(file.kind);
     out.put(file.hash);
   }
+  out.put(static_cast<std::uint64_t>(sources.warnings.size()));
+  for (const auto& warning : sources.warnings) {
+    out.put(warning.line);
+    out.put(warning.column);
+    out.putText(warning.text);
+  }
   return out.take();
 }
 
-sim::Mesh unpackMesh(std::string_view bytes, std::vector<sim::InputFile>* files) {
+sim::Mesh unpackMesh(std::string_view bytes, MeshSources& sources) {
   Unpacker in(bytes);
   sim::Mesh mesh;
   mesh.name = in.getText();
@@ -116,11 +122,17 @@ sim::Mesh unpackMesh(std::string_view bytes, std::vector<sim::InputFile>* files)
     material.colour = in.get<sim::Colour>();
   }
   mesh.degenerate_dropped = static_cast<std::size_t>(in.get<std::uint64_t>());
-  std::vector<sim::InputFile> read(in.getCount(3 * sizeof(std::uint64_t)));
-  for (auto& file : read) {
+  sources.files.resize(in.getCount(3 * sizeof(std::uint64_t)));
+  for (auto& file : sources.files) {
     file.name = in.getText();
     file.kind = in.getText();
     file.hash = in.get<std::uint64_t>();
+  }
+  sources.warnings.resize(in.getCount(2 * sizeof(int) + sizeof(std::uint64_t)));
+  for (auto& warning : sources.warnings) {
+    warning.line = in.get<int>();
+    warning.column = in.get<int>();
+    warning.text = in.getText();
   }
   if (!in.atEnd()) throw std::runtime_error("there are bytes after the end");
   if (mesh.region.size() != mesh.triangles.size() || mesh.material.size() != mesh.triangles.size()) {
@@ -128,7 +140,6 @@ sim::Mesh unpackMesh(std::string_view bytes, std::vector<sim::InputFile>* files)
   }
   requireBelow(mesh.region, mesh.regions.size());
   requireBelow(mesh.material, mesh.materials.size());
-  if (files != nullptr) *files = std::move(read);
   return mesh;
 }
 

@@ -1,13 +1,15 @@
+#include "scenes/import/ply_check.h"
+
 #include <fmt/format.h>
 
 #include <array>
 #include <charconv>
 #include <fstream>
+#include <optional>
 #include <sstream>
 #include <string>
 #include <vector>
 
-#include "scenes/import/mesh_checks.h"
 #include "sim/base/error.h"
 
 namespace espalier::scenes {
@@ -48,21 +50,21 @@ class HeaderReader {
  public:
   explicit HeaderReader(const std::filesystem::path& file) : in_(file, std::ios::binary) {}
 
-  DeclaredCounts read() {
+  PlyCounts read() {
     if (nextLine() != "ply") fail("a PLY file begins with the line 'ply'");
     while (readLine()) {
     }
     if (!format_known_)
       fail("the line 'format ascii 1.0' (or binary_little_endian, binary_big_endian) is missing");
     requireBody();
-    DeclaredCounts counts;
+    std::optional<std::uint64_t> vertices, faces;
     for (const auto& element : elements_) {
-      if (element.name == "vertex" && element.has_position) counts.vertices = element.count;
-      if (element.name == "face" && element.has_indices) counts.faces = element.count;
+      if (element.name == "vertex" && element.has_position) vertices = element.count;
+      if (element.name == "face" && element.has_indices) faces = element.count;
     }
-    if (!counts.vertices) fail("there is no 'element vertex' with properties x, y and z");
-    if (!counts.faces) fail("there is no 'element face' with a list property vertex_indices");
-    return counts;
+    if (!vertices) fail("there is no 'element vertex' with properties x, y and z");
+    if (!faces) fail("there is no 'element face' with a list property vertex_indices");
+    return {*vertices, *faces};
   }
 
  private:
@@ -189,7 +191,7 @@ class HeaderReader {
 
 }  // namespace
 
-DeclaredCounts checkPly(const std::filesystem::path& file) {
+PlyCounts checkPly(const std::filesystem::path& file) {
   return HeaderReader(file).read();
 }
 

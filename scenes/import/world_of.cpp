@@ -1,10 +1,9 @@
 #include "scenes/import/world_of.h"
 
-#include <utility>
-#include <vector>
+#include <algorithm>
 
 #include "scenes/import/mesh_import.h"
-#include "sim/tile/build_world.h"
+#include "sim/light/surface.h"
 
 namespace espalier::scenes {
 
@@ -12,7 +11,24 @@ sim::World worldOf(const std::filesystem::path& mesh, double voxel_m, double mar
   std::vector<sim::TiledMesh> meshes(1);
   meshes[0].mesh = importMesh(mesh, RegionsFrom::group);
   meshes[0].mesh.name = mesh.stem().string();
-  return sim::buildWorld(sim::frameAround(meshes, voxel_m, margin_m), meshes, 0);
+  return worldAround(meshes, voxel_m, margin_m, [](const sim::Frame&) { return 0; });
+}
+
+sim::World worldAround(const std::vector<sim::TiledMesh>& meshes, double voxel_m, double margin_m,
+                       const std::function<int(const sim::Frame&)>& layers,
+                       std::vector<sim::FillReport>* fills) {
+  constexpr int kRoom_vx = 3;  // so far before a surface light is looked for
+  const double room_m = kRoom_vx * voxel_m;
+  const auto build = [&](const sim::Frame& frame) {
+    if (fills != nullptr) fills->clear();
+    return sim::buildWorld(frame, meshes, layers(frame), fills);
+  };
+  const sim::Frame frame = sim::frameAround(meshes, voxel_m, margin_m);
+  if (std::min({frame.size.x, frame.size.y, frame.size.z}) >= kRoom_vx) {
+    sim::World world = build(frame);
+    if (margin_m >= room_m || sim::anyCanBeLit(world)) return world;
+  }
+  return build(sim::frameAround(meshes, voxel_m, std::max(margin_m, room_m)));
 }
 
 }  // namespace espalier::scenes

@@ -8,6 +8,7 @@
 #include "render/files/vdb.h"
 #include "scenes/accuracy/certificate.h"
 #include "scenes/job/stages.h"
+#include "scenes/job/warnings.h"
 #include "scenes/prepare/in_scene.h"
 #include "scenes/prepare/site.h"
 #include "scenes/show/expose_pictures.h"
@@ -73,6 +74,7 @@ ExposeResult exposeScene(const Scene& scene, const RunOptions& options) {
   });
   output.protect(site.mesh_paths);
   describeWorld(report, scene, site);
+  warn(site.warnings, scene.file, options, report);
 
   std::shared_ptr<const sim::VoxelSet> space;
   const sim::Lighting light = stages.run("lighting", [&] {
@@ -86,9 +88,11 @@ ExposeResult exposeScene(const Scene& scene, const RunOptions& options) {
     return sim::lightOf(site.world, site.sky, site.sun, wanted);
   });
   if (light.surfaces.empty() && !space) {
-    throw sim::InputError(fmt::format(
-        "{}: the world has no surface that can be lit; expected a mesh, or exposure: {{where: everything}}",
-        scene.file.string()));
+    throw sim::InputError(
+        fmt::format("{}: the world has no surface that can be lit; expected a mesh that has a side and free "
+                    "space before it "
+                    "within world.bounds, or exposure: {{where: everything}}",
+                    scene.file.string()));
   }
   report.light = light.about;
   report.exposure = {light.surfaces.size(), light.gaps->count(), space ? space->count() : 0};

@@ -112,8 +112,9 @@ Prepared prepare(const Scene& scene, const RunOptions& options, OutputFolder& ou
   });
   output.protect(prepared.site.mesh_paths);
   describeWorld(report, scene, prepared.site);
-  std::vector<Problem> warnings = unknownRegions(scene, prepared.site.world);
-  warnings.insert(warnings.begin(), scene.warnings.begin(), scene.warnings.end());
+  std::vector<Problem> warnings = scene.warnings;
+  for (const auto& more : {prepared.site.warnings, unknownRegions(scene, prepared.site.world)})
+    warnings.insert(warnings.end(), more.begin(), more.end());
   warn(warnings, scene.file, options, report);
   return prepared;
 }

@@ -3,12 +3,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <filesystem>
 
 #include "rules/growth/voxel_widths.h"
 #include "scenes/clean_text.h"
 #include "scenes/import/mesh_import.h"
+#include "scenes/import/world_of.h"
 #include "scenes/lights.h"
 #include "scenes/prepare/in_scene.h"
 #include "sim/base/error.h"
@@ -37,7 +39,7 @@ void addFiles(const SceneMesh& spec, const std::vector<sim::InputFile>& read, Me
   }
 }
 
-std::vector<sim::TiledMesh> readMeshes(const Scene& scene, MeshFiles& files) {
+std::vector<sim::TiledMesh> readMeshes(const Scene& scene, MeshFiles& files, std::vector<Problem>& warnings) {
   for (const SceneMesh& spec : scene.meshes) {
     std::error_code unknown;  // what cannot be looked at is there, and an error
                               // when it is read
@@ -48,10 +50,14 @@ std::vector<sim::TiledMesh> readMeshes(const Scene& scene, MeshFiles& files) {
   }
   std::vector<sim::TiledMesh> meshes;
   for (const SceneMesh& spec : scene.meshes) {
-    std::vector<sim::InputFile> read;
+    MeshSources read;
     sim::Mesh mesh = placeMesh(importMesh(spec.file, spec.regions_from, std::nullopt, &read), spec.scale,
                                spec.rotate_deg, spec.translate_m);
-    addFiles(spec, read, files);
+    addFiles(spec, read.files, files);
+    for (Problem& warning : read.warnings) {  // of materials, which nobody sees under a colour of the scene's
+      if (!spec.colour && std::find(warnings.begin(), warnings.end(), warning) == warnings.end())
+        warnings.push_back(std::move(warning));
+    }
     mesh.name = spec.name;
     if (spec.colour) {
       for (sim::Material& material : mesh.materials) material.colour = *spec.colour;
@@ -79,42 +85,47 @@ double voxelFor(int resolution, const WorldSpec& spec, const std::vector<sim::Ti
   return std::max({extent.x, extent.y, extent.z}) / resolution;
 }
 
-sim::Frame frameFor(const Scene& scene, const std::vector<sim::TiledMesh>& meshes) {
-  const WorldSpec& spec = scene.world;
-  const double voxel_m = spec.voxel_m ? *spec.voxel_m : voxelFor(spec.resolution.value_or(160), spec, meshes);
-  if (!spec.bounds_m) return sim::frameAround(meshes, voxel_m, spec.margin_m);
-  const auto& [low, high] = *spec.bounds_m;
+sim::Frame frameOf(const std::filesystem::path& scene, const std::array<sim::Vec3, 2>& bounds_m,
+                   double voxel_m) {
+  const auto& [low, high] = bounds_m;
   // A thousandth of a voxel too much is a rounding of the file's decimals, not another voxel.
   const sim::Vec3 count = glm::ceil((high - low) / voxel_m - 1e-3);
   if (std::max({count.x, count.y, count.z}) > 16000.0) {
     throw sim::InputError(
         fmt::format("{}: world: {:.0f} x {:.0f} x {:.0f} voxels; expected at most 16000 a side, as "
                     "with a voxel of {:.3g} m",
-                    scene.file.string(), count.x, count.y, count.z,
+                    scene.string(), count.x, count.y, count.z,
                     std::max({high.x - low.x, high.y - low.y, high.z - low.z}) / 16000.0));
   }
   return {low + 0.5 * voxel_m, voxel_m, sim::Voxel(count)};
+}
+
+sim::World worldFor(const Scene& scene, const std::vector<sim::TiledMesh>& meshes,
+                    std::vector<sim::FillReport>& fills) {
+  const WorldSpec& spec = scene.world;
+  const double voxel_m = spec.voxel_m ? *spec.voxel_m : voxelFor(spec.resolution.value_or(160), spec, meshes);
+  const auto layers = [&](const sim::Frame& frame) { return layersFor(scene, frame); };
+  if (!spec.bounds_m) return worldAround(meshes, voxel_m, spec.margin_m, layers, &fills);
+  const sim::Frame frame = frameOf(scene.file, *spec.bounds_m, voxel_m);
+  return sim::buildWorld(frame, meshes, layers(frame), &fills);
 }
 
 }  // namespace
 
 Site makeSite(const Scene& scene) {
   MeshFiles files;
-  std::vector<sim::TiledMesh> meshes = readMeshes(scene, files);
+  std::vector<Problem> warnings;
+  std::vector<sim::TiledMesh> meshes = readMeshes(scene, files, warnings);
   return inScene(scene, [&]() -> Site {
     std::vector<sim::FillReport> fills;
     std::optional<sim::World> world;
     sim::Sky sky;
     sim::Sun sun;
-    sim::parallelInvoke(
-        [&] {
-          const sim::Frame frame = frameFor(scene, meshes);
-          world.emplace(sim::buildWorld(frame, meshes, layersFor(scene, frame), &fills));
-        },
-        [&] {
-          sky = sim::makeSky(skySettings(scene.sky));
-          sun = makeSun(scene.sun);
-        });
+    sim::parallelInvoke([&] { world.emplace(worldFor(scene, meshes, fills)); },
+                        [&] {
+                          sky = sim::makeSky(skySettings(scene.sky));
+                          sun = makeSun(scene.sun);
+                        });
     return {std::move(meshes),
             std::move(fills),
             std::move(*world),
@@ -122,7 +133,8 @@ Site makeSite(const Scene& scene) {
             randomSky(scene.sky, scene.seed),
             std::move(sun),
             std::move(files.files),
-            std::move(files.paths)};
+            std::move(files.paths),
+            std::move(warnings)};
   });
 }
 

@@ -3,6 +3,7 @@
 #include <stdexcept>
 #include <vector>
 
+#include "scenes/problem.h"
 #include "scenes/scene.h"
 #include "sim/light/random_sky.h"
 #include "sim/light/sky.h"
@@ -30,6 +31,7 @@ struct Site {
   sim::Sun sun;
   std::vector<sim::InputFile> mesh_files;         ///< what the meshes were read from, each once
   std::vector<std::filesystem::path> mesh_paths;  ///< where those are
+  std::vector<Problem> warnings;                  ///< of what mesh files name and have not
 };
 
 /// Reads a scene's meshes and tiles them, with layersFor() boundary layers. Throws sim::InputError, naming

@@ -189,6 +189,24 @@ std::string toJson(const ExposureTable& table) {
   return json.dump(2) + "\n";
 }
 
+namespace {
+
+/// The rows that a person will look at: the largest regions, in their order, and the total.
+std::vector<const ExposureRow*> rowsToShow(const std::vector<ExposureRow>& rows) {
+  constexpr std::size_t kMost = 40;
+  std::vector<const ExposureRow*> shown;
+  for (const ExposureRow& row : rows) shown.push_back(&row);
+  if (shown.size() <= kMost + 1) return shown;
+  std::stable_sort(shown.begin(), shown.end(), [](const ExposureRow* a, const ExposureRow* b) {
+    return std::pair(a->object.empty(), a->area_m2) > std::pair(b->object.empty(), b->area_m2);
+  });
+  shown.resize(kMost + 1);
+  std::sort(shown.begin(), shown.end());
+  return shown;
+}
+
+}  // namespace
+
 std::string toText(const ExposureTable& table) {
   const bool objects = std::any_of(table.rows.begin(), table.rows.end(), [&](const ExposureRow& row) {
     return !row.object.empty() && row.object != table.rows.front().object;
@@ -197,21 +215,24 @@ std::string toText(const ExposureTable& table) {
     if (row.object.empty()) return std::string("all surfaces");
     return objects ? row.object + ", " + row.region : row.region;
   };
+  const std::vector<const ExposureRow*> rows = rowsToShow(table.rows);
   std::size_t width = 0;
-  for (const ExposureRow& row : table.rows) width = std::max(width, nameOf(row).size());
+  for (const ExposureRow* row : rows) width = std::max(width, nameOf(*row).size());
   std::string text = fmt::format("{:{}}  {:>10}", "", width, "area m2");
   for (const auto& [name, unit, meaning, range] : table.quantities)
     text += fmt::format("  {:>22}", unit == "1" ? name : name + ", " + unit);
   text += "\n";
-  for (const ExposureRow& row : table.rows) {
-    text += fmt::format("{:{}}  {:>10.2f}", nameOf(row), width, row.area_m2);
+  for (const ExposureRow* row : rows) {
+    text += fmt::format("{:{}}  {:>10.2f}", nameOf(*row), width, row->area_m2);
     for (std::size_t q = 0; q < table.quantities.size(); ++q) {
-      const Spread& s = row.spreads[q];
+      const Spread& s = row->spreads[q];
       text += fmt::format(
           "  {:>22}", fmt::format("{:.2f} ({:.2f} .. {:.2f})", s.mean, s.lower_quartile, s.upper_quartile));
     }
     text += "\n";
   }
+  if (rows.size() < table.rows.size())
+    text += fmt::format("and {} smaller regions, in exposure.csv\n", table.rows.size() - rows.size());
   return text + "means by area, with the quartiles\n";
 }
 

@@ -45,7 +45,7 @@ ExposureTable exposureTable(const std::string& scene, const sim::World& world, c
 std::string toCsv(const ExposureTable& table);
 /// The same numbers.
 std::string toJson(const ExposureTable& table);
-/// Means by region, as a text to read.
+/// Means by region, as a text to read: of more than 40 regions the largest.
 std::string toText(const ExposureTable& table);
 
 }  // namespace espalier::scenes

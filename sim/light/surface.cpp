@@ -188,6 +188,21 @@ class Numbers {
   std::array<Known, 256> known_;
 };
 
+/// Calls visit(voxel with its surface) for those of one y that are not deep inside of something, until it
+/// answers false.
+template <class Visit>
+void visitSlice(const World& world, int y, Visit visit) {
+  for (int z = 0; z < world.frame().size.z; ++z) {
+    const std::uint64_t* const row = world.occupied().row(y, z);
+    for (int i = 0; i < world.occupied().rowWords() - 1; ++i) {
+      for (std::uint64_t word = row[i] & ~buriedBits(world.opaque(), y, z, i); word != 0; word &= word - 1) {
+        const Voxel v(i * BitVolume::kWordBits + std::countr_zero(word), y, z);
+        if (!visit({v, *world.surfaceAt(v)})) return;
+      }
+    }
+  }
+}
+
 SurfaceSensors joined(Voxel size, std::vector<Stretch> stretches) {
   BitVolume bits(size);
   parallelForEach(stretches.size(), [&](std::size_t p) { stretches[p].mark(bits); });
@@ -224,20 +239,27 @@ SurfaceSensors surfaceSensors(const World& world) {
   const Voxel size = world.frame().size;
   std::vector<Stretch> stretches(static_cast<std::size_t>(size.y));
   parallelForEach(stretches.size(), [&](std::size_t slice) {
-    const int y = static_cast<int>(slice);
-    for (int z = 0; z < size.z; ++z) {
-      const std::uint64_t* const row = world.occupied().row(y, z);
-      for (int i = 0; i < world.occupied().rowWords() - 1; ++i) {
-        for (std::uint64_t word = row[i] & ~buriedBits(world.opaque(), y, z, i); word != 0;
-             word &= word - 1) {
-          const Voxel v(i * BitVolume::kWordBits + std::countr_zero(word), y, z);
-          stretches[slice].add(world.opaque(), {v, *world.surfaceAt(v)});
-        }
-      }
-    }
-    stretches[slice].taps.shrink_to_fit();
+    Stretch& mine = stretches[slice];
+    visitSlice(world, static_cast<int>(slice), [&](const TiledVoxel& tiled) {
+      mine.add(world.opaque(), tiled);
+      return true;
+    });
+    mine.taps.shrink_to_fit();
   });
   return joined(size, std::move(stretches));
+}
+
+bool anyCanBeLit(const World& world) {
+  std::atomic<bool> found = false;
+  parallelForEach(static_cast<std::size_t>(world.frame().size.y), [&](std::size_t slice) {
+    visitSlice(world, static_cast<int>(slice), [&](const TiledVoxel& tiled) {
+      Stretch one;
+      one.add(world.opaque(), tiled);
+      if (!one.surfaces.empty()) found = true;
+      return !found;
+    });
+  });
+  return found;
 }
 
 SurfaceSensors surfaceSensors(const World& world, std::vector<TiledVoxel> surfaces) {

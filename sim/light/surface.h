@@ -44,6 +44,9 @@ SurfaceSensors surfaceSensors(const World& world);
 /// Some of them.
 SurfaceSensors surfaceSensors(const World& world, std::vector<TiledVoxel> surfaces);
 
+/// Whether any of a world's surfaces has a free place in front.
+bool anyCanBeLit(const World& world);
+
 /// What a surface with this unit normal gets of a sky that nothing hides but the ground and the surface's own
 /// back: 1 facing up, 0 facing down; as sim::unobstructed, and for uniform 1 - tilt / pi, the lune before it.
 double openSky(Weighting weighting, Vec3 normal);

@@ -150,6 +150,20 @@ std::vector<Share> sharesOf(const Mesh& mesh, const std::vector<Vec3>& vertices_
   return shares;
 }
 
+/// The region with the greatest sum of weights; of equal ones the first.
+std::uint32_t largestRegion(std::vector<std::pair<std::uint32_t, double>>& weights) {
+  const auto before = [](const auto& a, const auto& b) { return a.first < b.first; };
+  if (!std::is_sorted(weights.begin(), weights.end(), before))
+    std::stable_sort(weights.begin(), weights.end(), before);  // sums run in the order of the triangles
+  std::pair<std::uint32_t, double> largest{weights.front().first, -1.0};
+  for (auto next = weights.begin(); next != weights.end();) {
+    std::pair<std::uint32_t, double> sum{next->first, 0.0};
+    for (; next != weights.end() && next->first == sum.first; ++next) sum.second += next->second;
+    if (sum.second > largest.second) largest = sum;
+  }
+  return largest.first;
+}
+
 /// What the triangles that share a voxel make of it together.
 Surface joined(const Mesh& mesh, const std::vector<Vec3>& vertices_vx, Voxel voxel,
                std::span<const Share> shares, PartId first_part) {
@@ -159,7 +173,7 @@ Surface joined(const Mesh& mesh, const std::vector<Vec3>& vertices_vx, Voxel vox
   Vec3 normal(0.0);
   double offset = 0.0;  // of the planes, along their own normals
   double weights = 0.0;
-  std::vector<std::pair<std::uint32_t, double>> regions;
+  std::vector<std::pair<std::uint32_t, double>> of_regions;  // and their weights
   for (const Share& s : shares) {
     const double weight = total > 0.0 ? s.area : 1.0;  // all only touch: they count alike
     weights += weight;
@@ -172,20 +186,10 @@ Surface joined(const Mesh& mesh, const std::vector<Vec3>& vertices_vx, Voxel vox
       normal += (weight / length) * across;
       offset += (weight / length) * glm::dot(across, vertices_vx[t[0]] - Vec3(voxel));
     }
-    const std::uint32_t region = mesh.region[s.triangle];
-    const auto known =
-        std::find_if(regions.begin(), regions.end(), [&](const auto& r) { return r.first == region; });
-    if (known == regions.end()) {
-      regions.emplace_back(region, weight);
-    } else {
-      known->second += weight;
-    }
+    of_regions.emplace_back(mesh.region[s.triangle], weight);
   }
-  const auto largest = std::max_element(regions.begin(), regions.end(), [](const auto& a, const auto& b) {
-    return a.second != b.second ? a.second < b.second : a.first > b.first;
-  });
   const double length = glm::length(normal);
-  Surface surface{.part = first_part + static_cast<PartId>(largest->first),
+  Surface surface{.part = first_part + static_cast<PartId>(largestRegion(of_regions)),
                   .colour = Colour(colour / weights),
                   .coverage = static_cast<float>(std::min(total, 1.0))};
   constexpr double kCancelled = 1e-6;  // of the weights: two sides of a thin wall leave no direction

@@ -8,6 +8,7 @@
 #include <memory>
 
 #include "scenes/import/assimp_reader.h"
+#include "scenes/import/assimp_scene.h"
 #include "scenes/import/mesh_import.h"
 #include "scenes/import/mesh_wire.h"
 #include "sim/base/error.h"
@@ -158,13 +159,18 @@ std::vector<std::string> seeds() {
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace espalier;
   fuzz::Bytes bytes(fuzz::textOf(data, size));
-  constexpr std::array kFiles{"m.obj", "m.glb", "m.ply", "m.stl"};
-  const char* const file = kFiles[bytes.below(4)];
+  constexpr std::array kColours{scenes::MeshColours::display, scenes::MeshColours::linear,
+                                scenes::MeshColours::none};
+  const auto colours = kColours[bytes.below(3)];
   const auto regions = bytes.below(2) == 0 ? scenes::RegionsFrom::group : scenes::RegionsFrom::material;
   const auto scene = fuzz::scene(bytes);
   try {
-    const sim::Mesh mesh = scenes::meshFrom(*scene, file, {}, regions);
-    scenes::meshFromChild(scenes::packMesh(mesh));
+    scenes::requireSound(*scene);
+    scenes::MeshSources read;
+    scenes::meshFromChild(
+        scenes::packMesh(scenes::meshOf(scenes::instancesOf(*scene),
+                                        scenes::materialsOf(*scene, "m", colours), regions, "m")),
+        read);
   } catch (const sim::InputError&) {
   }
   return 0;

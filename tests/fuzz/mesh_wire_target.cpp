@@ -16,7 +16,7 @@ std::vector<std::string> seeds() {
   two.region.back() = two.material.back() = 1;
   two.degenerate_dropped = 2;
   return {scenes::packMesh(tests::boxMesh(sim::Vec3(0.0), sim::Vec3(1.0))),
-          scenes::packMesh(two, {{"mesh.obj", "mesh", 7}, {"paint.mtl", "mesh_part", 9}})};
+          scenes::packMesh(two, {{{"mesh.obj", "mesh", 7}, {"paint.mtl", "mesh_part", 9}}, {}})};
 }
 
 }  // namespace espalier::fuzz
@@ -24,10 +24,10 @@ std::vector<std::string> seeds() {
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace espalier;
   try {
-    std::vector<sim::InputFile> read;
-    sim::Mesh mesh = scenes::meshFromChild(fuzz::textOf(data, size), &read);
+    scenes::MeshSources read, again;
+    sim::Mesh mesh = scenes::meshFromChild(fuzz::textOf(data, size), read);
     const std::string packed = scenes::packMesh(mesh, read);
-    fuzz::require(scenes::packMesh(scenes::meshFromChild(packed), read) == packed,
+    fuzz::require(scenes::packMesh(scenes::meshFromChild(packed, again), read) == packed,
                   "a mesh that is packed otherwise");
     mesh = scenes::placeMesh(std::move(mesh), 0.5, {0.0, 45.0, 0.0}, {0.25, 0.0, 0.0});
     sim::buildWorld({sim::Vec3(-3.5), 1.0, {8, 8, 8}}, {{mesh, size % 2 == 1}}, 1);

@@ -104,8 +104,15 @@ sim::Mesh triangle() {
   return mesh;
 }
 
+MeshSources sourcesOfTriangle() {
+  return {{{"one.obj", "mesh", 7}}, {{"", 1, 8, "the MTL file 'x.mtl' is not there"}}};
+}
+
 TEST(MeshWire, ComesBackEqual) {
-  const auto mesh = unpackMesh(packMesh(triangle()));
+  MeshSources sources;
+  const auto mesh = unpackMesh(packMesh(triangle(), sourcesOfTriangle()), sources);
+  EXPECT_EQ(sources.files, sourcesOfTriangle().files);
+  EXPECT_EQ(sources.warnings, sourcesOfTriangle().warnings);
   EXPECT_EQ(mesh.name, "one");
   EXPECT_EQ(mesh.vertices_m, triangle().vertices_m);
   EXPECT_EQ(mesh.triangles, triangle().triangles);
@@ -117,22 +124,23 @@ TEST(MeshWire, ComesBackEqual) {
 }
 
 TEST(MeshWire, CutAndDamagedBytesAreRefused) {
-  const auto bytes = packMesh(triangle());
+  const auto bytes = packMesh(triangle(), sourcesOfTriangle());
+  MeshSources sources;
   for (std::size_t size = 0; size < bytes.size(); ++size) {
-    EXPECT_THROW(unpackMesh(std::string_view(bytes).substr(0, size)), std::runtime_error) << size;
+    EXPECT_THROW(unpackMesh(std::string_view(bytes).substr(0, size), sources), std::runtime_error) << size;
   }
-  EXPECT_THROW(unpackMesh(bytes + "x"), std::runtime_error);
+  EXPECT_THROW(unpackMesh(bytes + "x", sources), std::runtime_error);
   auto wrong_region = triangle();
   wrong_region.region = {1};
-  EXPECT_THROW(unpackMesh(packMesh(wrong_region)), std::runtime_error);
+  EXPECT_THROW(unpackMesh(packMesh(wrong_region), sources), std::runtime_error);
   auto missing_region = triangle();
   missing_region.region.clear();
-  EXPECT_THROW(unpackMesh(packMesh(missing_region)), std::runtime_error);
+  EXPECT_THROW(unpackMesh(packMesh(missing_region), sources), std::runtime_error);
   for (std::size_t at = 0; at < bytes.size(); ++at) {  // no count, however large, is believed
     auto flipped = bytes;
     flipped[at] = '\xff';
     try {
-      unpackMesh(flipped);
+      unpackMesh(flipped, sources);
     } catch (const std::runtime_error&) {
     }
   }

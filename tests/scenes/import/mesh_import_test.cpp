@@ -69,16 +69,17 @@ TEST_F(MeshImport, ObjGroupsMaterialsAndDisplayColoursMadeLinear) {
 
 TEST_F(MeshImport, TellsTheHashOfEveryFileThatWasRead) {
   write("paint.mtl", kPaintMtl);
-  std::vector<sim::InputFile> files;
-  importMesh(write("s.obj", kSquareObj), RegionsFrom::group, std::nullopt, &files);
-  EXPECT_EQ(files, (std::vector<sim::InputFile>{{"s.obj", "mesh", sim::hashOf(kSquareObj)},
-                                                {"paint.mtl", "mesh_part", sim::hashOf(kPaintMtl)}}));
+  MeshSources sources;
+  importMesh(write("s.obj", kSquareObj), RegionsFrom::group, std::nullopt, &sources);
+  EXPECT_EQ(sources.files, (std::vector<sim::InputFile>{{"s.obj", "mesh", sim::hashOf(kSquareObj)},
+                                                        {"paint.mtl", "mesh_part", sim::hashOf(kPaintMtl)}}));
   auto document = gltfDocument();
   document["buffers"][0]["uri"] = "data.bin";
   write("data.bin", gltfBuffer());
-  importMesh(write("t.gltf", document.dump()), RegionsFrom::group, std::nullopt, &files);
-  EXPECT_EQ(files, (std::vector<sim::InputFile>{{"t.gltf", "mesh", sim::hashOf(document.dump())},
-                                                {"data.bin", "mesh_part", sim::hashOf(gltfBuffer())}}));
+  importMesh(write("t.gltf", document.dump()), RegionsFrom::group, std::nullopt, &sources);
+  EXPECT_EQ(sources.files,
+            (std::vector<sim::InputFile>{{"t.gltf", "mesh", sim::hashOf(document.dump())},
+                                         {"data.bin", "mesh_part", sim::hashOf(gltfBuffer())}}));
 }
 
 TEST_F(MeshImport, ObjRegionsFromMaterials) {

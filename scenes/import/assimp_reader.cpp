@@ -58,7 +58,7 @@ void keepOnlyReaderOf(Assimp::Importer& importer, Format format) {
 }
 
 /// What building the mesh relies on.
-void requireSound(const aiMesh& mesh) {
+void requireSoundMesh(const aiMesh& mesh) {
   for (unsigned v = 0; v < mesh.mNumVertices; ++v) {
     const auto& p = mesh.mVertices[v];
     if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z)) {
@@ -97,7 +97,7 @@ void requireAll(std::uint64_t promised, std::uint64_t read, const char* what) {
 }  // namespace
 
 void requireSound(const aiScene& scene) {
-  for (unsigned m = 0; m < scene.mNumMeshes; ++m) requireSound(*scene.mMeshes[m]);
+  for (unsigned m = 0; m < scene.mNumMeshes; ++m) requireSoundMesh(*scene.mMeshes[m]);
 }
 
 namespace {

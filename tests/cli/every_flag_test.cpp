@@ -134,8 +134,8 @@ TEST_F(EveryFlag, OfGrowChangesWhatComesOut) {
        }},
       {"save-every",  // which a folder in the state's place does not let happen
        [&] {
-         fs::create_directories(scratch_.path("a/growth.state/inner"));
-         return Seen{grown("--no-state", "a"), grown("--no-state --save-every 1", "a")};
+         fs::create_directories(scratch_.path("barred/growth.state/inner"));
+         return Seen{grown("--no-state", "barred"), grown("--no-state --save-every 1", "barred")};
        }},
       {"resume",
        [&] {
@@ -184,7 +184,7 @@ TEST_F(EveryFlag, OfRenderChangesWhatComesOut) {
       {"threads",
        [&] {
          const auto threads = [&](const char* number) {
-           const auto text = ran("render", "--json --images vines " + into("a") + " --from " +
+           const auto text = ran("render", "--json --quiet --images vines " + into("a") + " --from " +
                                                scratch_.path("grown").string() + " --threads " + number);
            return nlohmann::json::parse(text.output)["run"]["threads"].dump();
          };

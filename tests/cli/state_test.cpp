@@ -184,9 +184,9 @@ TEST_F(Kept, AFolderInItsPlaceIsAnError) {
     EXPECT_EQ(ran.status, 2);
     EXPECT_EQ(ran.output.find(scratch_.path("out/growth.state").string() + ": " + what), 0u) << ran.output;
   };
-  expectError(grow("--quiet --no-pictures --resume"), "is no file");
+  expectError(grow("--quiet --no-pictures --resume"), "this is no file");
   expectError(render("scene.yaml", "out", "--quiet"), "is no file");
-  expectError(grow("--quiet --no-pictures --save-every 2"), "cannot put the file in its place");
+  expectError(grow("--quiet --no-pictures --save-every 2"), "this is no file");
   expectError(grow("--quiet --no-pictures --no-state"), "cannot be removed");
 }
 

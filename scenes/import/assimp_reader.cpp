@@ -97,7 +97,21 @@ void requireAll(std::uint64_t promised, std::uint64_t read, const char* what) {
 }  // namespace
 
 void requireSound(const aiScene& scene) {
-  for (unsigned m = 0; m < scene.mNumMeshes; ++m) requireSoundMesh(*scene.mMeshes[m]);
+  for (unsigned m = 0; m < scene.mNumMeshes; ++m) {
+    requireSoundMesh(*scene.mMeshes[m]);
+    if (scene.mMeshes[m]->mMaterialIndex >= scene.mNumMaterials)
+      throw sim::InputError("cannot be read: a mesh has a material that is not there");
+  }
+  std::vector<const aiNode*> open{scene.mRootNode};
+  while (!open.empty()) {
+    const aiNode& node = *open.back();
+    open.pop_back();
+    for (unsigned i = 0; i < node.mNumMeshes; ++i) {
+      if (node.mMeshes[i] >= scene.mNumMeshes)
+        throw sim::InputError("cannot be read: a node has a mesh that is not there");
+    }
+    open.insert(open.end(), node.mChildren, node.mChildren + node.mNumChildren);
+  }
 }
 
 namespace {

@@ -13,7 +13,8 @@ namespace espalier::scenes {
 /// .stl.
 void requireMeshFormat(const std::filesystem::path& file);
 
-/// What meshOf relies on: corners that are there, numbers that are finite. Throws sim::InputError, without
+/// What meshOf relies on: meshes, materials and corners that are there, numbers that are
+/// finite. Throws sim::InputError, without
 /// the file's name.
 void requireSound(const aiScene& scene);
 

@@ -69,6 +69,8 @@ TEST_F(Folder, WhatCannotBeWrittenIsFoundBeforeTheWork) {
     expectSays(ran, "/dev/null: cannot make the folder");
     EXPECT_EQ(ran.output.find("tiling"), std::string::npos) << ran.output;
   }
+  scratch_.write("file", "in the way");
+  expectSays(grow("--no-pictures", "file"), scratch_.path("file").string() + ": cannot make the folder");
   fs::create_directories(scratch_.path("out/vines.png"));
   const tests::Ran ran = grow();
   expectSays(ran, "vines.png: this is no file");

@@ -296,13 +296,6 @@ TEST_F(Plot, StrictMindsNothingWhereAllIsWell) {
   EXPECT_EQ(report()["warnings"], json::array());
 }
 
-TEST_F(Plot, AFolderThatCannotBeMadeIsAnError) {
-  scratch_.write("file", "in the way");
-  const auto ran = grow("--no-pictures", "file");
-  EXPECT_EQ(ran.status, 2);
-  EXPECT_NE(ran.output.find("file"), std::string::npos);
-}
-
 TEST_F(Plot, AFullDiskIsAnErrorAndLeavesNoHalfFiles) {
   ASSERT_EQ(grow("--no-pictures").status, 0);
   const auto before = files(scratch_.path("out"));

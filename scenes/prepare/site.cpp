@@ -41,8 +41,7 @@ void addFiles(const SceneMesh& spec, const std::vector<sim::InputFile>& read, Me
 
 std::vector<sim::TiledMesh> readMeshes(const Scene& scene, MeshFiles& files, std::vector<Problem>& warnings) {
   for (const SceneMesh& spec : scene.meshes) {
-    std::error_code unknown;  // what cannot be looked at is there, and an error
-                              // when it is read
+    std::error_code unknown;  // what cannot be looked at is there, and an error when it is read
     if (spec.optional &&
         std::filesystem::status(spec.file, unknown).type() == std::filesystem::file_type::not_found) {
       throw MeshMissing(fmt::format("{}: the mesh {} is not there", scene.file.string(), spec.file.string()));

@@ -29,8 +29,7 @@ bool isHeader(std::string_view text) {
 /// What a text says that it is, before anything in it is repeated: a file that is not ours may hold what
 /// nobody else should read.
 struct FirstLook {
-  bool ours = false;        ///< "espalier:" begins one of the lines that stand as far
-                            ///< left as the first
+  bool ours = false;        ///< "espalier:" begins one of the lines that stand as far left as the first
   std::string_view line{};  ///< the first one that says something
 };
 

@@ -176,7 +176,8 @@ void checkImagePlants(const Scene& scene, const Given&, const Complain& complain
   for (const auto& plant : scene.plants) names.push_back(plant.name);
   for (std::size_t i = 0; i < scene.images.size(); ++i) {
     const std::string& plant = scene.images[i].plant;
-    if (plant.empty() || std::find(names.begin(), names.end(), plant) != names.end()) continue;
+    if (scene.images[i].kind != ImageKind::threshold || plant.empty()) continue;
+    if (std::find(names.begin(), names.end(), plant) != names.end()) continue;
     complain(fmt::format("images[{}].plant", i),
              fmt::format("no plant is called {}; expected one of {}{}", inQuotes(plant), listed(names, plant),
                          didYouMean(plant, names)));

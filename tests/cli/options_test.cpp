@@ -44,7 +44,7 @@ TEST_F(Options, TakeNumbersAsFilesDo) {
 
 TEST_F(Options, NumbersOfEveryCommandAreCheckedAlike) {
   for (const std::string command : {"grow", "render", "expose"}) {
-    for (const std::string text : {"0", "1025", "010", "' 7'"}) {
+    for (const std::string text : {"1025", "' 7'"}) {
       const Ran ran = with(command, (command == "render" ? "--from out --threads " : "--threads ") + text);
       EXPECT_EQ(ran.status, 2) << command << text;
       EXPECT_TRUE(ran.output.starts_with("espalier: --threads is '")) << ran.output;

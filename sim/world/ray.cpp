@@ -1,6 +1,7 @@
 #include "sim/world/ray.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -18,19 +19,19 @@ constexpr int kBrick = 8;
 constexpr double kNever = std::numeric_limits<double>::infinity();
 
 /// The ray with cubes at [v, v + 1), so that planes are whole numbers.
+/// Arrays, as a walk asks for axes by their number.
 struct Ray {
-  Vec3 origin, direction, inverse;
-  Voxel step;   ///< -1, 0 or 1
-  Voxel ahead;  ///< 1 where the next plane lies above the cube's own index, else 0
+  std::array<double, 3> origin, direction, inverse{};
+  std::array<int, 3> step{};   ///< -1, 0 or 1
+  std::array<int, 3> ahead{};  ///< 1 where the next plane lies above the cube's own index, else 0
 
-  double t(int axis, int plane) const { return (plane - origin[axis]) * inverse[axis]; }
-  double tNext(int axis, int index) const { return step[axis] == 0 ? kNever : t(axis, index + ahead[axis]); }
+  double t(std::size_t axis, double plane) const { return (plane - origin[axis]) * inverse[axis]; }
 };
 
 Ray makeRay(Vec3 origin_vx, Vec3 direction) {
-  Ray ray{origin_vx + 0.5, direction, Vec3(0.0), Voxel(0), Voxel(0)};
-  for (int axis = 0; axis < 3; ++axis) {
-    const double d = direction[axis];
+  Ray ray{{origin_vx.x + 0.5, origin_vx.y + 0.5, origin_vx.z + 0.5}, {direction.x, direction.y, direction.z}};
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const double d = ray.direction[axis];
     ray.step[axis] = d > 0.0 ? 1 : d < 0.0 ? -1 : 0;
     ray.ahead[axis] = d > 0.0 ? 1 : 0;
     if (d != 0.0) ray.inverse[axis] = 1.0 / d;
@@ -38,31 +39,33 @@ Ray makeRay(Vec3 origin_vx, Vec3 direction) {
   return ray;
 }
 
-/// The crossing of a plane; axis -1 is the ray's own beginning.
+/// The crossing of a plane, or what stands for one: where the ray begins (kBegin, before all axes), and a
+/// place past every plane of the same t (kPast).
 struct Crossing {
+  static constexpr int kBegin = -1, kPast = 3;
+
   double t = 0.0;
-  int axis = -1;
+  int axis = kBegin;
   bool before(double other_t, int other_axis) const {
     return t < other_t || (t == other_t && axis < other_axis);
   }
 };
 
-/// The axis whose plane is crossed next: x before y before z where they are crossed at once.
-int nextAxis(const Vec3& t) {
-  return t.x <= t.y ? (t.x <= t.z ? 0 : 2) : (t.y <= t.z ? 1 : 2);
+/// The whole number below, of what lies within -1..size.
+int clampedFloor(double v, int size) {
+  const double within = std::clamp(v, -1.0, static_cast<double>(size));
+  const int whole = static_cast<int>(within);
+  return whole - (within < whole ? 1 : 0);
 }
 
 /// The ray's cube along one axis right after a crossing of another axis; -1 and size stand for all that is
 /// outside.
-int indexAfter(const Ray& ray, const Crossing& now, int axis, int size) {
-  const auto clamped = [size](double v) {
-    return static_cast<int>(std::clamp(std::floor(v), -1.0, double(size)));
-  };
-  const int first = clamped(ray.origin[axis]);
+int indexAfter(const Ray& ray, const Crossing& now, std::size_t axis, int size) {
+  const int first = clampedFloor(ray.origin[axis], size);
   const int step = ray.step[axis];
-  if (step == 0 || now.axis < 0) return first;
-  const auto crossed = [&](int plane) { return !now.before(ray.t(axis, plane), axis); };
-  int index = clamped(ray.origin[axis] + now.t * ray.direction[axis]);
+  if (step == 0 || now.axis == Crossing::kBegin) return first;
+  const auto crossed = [&](int plane) { return !now.before(ray.t(axis, plane), static_cast<int>(axis)); };
+  int index = clampedFloor(ray.origin[axis] + now.t * ray.direction[axis], size);
   if (step > 0) {
     while (index < size && crossed(index + 1)) ++index;
     while (index > first && !crossed(index)) --index;
@@ -74,22 +77,91 @@ int indexAfter(const Ray& ray, const Crossing& now, int axis, int size) {
 }
 
 /// The crossing by which the ray comes into the box; false if it cannot.
-bool enterBox(const Ray& ray, Voxel size, Crossing& entry) {
-  for (int axis = 0; axis < 3; ++axis) {
+bool enterBox(const Ray& ray, const std::array<int, 3>& size, Crossing& entry) {
+  for (std::size_t axis = 0; axis < 3; ++axis) {
     const double o = ray.origin[axis];
     if (o >= 0.0 && o < size[axis]) continue;
     const bool below = o < 0.0;
     if (ray.step[axis] != (below ? 1 : -1)) return false;
     const double t = ray.t(axis, below ? 0 : size[axis]);
     if (!std::isfinite(t)) return false;
-    if (entry.before(t, axis)) entry = {t, axis};
+    if (entry.before(t, static_cast<int>(axis))) entry = {t, static_cast<int>(axis)};
   }
   return true;
 }
 
-RayHit hitAt(const Ray& ray, Voxel voxel, const Crossing& crossing) {
-  RayHit hit{voxel, Voxel(0), crossing.t};
-  if (crossing.axis >= 0) hit.face[crossing.axis] = -ray.step[crossing.axis];
+using Cube = std::array<int, 3>;  ///< a voxel or a brick, by axes
+
+Cube cubeOf(Voxel v) {
+  return {v.x, v.y, v.z};
+}
+
+bool within(const Cube& size, const Cube& cube) {
+  return cube[0] >= 0 && cube[1] >= 0 && cube[2] >= 0 && cube[0] < size[0] && cube[1] < size[1] &&
+         cube[2] < size[2];
+}
+
+/// A walk along a ray from cube to cube, each a bit of a volume and `side` voxels wide. Borrows both.
+class Walk {
+ public:
+  Walk(const Ray& ray, const BitVolume& volume, int side)
+      : ray_(ray), words_(volume.words().data()), side_(side) {
+    const std::int64_t row = std::int64_t{BitVolume::kWordBits} * volume.rowWords();
+    apart_ = {1, row * volume.size().z, row};
+    begin_ = (volume.row(0, 0) - words_) * BitVolume::kWordBits;
+  }
+
+  /// Goes to a cube, and is not to leave those from `low` to below `high`.
+  void start(const Cube& cube, const Cube& low, const Cube& high) {
+    bit_ = begin_;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      bit_ += cube[axis] * apart_[axis];
+      left_[axis] = ray_.step[axis] > 0 ? high[axis] - 1 - cube[axis] : cube[axis] - low[axis];
+      plane_[axis] = (cube[axis] + ray_.ahead[axis]) * side_;
+      t_[axis] = ray_.step[axis] == 0 ? kNever : ray_.t(axis, plane_[axis]);
+    }
+  }
+  bool occupied() const {
+    const auto bit = static_cast<std::uint64_t>(bit_);
+    return ((words_[bit / BitVolume::kWordBits] >> (bit % BitVolume::kWordBits)) & 1u) != 0;
+  }
+  /// Crosses the next plane, of x before y before z where they are met at once; false where it leads out.
+  bool next(Crossing& crossing) {
+    // note: branches beat an axis that is picked without any, as most rays cross planes in a rhythm.
+    if (t_[0] <= t_[1]) return t_[0] <= t_[2] ? cross<0>(crossing) : cross<2>(crossing);
+    return t_[1] <= t_[2] ? cross<1>(crossing) : cross<2>(crossing);
+  }
+  Cube cube() const {
+    Cube here;
+    for (std::size_t axis = 0; axis < 3; ++axis) here[axis] = plane_[axis] / side_ - ray_.ahead[axis];
+    return here;
+  }
+
+ private:
+  template <std::size_t kAxis>
+  bool cross(Crossing& crossing) {
+    crossing = {t_[kAxis], static_cast<int>(kAxis)};
+    if (left_[kAxis]-- == 0) return false;
+    bit_ += ray_.step[kAxis] * apart_[kAxis];
+    plane_[kAxis] += ray_.step[kAxis] * side_;
+    t_[kAxis] = ray_.t(kAxis, plane_[kAxis]);
+    return true;
+  }
+
+  const Ray& ray_;
+  const std::uint64_t* words_;
+  int side_;
+  std::int64_t begin_, bit_ = 0;  // in the volume's words
+  std::array<std::int64_t, 3> apart_;
+  std::array<double, 3> t_{};  // of the planes ahead
+  std::array<int, 3> plane_{};
+  std::array<int, 3> left_{};  // cubes ahead
+};
+
+RayHit hitAt(const Ray& ray, const Cube& cube, const Crossing& crossing) {
+  RayHit hit{{cube[0], cube[1], cube[2]}, Voxel(0), crossing.t};
+  if (crossing.axis != Crossing::kBegin && crossing.axis != Crossing::kPast)
+    hit.face[crossing.axis] = -ray.step[static_cast<std::size_t>(crossing.axis)];
   return hit;
 }
 
@@ -109,53 +181,54 @@ Bricks::Bricks(const BitVolume& occupied) : bits_((occupied.size() + (kBrick - 1
 }
 
 std::optional<RayHit> firstHit(const BitVolume& occupied, const Bricks& bricks, Vec3 origin_vx,
-                               Vec3 direction) {
-  const Voxel size = occupied.size();
+                               Vec3 direction, double free_vx) {
+  const Cube size = cubeOf(occupied.size());
   const Ray ray = makeRay(origin_vx, direction);
   Crossing now;
   if (!enterBox(ray, size, now)) return std::nullopt;
+  if (free_vx > now.t) now = {free_vx, Crossing::kPast};
 
-  Voxel voxel;
-  for (int axis = 0; axis < 3; ++axis) {
-    voxel[axis] =
-        axis == now.axis ? (ray.step[axis] > 0 ? 0 : size[axis] - 1) : indexAfter(ray, now, axis, size[axis]);
-  }
-  if (!contains(size, voxel)) return std::nullopt;
-
-  const Voxel brick_count = (size + (kBrick - 1)) / kBrick;
-  Voxel brick = voxel / kBrick;
-  Vec3 brick_t;
-  for (int axis = 0; axis < 3; ++axis)
-    brick_t[axis] = ray.step[axis] == 0 ? kNever : ray.t(axis, (brick[axis] + ray.ahead[axis]) * kBrick);
-
-  while (true) {
-    if (bricks.any(brick)) {
-      const Voxel low = brick * kBrick;
-      const Voxel high = glm::min(low + kBrick, size);
-      for (int axis = 0; axis < 3; ++axis) {
-        if (axis == now.axis || now.axis < 0) continue;
-        voxel[axis] = indexAfter(ray, now, axis, size[axis]);
-      }
-      if (!contains(size, voxel)) return std::nullopt;  // the world may end within a brick
-      Vec3 t{ray.tNext(0, voxel.x), ray.tNext(1, voxel.y), ray.tNext(2, voxel.z)};
-      Crossing here = now;
-      while (true) {
-        if ((occupied.row(voxel.y, voxel.z)[voxel.x >> 6] >> (voxel.x & 63)) & 1u)
-          return hitAt(ray, voxel, here);
-        const int axis = nextAxis(t);
-        here = {t[axis], axis};
-        voxel[axis] += ray.step[axis];
-        if (voxel[axis] < low[axis] || voxel[axis] >= high[axis]) break;
-        t[axis] = ray.tNext(axis, voxel[axis]);
-      }
+  Walk by_voxels(ray, occupied, 1);
+  /// Within a brick, from the last crossing on.
+  const auto throughBrick = [&](const Cube& voxel, const Cube& brick) -> std::optional<RayHit> {
+    Cube low, high;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      low[axis] = brick[axis] * kBrick;
+      high[axis] = std::min(low[axis] + kBrick, size[axis]);
     }
-    const int axis = nextAxis(brick_t);
-    now = {brick_t[axis], axis};
-    brick[axis] += ray.step[axis];
-    if (brick[axis] < 0 || brick[axis] >= brick_count[axis]) return std::nullopt;
-    voxel[axis] = ray.step[axis] > 0 ? brick[axis] * kBrick : brick[axis] * kBrick + kBrick - 1;
-    brick_t[axis] = ray.t(axis, (brick[axis] + ray.ahead[axis]) * kBrick);
+    by_voxels.start(voxel, low, high);
+    Crossing crossing = now;
+    do {
+      if (by_voxels.occupied()) return hitAt(ray, by_voxels.cube(), crossing);
+    } while (by_voxels.next(crossing));
+    return std::nullopt;
+  };
+
+  Cube voxel;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    voxel[axis] = static_cast<int>(axis) == now.axis ? (ray.step[axis] > 0 ? 0 : size[axis] - 1)
+                                                     : indexAfter(ray, now, axis, size[axis]);
   }
+  if (!within(size, voxel)) return std::nullopt;
+  const Cube first{voxel[0] / kBrick, voxel[1] / kBrick, voxel[2] / kBrick};
+  if (bricks.bits().at({first[0], first[1], first[2]})) {
+    if (const auto hit = throughBrick(voxel, first)) return hit;
+  }
+
+  Walk by_bricks(ray, bricks.bits(), kBrick);
+  by_bricks.start(first, {0, 0, 0}, cubeOf(bricks.bits().size()));
+  while (by_bricks.next(now)) {
+    if (!by_bricks.occupied()) continue;
+    const Cube brick = by_bricks.cube();
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      voxel[axis] = static_cast<int>(axis) == now.axis
+                        ? brick[axis] * kBrick + (ray.step[axis] > 0 ? 0 : kBrick - 1)
+                        : indexAfter(ray, now, axis, size[axis]);
+    }
+    if (!within(size, voxel)) return std::nullopt;  // the world may end within a brick
+    if (const auto hit = throughBrick(voxel, brick)) return hit;
+  }
+  return std::nullopt;
 }
 
 }  // namespace espalier::sim

@@ -16,7 +16,7 @@ struct RayHit {
 class Bricks {
  public:
   explicit Bricks(const BitVolume& occupied);
-  bool any(Voxel brick) const { return bits_.at(brick); }
+  const BitVolume& bits() const { return bits_; }  ///< one for each
 
  private:
   BitVolume bits_;
@@ -24,8 +24,9 @@ class Bricks {
 
 /// The first occupied voxel that a ray meets (Amanatides and Woo 1987, over bricks and then voxels). The
 /// origin may lie outside the world. `direction` must be of unit length. Where the ray passes exactly through
-/// an edge or a corner, x is crossed before y and y before z.
+/// an edge or a corner, x is crossed before y and y before z. A caller who knows that at a distance of
+/// `free_vx` the ray is in free space, with nothing occupied before, spares it the way there.
 std::optional<RayHit> firstHit(const BitVolume& occupied, const Bricks& bricks, Vec3 origin_vx,
-                               Vec3 direction);
+                               Vec3 direction, double free_vx = 0.0);
 
 }  // namespace espalier::sim

@@ -82,6 +82,12 @@ Vec3 awkwardDirection(Rng& rng) {
   }
 }
 
+/// The same ray, begun somewhere on its free way.
+std::optional<RayHit> fromFreeWay(const BitVolume& world, const Bricks& bricks, Vec3 origin, Vec3 direction,
+                                  const std::optional<RayHit>& hit, double share) {
+  return firstHit(world, bricks, origin, direction, share * (hit ? hit->t : 150.0));
+}
+
 TEST(FirstHit, AgreesWithTheSlowWalkOnRandomRays) {
   Rng rng(1);
   const std::vector<Voxel> sizes = {{1, 1, 1}, {8, 8, 8}, {17, 9, 23}, {64, 5, 3}, {70, 31, 40}, {130, 3, 9}};
@@ -100,6 +106,7 @@ TEST(FirstHit, AgreesWithTheSlowWalkOnRandomRays) {
               Vec3(size) * Vec3(between(rng, 0, 1), between(rng, 0, 1), between(rng, 0, 1)) - origin);
         const auto fast = firstHit(world, bricks, origin, direction);
         ASSERT_TRUE(same(fast, slowHit(world, origin, direction))) << "ray " << i << " density " << density;
+        ASSERT_TRUE(same(fast, fromFreeWay(world, bricks, origin, direction, fast, between(rng, 0, 0.999))));
         hits += fast.has_value();
       }
     }
@@ -125,6 +132,9 @@ TEST(FirstHit, AgreesWithTheSlowWalkAlongPlanesEdgesAndCorners) {
       ASSERT_TRUE(same(fast, slowHit(world, origin, direction)))
           << "from " << origin.x << ' ' << origin.y << ' ' << origin.z << " along " << direction.x << ' '
           << direction.y << ' ' << direction.z;
+      // Often to where planes, edges and corners are crossed.
+      const double share = 0.125 * static_cast<double>(rng() % 8);
+      ASSERT_TRUE(same(fast, fromFreeWay(world, bricks, origin, direction, fast, share)));
       hits += fast.has_value();
       inside += fast && fast->face == Voxel(0);
     }

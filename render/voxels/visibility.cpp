@@ -6,7 +6,9 @@
 #include <algorithm>
 #include <array>
 #include <atomic>
+#include <limits>
 
+#include "render/voxels/free_way.h"
 #include "sim/base/error.h"
 
 // Every pixel is found by itself and rows are joined in order, so the answer does not depend on the threads.
@@ -56,25 +58,30 @@ class Eye {
         width_(width),
         height_(height) {}
 
-  /// What is seen at a point of the image, in pixels.
-  Fragment look(double x, double y) const {
+  /// What is seen at a point of the image, in pixels, and how far away.
+  struct Look {
+    Fragment fragment;
+    double distance_vx = std::numeric_limits<double>::infinity();
+  };
+  Look look(double x, double y, double free_vx) const {
     const sim::Vec3 direction = rays_.direction(x / width_, y / height_);
-    const std::optional<sim::RayHit> hit = sim::firstHit(occupied_, bricks_, eye_vx_, direction);
+    const std::optional<sim::RayHit> hit = sim::firstHit(occupied_, bricks_, eye_vx_, direction, free_vx);
     if (!hit) return {};
-    return onFace(eye_vx_ + hit->t * direction, hit->voxel, faceOf(hit->face));
+    return {onFace(eye_vx_ + hit->t * direction, hit->voxel, faceOf(hit->face)), hit->t};
   }
 
   /// The same where the pixels around see nothing but the plane of a face: no ray needs to be walked.
-  Fragment lookAtPlane(double x, double y, const Fragment& face) const {
+  Fragment lookAtPlane(double x, double y, const Fragment& face, double free_vx) const {
     const sim::Vec3 direction = rays_.direction(x / width_, y / height_);
     const int axis = faceAxis(face.face);
     const double plane = face.voxel[axis] + 0.5 * kFaceNormals[face.face][axis];
     const double t = (plane - eye_vx_[axis]) / direction[axis];
-    if (!(t > 0.0 && t < kFar)) return look(x, y);
+    if (!(t > 0.0 && t < kFar)) return look(x, y, free_vx).fragment;
     const sim::Vec3 place = eye_vx_ + direction * t;
     sim::Voxel voxel = sim::voxelAt(place);
     voxel[axis] = face.voxel[axis];
-    if (!occupied_.at(voxel) || occupied_.at(voxel + kFaceNormals[face.face])) return look(x, y);
+    if (!occupied_.at(voxel) || occupied_.at(voxel + kFaceNormals[face.face]))
+      return look(x, y, free_vx).fragment;
     return onFace(place, voxel, face.face);
   }
 
@@ -92,11 +99,14 @@ class Eye {
   double width_, height_;
 };
 
-void appendSubsamples(const Eye& eye, int x, int y, const Fragment* plane, std::vector<Fragment>& row) {
+void appendSubsamples(const Eye& eye, const FreeWay& free, int x, int y, const Fragment* plane,
+                      std::vector<Fragment>& row) {
   const std::size_t first = row.size();
+  const double free_vx = free.of({x + 0.5, y + 0.5}, 1);
   for (const glm::dvec2 offset : kOffsets) {
     const double px = x + offset.x, py = y + offset.y;
-    const Fragment seen = plane ? eye.lookAtPlane(px, py, *plane) : eye.look(px, py);
+    const Fragment seen =
+        plane ? eye.lookAtPlane(px, py, *plane, free_vx) : eye.look(px, py, free_vx).fragment;
     std::size_t i = first;
     while (i < row.size() && !alike(row[i], seen)) ++i;
     if (i == row.size()) {
@@ -107,6 +117,28 @@ void appendSubsamples(const Eye& eye, int x, int y, const Fragment* plane, std::
     }
   }
   for (std::size_t i = first; i < row.size(); ++i) row[i].at /= static_cast<float>(row[i].samples);
+}
+
+/// What each pixel's middle sees, rows from the top: a coarse grid first, then what lies between.
+std::vector<Fragment> middles(const Eye& eye, FreeWay& free, int width, int height) {
+  constexpr int kCoarsest = 8;
+  std::vector<Fragment> seen(static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
+  for (int apart = kCoarsest; apart >= 1; apart /= 2) {
+    sim::parallelForEach(static_cast<std::size_t>((height + apart - 1) / apart), [&](std::size_t line) {
+      const int y = static_cast<int>(line) * apart;
+      for (int x = 0; x < width; x += apart) {
+        const bool known = apart < kCoarsest && (x | y) % (2 * apart) == 0;
+        if (known) continue;
+        const double px = x + 0.5, py = y + 0.5;
+        const double free_vx = apart < kCoarsest ? free.of({px, py}, 2 * apart) : 0.0;
+        const Eye::Look look = eye.look(px, py, free_vx);
+        seen[static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x)] =
+            look.fragment;
+        free.tell({x, y}, look.distance_vx);
+      }
+    });
+  }
+  return seen;
 }
 
 }  // namespace
@@ -126,12 +158,8 @@ Visibility see(const sim::Frame& frame, const sim::BitVolume& occupied, const si
   const Eye eye(frame, occupied, bricks, all.rays, width_px, height_px);
 
   const std::size_t width = static_cast<std::size_t>(width_px), height = static_cast<std::size_t>(height_px);
-  std::vector<Fragment> centres(width * height);
-  sim::parallelForEach(static_cast<std::size_t>(height_px), [&](std::size_t row) {
-    const int y = static_cast<int>(row);
-    for (int x = 0; x < width_px; ++x)
-      centres[static_cast<std::size_t>(y) * width + static_cast<std::size_t>(x)] = eye.look(x + 0.5, y + 0.5);
-  });
+  FreeWay free(camera, width_px, height_px, sim::voxelFromWorld(frame, camera.eye_m), occupied);
+  const std::vector<Fragment> centres = middles(eye, free, width_px, height_px);
 
   std::vector<std::vector<Fragment>> rows(height);
   all.starts.assign(width * height + 1, 0);
@@ -153,8 +181,8 @@ Visibility see(const sim::Frame& frame, const sim::BitVolume& occupied, const si
       if (std::all_of(around.begin(), around.end(), seesAlike))
         row.push_back(centre);
       else
-        appendSubsamples(eye, x, y, std::all_of(around.begin(), around.end(), seesPlane) ? &centre : nullptr,
-                         row);
+        appendSubsamples(eye, free, x, y,
+                         std::all_of(around.begin(), around.end(), seesPlane) ? &centre : nullptr, row);
       all.starts[i + 1] = row.size() - before;
     }
     seen += row.size();

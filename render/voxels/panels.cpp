@@ -11,67 +11,7 @@ namespace espalier::render {
 namespace {
 
 using sim::Colour;
-using sim::faceAxis;
 using sim::kFaceNormals;
-using sim::Voxel;
-
-/// How bright faces of the six directions are drawn, so that a cube reads as a cube under any data.
-constexpr std::array<float, kSky> kFaceRelief = {0.74f, 0.74f, 0.58f, 1.0f, 0.86f, 0.86f};
-/// How much of that is left deep in a corner between cubes.
-constexpr float kCreaseRelief = 0.62f;
-
-template <typename Task>
-void forEachFragment(const Visibility& seen, Task task) {
-  sim::parallelFor(seen.fragments.size(), 4096, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i)
-      if (seen.fragments[i].face != kSky) task(i, seen.fragments[i]);
-  });
-}
-
-/// The two directions within a face's plane, in the order of Fragment::at.
-std::array<Voxel, 2> inPlane(std::uint8_t face) {
-  std::array<Voxel, 2> axes{Voxel(0), Voxel(0)};
-  axes[0][(faceAxis(face) + 1) % 3] = 1;
-  axes[1][(faceAxis(face) + 2) % 3] = 1;
-  return axes;
-}
-
-/// The mean over the faces side by side that a point on a face lies between, by their bilinear shares. Steps
-/// and corners are not crossed: they are faces of other planes.
-float smoothed(const FaceValue& value, const sim::BitVolume& occupied, const Fragment& f) {
-  const auto [u, v] = inPlane(f.face);
-  const Voxel du = f.at.x < 0 ? -u : u, dv = f.at.y < 0 ? -v : v;
-  const float a = std::min(std::abs(f.at.x), 0.5f), b = std::min(std::abs(f.at.y), 0.5f);
-  const auto isFace = [&](Voxel voxel) {
-    return occupied.at(voxel) && !occupied.at(voxel + kFaceNormals[f.face]);
-  };
-  float sum = 0.0f, shares = 0.0f;
-  const auto add = [&](Voxel voxel, float share) {
-    sum += share * value(voxel, f.face);
-    shares += share;
-  };
-  const bool beside_u = isFace(f.voxel + du), beside_v = isFace(f.voxel + dv);
-  add(f.voxel, (1 - a) * (1 - b));
-  if (beside_u) add(f.voxel + du, a * (1 - b));
-  if (beside_v) add(f.voxel + dv, (1 - a) * b);
-  if ((beside_u || beside_v) && isFace(f.voxel + du + dv)) add(f.voxel + du + dv, a * b);
-  return sum / shares;
-}
-
-/// The face's own brightness, darker towards cubes that stand before it.
-float relief(const sim::BitVolume& occupied, const Fragment& f) {
-  const auto [u, v] = inPlane(f.face);
-  const Voxel front = f.voxel + kFaceNormals[f.face];
-  const auto open = [&, u = u, v = v](int su, int sv) {  // clang 14 captures no names of a structured binding
-    const bool side_u = occupied.at(front + su * u), side_v = occupied.at(front + sv * v);
-    const bool corner = occupied.at(front + su * u + sv * v);
-    return side_u && side_v ? 0.0f : 1.0f - static_cast<float>(side_u + side_v + corner) / 3.0f;
-  };
-  const float a = std::clamp(f.at.x + 0.5f, 0.0f, 1.0f), b = std::clamp(f.at.y + 0.5f, 0.0f, 1.0f);
-  const float near = (1 - a) * open(-1, -1) + a * open(1, -1), far = (1 - a) * open(-1, 1) + a * open(1, 1);
-  const float openness = (1 - b) * near + b * far;
-  return kFaceRelief[f.face] * (kCreaseRelief + (1 - kCreaseRelief) * openness);
-}
 
 float smoothStep(float low, float high, float value) {
   const float t = std::clamp((value - low) / (high - low), 0.0f, 1.0f);
@@ -89,7 +29,8 @@ Colour neutralBackdrop(float down) {
 /// Averages what the pixels see: `shade` gives linear colours by fragment, `backdrop` by direction and
 /// height.
 template <typename Shade, typename Backdrop>
-Image compose(const Visibility& seen, Shade shade, Backdrop backdrop) {
+Image compose(const Visibility& seen, const std::vector<std::int8_t>& samples, Shade shade,
+              Backdrop backdrop) {
   Image image(seen.width, seen.height, 3);
   sim::parallelForEach(static_cast<std::size_t>(seen.height), [&](std::size_t row) {
     const int y = static_cast<int>(row);
@@ -97,14 +38,13 @@ Image compose(const Visibility& seen, Shade shade, Backdrop backdrop) {
       const std::size_t pixel =
           static_cast<std::size_t>(y) * static_cast<std::size_t>(seen.width) + static_cast<std::size_t>(x);
       Colour sum(0.0f);
-      float samples = 0.0f;
+      float all = 0.0f;
       for (std::size_t i = seen.starts[pixel]; i < seen.starts[pixel + 1]; ++i) {
-        const Fragment& f = seen.fragments[i];
-        const float weight = static_cast<float>(f.samples);
-        sum += weight * (f.face == kSky ? backdrop(x, y) : shade(i));
-        samples += weight;
+        const float weight = std::abs(static_cast<float>(samples[i]));
+        sum += weight * (samples[i] < 0 ? backdrop(x, y) : shade(i));
+        all += weight;
       }
-      const Colour display = srgbFromLinear(sum / samples);
+      const Colour display = srgbFromLinear(sum / all);
       std::copy_n(&display.r, 3, image.at(x, y));
     }
   });
@@ -114,7 +54,7 @@ Image compose(const Visibility& seen, Shade shade, Backdrop backdrop) {
 /// Averages values without any shading. Fields are divided by the pixel's share of the world, colours are
 /// not.
 template <int kValues, typename Values>
-Image measure(const Visibility& seen, bool divide, Values values) {
+Image measure(const Visibility& seen, const std::vector<std::int8_t>& samples, bool divide, Values values) {
   Image image(seen.width, seen.height, kValues + 1);
   sim::parallelForEach(static_cast<std::size_t>(seen.height), [&](std::size_t row) {
     const int y = static_cast<int>(row);
@@ -122,20 +62,19 @@ Image measure(const Visibility& seen, bool divide, Values values) {
       const std::size_t pixel =
           static_cast<std::size_t>(y) * static_cast<std::size_t>(seen.width) + static_cast<std::size_t>(x);
       std::array<float, kValues> sums{};
-      float samples = 0.0f, world = 0.0f;
+      float all = 0.0f, world = 0.0f;
       for (std::size_t i = seen.starts[pixel]; i < seen.starts[pixel + 1]; ++i) {
-        const Fragment& f = seen.fragments[i];
-        const float weight = static_cast<float>(f.samples);
-        samples += weight;
-        if (f.face == kSky) continue;
+        const float weight = std::abs(static_cast<float>(samples[i]));
+        all += weight;
+        if (samples[i] < 0) continue;
         world += weight;
         const std::array<float, kValues> here = values(i);
         for (std::size_t c = 0; c < kValues; ++c) sums[c] += weight * here[c];
       }
       float* out = image.at(x, y);
-      const float whole = divide ? std::max(world, 1.0f) : samples;
+      const float whole = divide ? std::max(world, 1.0f) : all;
       for (std::size_t c = 0; c < kValues; ++c) out[c] = sums[c] / whole;
-      out[kValues] = world / samples;
+      out[kValues] = world / all;
     }
   });
   return image;
@@ -161,23 +100,44 @@ PanelPainter::PanelPainter(const Visibility& seen, const PanelWorld& world, Pane
   const auto wanted = [&](std::initializer_list<Panel> any) {
     return std::find_first_of(panels.begin(), panels.end(), any.begin(), any.end()) != panels.end();
   };
+  std::vector<std::pair<const FaceValue*, Shown*>> quantities;
+  if (wanted({Panel::sun_exposure, Panel::threshold})) quantities.emplace_back(&world.sun, &sun_);
+  if (wanted({Panel::sky_exposure, Panel::threshold, Panel::first_pass}))
+    quantities.emplace_back(&world.sky, &sky_);
+  if (wanted({Panel::sun_hours})) quantities.emplace_back(&world.sun_hours, &hours_);
+  const bool colours = wanted({Panel::surface_colour, Panel::first_pass});
+
   const std::size_t count = seen.fragments.size();
-  const auto prepare = [&](auto& values, auto value) {
-    values.resize(count);
-    forEachFragment(seen, [&](std::size_t i, const Fragment& f) { values[i] = value(f); });
-  };
-  const auto prepareShown = [&](const FaceValue& value, Shown& shown) {
-    prepare(shown.pure, [&](const Fragment& f) { return value(f.voxel, f.face); });
-    prepare(shown.smooth, [&](const Fragment& f) { return smoothed(value, world.occupied, f); });
-  };
-  prepare(relief_, [&](const Fragment& f) { return relief(world.occupied, f); });
-  if (wanted({Panel::sun_exposure, Panel::threshold})) prepareShown(world.sun, sun_);
-  if (wanted({Panel::sky_exposure, Panel::threshold, Panel::first_pass})) prepareShown(world.sky, sky_);
-  if (wanted({Panel::sun_hours})) prepareShown(world.sun_hours, hours_);
+  samples_.resize(count);
+  relief_.resize(count);
+  if (colours) colour_.resize(count);
+  for (const auto& [value, shown] : quantities) {
+    shown->pure.resize(count);
+    shown->smooth.resize(count);
+  }
+  sim::parallelFor(count, 4096, [&](std::size_t begin, std::size_t end) {
+    NearFaces near(world.occupied);
+    std::vector<NearValues> values;
+    for (const auto& quantity : quantities) values.emplace_back(*quantity.first, near);
+    Colour colour(0.0f);
+    for (std::size_t i = begin; i < end; ++i) {
+      const Fragment& f = seen.fragments[i];
+      samples_[i] = static_cast<std::int8_t>(f.face == kSky ? -f.samples : f.samples);
+      if (f.face == kSky) continue;
+      if (near.goTo(f)) {
+        for (NearValues& value : values) value.forget();
+        if (colours) colour = world.colour(f.voxel);
+      }
+      relief_[i] = near.relief(f.at);
+      if (colours) colour_[i] = colour;
+      for (std::size_t q = 0; q < values.size(); ++q) {
+        quantities[q].second->pure[i] = values[q].here();
+        quantities[q].second->smooth[i] = values[q].smooth(f.at);
+      }
+    }
+  });
   if (wanted({Panel::shadow_matte, Panel::first_pass}))
     lit_ = castShadows(seen, world.occupied, world.bricks, look_.to_sun);
-  if (wanted({Panel::surface_colour, Panel::first_pass}))
-    prepare(colour_, [&](const Fragment& f) { return world.colour(f.voxel); });
 }
 
 PanelPicture PanelPainter::paint(Panel panel, const LightNeeds& needs) const {
@@ -191,8 +151,9 @@ PanelPicture PanelPainter::paint(Panel panel, const LightNeeds& needs) const {
     const ColourMap colours(map);
     return PanelPicture{
         compose(
-            seen_, [&](std::size_t i) { return relief_[i] * colours(shown.smooth[i] / most); }, neutral),
-        measure<1>(seen_, true, [&](std::size_t i) { return std::array{shown.pure[i]}; }),
+            seen_, samples_, [&](std::size_t i) { return relief_[i] * colours(shown.smooth[i] / most); },
+            neutral),
+        measure<1>(seen_, samples_, true, [&](std::size_t i) { return std::array{shown.pure[i]}; }),
         {name, "coverage"}};
   };
   const auto exposure = [&](const std::vector<float>& sun, const std::vector<float>& skies, std::size_t i) {
@@ -211,8 +172,8 @@ PanelPicture PanelPainter::paint(Panel panel, const LightNeeds& needs) const {
             smoothStep(needs.least - 0.006f, needs.least + 0.006f, exposure(sun_.smooth, sky_.smooth, i));
         return relief_[i] * (0.45f + 0.55f * sky_.smooth[i]) * glm::mix(kBelow, kAbove, above);
       };
-      return {compose(seen_, shade, neutral),
-              measure<2>(seen_, true,
+      return {compose(seen_, samples_, shade, neutral),
+              measure<2>(seen_, samples_, true,
                          [&](std::size_t i) {
                            const float e = exposure(sun_.pure, sky_.pure, i);
                            return std::array{e >= needs.least ? 1.0f : 0.0f, e};
@@ -221,14 +182,14 @@ PanelPicture PanelPainter::paint(Panel panel, const LightNeeds& needs) const {
     }
     case Panel::shadow_matte: {
       const auto shade = [&](std::size_t i) { return Colour(relief_[i] * glm::mix(0.035f, 0.88f, lit_[i])); };
-      return {compose(seen_, shade, neutral),
-              measure<1>(seen_, true, [&](std::size_t i) { return std::array{lit_[i]}; }),
+      return {compose(seen_, samples_, shade, neutral),
+              measure<1>(seen_, samples_, true, [&](std::size_t i) { return std::array{lit_[i]}; }),
               {"shadow_matte", "coverage"}};
     }
     case Panel::surface_colour:
       return {compose(
-                  seen_, [&](std::size_t i) { return relief_[i] * colour_[i]; }, sky),
-              measure<3>(seen_, false,
+                  seen_, samples_, [&](std::size_t i) { return relief_[i] * colour_[i]; }, sky),
+              measure<3>(seen_, samples_, false,
                          [&](std::size_t i) {
                            return std::array{colour_[i].r, colour_[i].g, colour_[i].b};
                          }),
@@ -249,8 +210,8 @@ PanelPicture PanelPainter::paint(Panel panel, const LightNeeds& needs) const {
     const Colour c = light(i);
     return Colour(look_.tone(c.r), look_.tone(c.g), look_.tone(c.b));
   };
-  return {compose(seen_, shade, sky),
-          measure<3>(seen_, false,
+  return {compose(seen_, samples_, shade, sky),
+          measure<3>(seen_, samples_, false,
                      [&](std::size_t i) {
                        const Colour c = light(i);
                        return std::array{c.r, c.g, c.b};

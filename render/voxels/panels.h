@@ -8,6 +8,7 @@
 #include "render/image/colour_map.h"
 #include "render/image/image.h"
 #include "render/image/tone.h"
+#include "render/voxels/near_faces.h"
 #include "render/voxels/visibility.h"
 
 /// The six panels of Greene 1989, figure 6, and hours of sun: what light does in a world of voxels, each cube
@@ -23,9 +24,6 @@ enum class Panel {
   first_pass,
   sun_hours
 };
-
-/// What a face of an occupied voxel receives; asked only where the voxel in front of it is not occupied.
-using FaceValue = std::function<float(sim::Voxel voxel, std::uint8_t face)>;
 
 /// What the panels need to know of a world. Several threads may ask at once. What no panel wanted may be left
 /// out.
@@ -75,7 +73,9 @@ class PanelPainter {
  private:
   const Visibility& seen_;
   PanelLook look_;
-  std::vector<float> relief_;  ///< how bright a cube's face is drawn; for each fragment, as all that follows
+  // For each fragment, as all that follows: how many samples it is of, and with what sign: below 0 for sky.
+  std::vector<std::int8_t> samples_;
+  std::vector<float> relief_;  ///< how bright a cube's face is drawn
   struct Shown {
     std::vector<float> pure, smooth;  ///< as it is, and smoothed over faces side by side
   };

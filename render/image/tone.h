@@ -1,6 +1,5 @@
 #pragma once
 #include <algorithm>
-#include <cmath>
 
 #include "sim/base/vec.h"
 
@@ -8,21 +7,11 @@
 /// machines.
 namespace espalier::render {
 
-inline float srgbFromLinear(float value) {
-  const float v = std::clamp(value, 0.0f, 1.0f);
-  return v <= 0.0031308f ? 12.92f * v : 1.055f * powf(v, 1.0f / 2.4f) - 0.055f;
-}
-
-inline float linearFromSrgb(float value) {
-  const float v = std::clamp(value, 0.0f, 1.0f);
-  return v <= 0.04045f ? v / 12.92f : powf((v + 0.055f) / 1.055f, 2.4f);
-}
+/// Of a channel; what lies outside 0..1 is clamped (IEC 61966-2-1).
+float srgbFromLinear(float value);
 
 inline sim::Colour srgbFromLinear(sim::Colour c) {
   return {srgbFromLinear(c.r), srgbFromLinear(c.g), srgbFromLinear(c.b)};
-}
-inline sim::Colour linearFromSrgb(sim::Colour c) {
-  return {linearFromSrgb(c.r), linearFromSrgb(c.g), linearFromSrgb(c.b)};
 }
 
 /// The part of Greene's "nonlinear colour table, making dark areas appear brighter" (1989, figure 5): opens

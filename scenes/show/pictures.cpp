@@ -201,11 +201,13 @@ Image Studio::vines(const ImageSpec& image) const {
   scene.to_sun = look_.to_sun;
   Image picture =
       render::finishedPicture(scene, cameraOf(wanted_, image), wanted_.width_px, wanted_.height_px);
-  for (std::size_t i = 0; i + 2 < picture.pixels.size(); i += 3) {
-    const sim::Colour display =
-        look_.tone(sim::Colour(picture.pixels[i], picture.pixels[i + 1], picture.pixels[i + 2]));
-    for (std::size_t c = 0; c < 3; ++c) picture.pixels[i + c] = display[static_cast<int>(c)];
-  }
+  sim::parallelForEach(static_cast<std::size_t>(picture.height), [&](std::size_t row) {
+    float* pixel = picture.at(0, static_cast<int>(row));
+    for (int x = 0; x < picture.width; ++x, pixel += 3) {
+      const sim::Colour display = look_.tone(sim::Colour(pixel[0], pixel[1], pixel[2]));
+      std::copy_n(&display.r, 3, pixel);
+    }
+  });
   return picture;
 }
 

@@ -4,6 +4,7 @@
 #include <OpenImageIO/imageio.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <limits>
@@ -122,12 +123,19 @@ TEST(ImageIo, HeadersSayByWhatAndFromWhatAPictureWasMade) {
   }
 }
 
-TEST(Tone, SrgbRoundTripsAndTheCurveRisesFromBlackToWhite) {
+TEST(Tone, SrgbIsTheStandardsCurve) {
   EXPECT_NEAR(srgbFromLinear(0.5f), 0.73536f, 1e-5f);  // IEC 61966-2-1
-  for (int i = 0; i <= 100; ++i) {
-    const float v = static_cast<float>(i) / 100.0f;
-    EXPECT_NEAR(linearFromSrgb(srgbFromLinear(v)), v, 2e-6f);
+  for (int i = -1000; i <= 101'000; ++i) {
+    const float v = static_cast<float>(i) / 100'000.0f;
+    const double within = std::clamp(static_cast<double>(v), 0.0, 1.0);
+    const double standard =
+        within <= 0.0031308 ? 12.92 * within : 1.055 * std::pow(within, 1.0 / 2.4) - 0.055;
+    ASSERT_NEAR(srgbFromLinear(v), standard, 2.5e-7) << v;
   }
+  EXPECT_TRUE(std::isnan(srgbFromLinear(std::numeric_limits<float>::quiet_NaN())));
+}
+
+TEST(Tone, TheCurveRisesFromBlackToWhite) {
   const ToneCurve curve;
   EXPECT_EQ(curve(0.0f), 0.0f);
   EXPECT_FLOAT_EQ(curve(curve.white / curve.exposure), 1.0f);

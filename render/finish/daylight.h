@@ -25,7 +25,11 @@ class SkyView {
  public:
   /// Borrows both, which must have the frame's size.
   SkyView(const sim::Frame& frame, const sim::BitVolume& occupied, const sim::ExposureField& sky)
-      : frame_(frame), occupied_(occupied), sky_(sky) {}
+      : frame_(frame),
+        occupied_(occupied),
+        sky_(sky),
+        last_(frame.size - 1),
+        open_at_vx_(0.5 * glm::length(last_)) {}
 
   /// `normal` is unit and points into the free space. 0..1; well outside the world 1.
   float at(sim::Vec3 p_m, sim::Vec3f normal) const;
@@ -36,6 +40,8 @@ class SkyView {
   const sim::Frame& frame_;
   const sim::BitVolume& occupied_;
   const sim::ExposureField& sky_;
+  sim::Vec3 last_;     ///< the last voxel's centre
+  double open_at_vx_;  ///< so far outside the sky is open
 };
 
 }  // namespace espalier::render

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <optional>
+#include <limits>
 
 #include "render/finish/daylight.h"
 #include "render/finish/ground.h"
@@ -31,6 +31,9 @@ struct SamplePoint {
   glm::vec2 pixel, sun;  // 0..1
 };
 
+/// The most rounds of a pixel.
+constexpr std::uint32_t kRounds = 2;
+
 /// A round's samples: a turned grid, moved on between rounds so that all rounds together have every row and
 /// column once. The same for every pixel: penumbras come out as even steps rather than as grain.
 std::array<SamplePoint, kRays> samplePoints(std::uint32_t round) {
@@ -45,8 +48,9 @@ std::array<SamplePoint, kRays> samplePoints(std::uint32_t round) {
   return result;
 }
 
-/// Something that a camera ray met, ready to be lit.
+/// What a camera ray met, ready to be lit. Made in its place: copies cost as much as light does.
 struct Fragment {
+  bool met = false;  // else it is sky
   Vec3f p_m{0.0f};
   Vec3f normal{0.0f};  // faces the camera
   Vec3f flat{0.0f};    // the triangle's own, on the same side
@@ -76,6 +80,10 @@ class Painter {
     sun_across_ = glm::normalize(
         glm::cross(light_.to_sun, std::abs(light_.to_sun.y) < 0.9f ? Vec3f(0, 1, 0) : Vec3f(1, 0, 0)));
     sun_up_ = glm::cross(light_.to_sun, sun_across_);
+    for (std::uint32_t r = 0; r < kRounds; ++r) {
+      points_[r] = samplePoints(r);
+      for (std::size_t i = 0; i < kRays; ++i) to_suns_[r][i] = sunPoint(points_[r][i].sun);
+    }
   }
 
   Colour pixel(int x, int y) const;
@@ -83,8 +91,9 @@ class Painter {
  private:
   using Round = std::array<Colour, kRays>;
   Round round(int x, int y, std::uint32_t number) const;
-  std::optional<Fragment> groundBelow(Vec3f direction) const;
-  Fragment fragmentAt(const SurfaceHit& hit, Vec3f direction) const;
+  float groundBelow(Vec3f direction) const;
+  void meetGround(float distance_m, Vec3f direction, Fragment& f) const;
+  void meet(const SurfaceHit& hit, Vec3f direction, Fragment& f) const;
   Vec3f sunPoint(glm::vec2 disc) const;
   Colour lit(const Fragment& f, Vec3f direction, float sun_seen) const;
   Colour hazed(Colour light, const Fragment& f, Vec3f direction) const;
@@ -99,22 +108,31 @@ class Painter {
   Vec3f sun_across_{0.0f}, sun_up_{0.0f}, centre_{0.0f};
   float diagonal_m_ = 1.0f, voxel_m_ = 1.0f;
   int width_, height_;
+  // by round and sample
+  std::array<std::array<SamplePoint, kRays>, kRounds> points_;
+  std::array<std::array<Vec3f, kRays>, kRounds> to_suns_;
 };
 
-std::optional<Fragment> Painter::groundBelow(Vec3f direction) const {
+/// How far away a ray from the eye meets the ground; infinity: nowhere.
+float Painter::groundBelow(Vec3f direction) const {
+  constexpr float kNowhere = std::numeric_limits<float>::infinity();
   const float height = static_cast<float>(camera_.eye_m().y - ground_.height_m);
-  if (!(height > 0.0f && direction.y < -1e-5f)) return {};
-  Fragment f;
-  f.distance_m = -height / direction.y;
-  f.p_m = Vec3f(camera_.eye_m()) + f.distance_m * direction;
-  f.normal = f.flat = Vec3f(0, 1, 0);
-  if (f.distance_m > 40.0f * kHazeReach * diagonal_m_) return {};
-  return f;
+  if (!(height > 0.0f && direction.y < -1e-5f)) return kNowhere;
+  const float distance_m = -height / direction.y;
+  return distance_m > 40.0f * kHazeReach * diagonal_m_ ? kNowhere : distance_m;
 }
 
-Fragment Painter::fragmentAt(const SurfaceHit& hit, Vec3f direction) const {
+void Painter::meetGround(float distance_m, Vec3f direction, Fragment& f) const {
+  f.met = true;
+  f.distance_m = distance_m;
+  f.p_m = Vec3f(camera_.eye_m()) + distance_m * direction;
+  f.normal = f.flat = Vec3f(0, 1, 0);
+  f.look = groundLook(noise_, ground_.colour, f.p_m);
+}
+
+void Painter::meet(const SurfaceHit& hit, Vec3f direction, Fragment& f) const {
   const Surface& surface = rays_.surfaces()[hit.surface];
-  Fragment f;
+  f.met = true;
   f.distance_m = hit.distance_m;
   f.p_m = Vec3f(camera_.eye_m()) + hit.distance_m * direction;
   f.flat = glm::dot(hit.normal, direction) > 0.0f ? -hit.normal : hit.normal;
@@ -122,7 +140,7 @@ Fragment Painter::fragmentAt(const SurfaceHit& hit, Vec3f direction) const {
   if (surface.kind == SurfaceKind::scene) {
     const sim::Mesh& mesh = *surface.mesh;
     f.look = stoneLook(noise_, mesh.materials[mesh.material[hit.triangle]].colour, f.p_m);
-    return f;
+    return;
   }
   const ModelMesh& mesh = *surface.model;
   const auto& t = mesh.triangles[hit.triangle];
@@ -134,7 +152,6 @@ Fragment Painter::fragmentAt(const SurfaceHit& hit, Vec3f direction) const {
     f.normal = glm::normalize(glm::dot(smooth, f.flat) < 0.0f ? -smooth : smooth);
   }
   f.look = f.blade ? bladeLook(mesh, hit) : barkLook(noise_, mesh, hit, f.p_m);
-  return f;
 }
 
 Vec3f Painter::sunPoint(glm::vec2 disc) const {
@@ -175,42 +192,44 @@ Colour Painter::hazed(Colour light, const Fragment& f, Vec3f direction) const {
   const Vec3f aside(f.p_m.x - centre_.x, 0.0f, f.p_m.z - centre_.z);
   const float out = std::max(0.0f, glm::length(aside) / diagonal_m_ - 0.75f);
   const float far = std::max(0.0f, f.distance_m / diagonal_m_ - 1.5f);
+  if (out == 0.0f && far == 0.0f) return light;
   const float clear = expf(-0.55f * out - far / static_cast<float>(kHazeReach));
   const Vec3f level = glm::normalize(Vec3f(direction.x, 0.0f, direction.z) + Vec3f(0.0f, 1e-6f, 0.0f));
   return glm::mix(skySeen(light_, level), light, clear);
 }
 
 Painter::Round Painter::round(int x, int y, std::uint32_t number) const {
-  const auto points = samplePoints(number);
+  const auto& points = points_[number];
   std::array<Vec3f, kRays> directions;
   for (std::size_t i = 0; i < kRays; ++i) {
     directions[i] = Vec3f(camera_.direction((x + static_cast<double>(points[i].pixel.x)) / width_,
                                             (y + static_cast<double>(points[i].pixel.y)) / height_));
   }
   const auto hits = rays_.firstHits(Vec3f(camera_.eye_m()), directions);
-  std::array<std::optional<Fragment>, kRays> fragments;
+  std::array<Fragment, kRays> fragments;
   RayScene::ShadowRays shadows;
   for (std::size_t i = 0; i < kRays; ++i) {
-    fragments[i] = groundBelow(directions[i]);
-    if (hits[i].any() && !(fragments[i] && fragments[i]->distance_m < hits[i].distance_m)) {
-      fragments[i] = fragmentAt(hits[i], directions[i]);
-    } else if (fragments[i]) {
-      fragments[i]->look = groundLook(noise_, ground_.colour, fragments[i]->p_m);
+    Fragment& f = fragments[i];
+    const float ground_m = groundBelow(directions[i]);
+    if (hits[i].any() && !(ground_m < hits[i].distance_m)) {
+      meet(hits[i], directions[i], f);
+    } else if (std::isfinite(ground_m)) {
+      meetGround(ground_m, directions[i], f);
+    } else {
+      continue;
     }
-    if (!fragments[i]) continue;
-    const Fragment& f = *fragments[i];
     const float side = glm::dot(f.flat, light_.to_sun);
     shadows.wanted[i] =
         light_.to_sun.y > 0.0f && (f.blade || (side > 0.0f && glm::dot(f.normal, light_.to_sun) > 0.0f));
     shadows.origins_m[i] = f.p_m + (side > 0.0f ? 0.04f : -0.04f) * voxel_m_ * f.flat;
-    shadows.directions[i] = sunPoint(points[i].sun);
+    shadows.directions[i] = to_suns_[number][i];
   }
   const auto sunlit = rays_.clear(shadows);
   Round result;
   for (std::size_t i = 0; i < kRays; ++i) {
-    result[i] = fragments[i] ? hazed(lit(*fragments[i], directions[i], sunlit[i] ? 1.0f : 0.0f),
-                                     *fragments[i], directions[i])
-                             : skySeen(light_, directions[i]);
+    const Fragment& f = fragments[i];
+    result[i] = f.met ? hazed(lit(f, directions[i], sunlit[i] ? 1.0f : 0.0f), f, directions[i])
+                      : skySeen(light_, directions[i]);
   }
   return result;
 }
@@ -229,7 +248,7 @@ Colour Painter::pixel(int x, int y) const {
   };
   add(round(x, y, 0));
   const float spread = brightest - darkest;
-  const std::uint32_t rounds = spread < kSmoothEnough ? 1 : 2;
+  const std::uint32_t rounds = spread < kSmoothEnough ? 1 : kRounds;
   for (std::uint32_t r = 1; r < rounds; ++r) add(round(x, y, r));
   return sum / static_cast<float>(rounds * kRays);
 }

@@ -3,6 +3,7 @@
 #include <Random123/philox.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace espalier::render {
@@ -35,14 +36,22 @@ Noise::Noise() : table_(static_cast<std::size_t>(kSide) * kSide * kSide) {
 }
 
 float Noise::operator()(Vec3f p) const {
-  const Vec3f low = glm::floor(p);
-  const Vec3f t = p - low, f = t * t * (3.0f - 2.0f * t);
-  const glm::ivec3 cell(low);
-  const auto at = [&](int x, int y, int z) {
-    const auto wrap = [](int i) { return static_cast<std::size_t>(i & (kSide - 1)); };
-    return table_[(wrap(cell.y + y) * kSide + wrap(cell.z + z)) * kSide + wrap(cell.x + x)];
+  std::array<std::array<std::size_t, 2>, 3> corner;  // of the cell, wrapped
+  Vec3f f;
+  for (int axis = 0; axis < 3; ++axis) {
+    int low = static_cast<int>(p[axis]);
+    if (p[axis] < static_cast<float>(low)) --low;
+    const float t = p[axis] - static_cast<float>(low);
+    f[axis] = t * t * (3.0f - 2.0f * t);
+    for (int side = 0; side < 2; ++side) {
+      corner[static_cast<std::size_t>(axis)][static_cast<std::size_t>(side)] =
+          static_cast<std::size_t>((low + side) & (kSide - 1));
+    }
+  }
+  const auto row = [&](std::size_t y, std::size_t z) {
+    const float* const along = table_.data() + (corner[1][y] * kSide + corner[2][z]) * kSide;
+    return glm::mix(along[corner[0][0]], along[corner[0][1]], f.x);
   };
-  const auto row = [&](int y, int z) { return glm::mix(at(0, y, z), at(1, y, z), f.x); };
   return glm::mix(glm::mix(row(0, 0), row(0, 1), f.z), glm::mix(row(1, 0), row(1, 1), f.z), f.y);
 }
 

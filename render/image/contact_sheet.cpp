@@ -18,6 +18,11 @@ constexpr Ink kLetter{sim::Colour(0.62f, 0.29f, 0.17f), 1.0f};
 
 }  // namespace
 
+Image reducedForSheet(const Image& picture, int width_px) {
+  const double height_px = static_cast<double>(width_px) * picture.height / picture.width;
+  return resized(picture, width_px, std::max(1, static_cast<int>(std::lround(height_px))));
+}
+
 Image contactSheet(std::span<const Captioned> pictures, const SheetLook& look) {
   if (pictures.empty() || look.columns < 1 || look.picture_width_px < 1)
     throw sim::InputError("a contact sheet needs at least one picture, one column and one pixel");
@@ -26,9 +31,11 @@ Image contactSheet(std::span<const Captioned> pictures, const SheetLook& look) {
     if (p.picture->width != first.width || p.picture->height != first.height || p.picture->channels != 3)
       throw sim::InputError("the pictures of a contact sheet must all have one size and three channels");
   }
-  const int width = look.picture_width_px;
-  const int height =
-      std::max(1, static_cast<int>(std::lround(static_cast<double>(width) * first.height / first.width)));
+  std::vector<Image> reduced(pictures.size());
+  sim::parallelForEach(pictures.size(), [&](std::size_t i) {
+    reduced[i] = reducedForSheet(*pictures[i].picture, look.picture_width_px);
+  });
+  const int width = reduced.front().width, height = reduced.front().height;
   const float text = std::max(9.0f, static_cast<float>(width) / 28.0f);
   const int gutter = static_cast<int>(std::lround(1.5f * text));
   const int caption = static_cast<int>(std::lround(2.0f * text));
@@ -52,9 +59,6 @@ Image contactSheet(std::span<const Captioned> pictures, const SheetLook& look) {
     drawText(sheet, top, note, {0.85f * text, kCaption});
     top.y += line;
   }
-  std::vector<Image> reduced(pictures.size());
-  sim::parallelForEach(pictures.size(),
-                       [&](std::size_t i) { reduced[i] = resized(*pictures[i].picture, width, height); });
   for (int i = 0; i < count; ++i) {
     const Captioned& p = pictures[static_cast<std::size_t>(i)];
     const int x = gutter + (i % columns) * (width + gutter);

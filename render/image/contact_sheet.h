@@ -19,6 +19,9 @@ struct SheetLook {
   std::string note = {};  ///< below the title, quieter: what the pictures' numbers are; lines by \n
 };
 
+/// A picture as a sheet shows it. A sheet of pictures that were reduced before is the same.
+Image reducedForSheet(const Image& picture, int width_px);
+
 /// Reduced pictures in rows on a quiet ground, each with its caption beneath; display values. All pictures
 /// must have one shape. Throws InputError if there are none.
 Image contactSheet(std::span<const Captioned> pictures, const SheetLook& look = {});

@@ -18,11 +18,12 @@ namespace {
 
 constexpr double kFloat = 4.0;
 constexpr double kDisplay = 3 * kFloat;  // a pixel of red, green and blue
-/// A fragment while it is seen (in its row, then in all) and what a painter keeps of it: relief, three
-/// quantities as they are and smoothed, shadow, colour.
-constexpr double kFragment = sizeof(render::Fragment) + 11 * kFloat;
-/// A pixel while it is seen: its centre's fragment, room for two in its row, and where its own begin.
-constexpr double kSeen = 3 * sizeof(render::Fragment) + sizeof(std::size_t);
+/// A fragment while it is seen (in its row, then in all) and what a painter keeps of it: its samples, relief,
+/// three quantities as they are and smoothed, shadow before and after its edges are smooth, colour.
+constexpr double kFragment = sizeof(render::Fragment) + 1 + 12 * kFloat;
+/// A pixel while it is seen: its centre's fragment and how far away that is, room for two in its row, and
+/// where its own begin.
+constexpr double kSeen = 3 * sizeof(render::Fragment) + kFloat + sizeof(std::size_t);
 
 /// Channels of the measured values; none of what is no panel.
 int measuredChannels(ImageKind kind) {

@@ -98,9 +98,11 @@ class Studio {
  public:
   Studio(const PicturesWanted& wanted, const Finished& finished);
   render::PanelPicture paint(const ImageSpec& image, Panel panel);
-  /// Draws a panel's legend onto its picture.
-  std::function<void(Image&)> legend(const ImageSpec& image, Panel panel) const;
+  /// Onto a panel's picture.
+  void drawLegend(Image& picture, const ImageSpec& image, Panel panel) const;
   Image vines(const ImageSpec& image) const;
+  /// Lets go of what the cameras see: of all that a picture takes the most.
+  void forgetViews() { views_.clear(); }
 
  private:
   struct View {
@@ -158,36 +160,39 @@ render::PanelPicture Studio::paint(const ImageSpec& image, Panel panel) {
   return view->painter.paint(panel, plantOf(wanted_, image).needs);
 }
 
-std::function<void(Image&)> Studio::legend(const ImageSpec& image, Panel panel) const {
-  const auto bar = [](const std::string& title, const std::string& note, const std::string& map,
-                      float most = 1.0f, float step = 0.25f) {
-    return [=](Image& picture) {
-      render::drawLegend(picture, render::BarLegend{title, note, most, step}, render::ColourMap(map));
-    };
+void Studio::drawLegend(Image& picture, const ImageSpec& image, Panel panel) const {
+  const auto bar = [&](const std::string& title, const std::string& note, const std::string& map,
+                       float most = 1.0f, float step = 0.25f) {
+    render::drawLegend(picture, render::BarLegend{title, note, most, step}, render::ColourMap(map));
   };
   const std::string sky = wrapped(finished_.light.about.sky);
   const std::string sun = wrapped(finished_.light.about.sun);
   switch (panel) {
     case Panel::sun_exposure:
-      return bar("sun exposure", "share of the sun's way in sight\n" + sun, look_.sun_map);
+      bar("sun exposure", "share of the sun's way in sight\n" + sun, look_.sun_map);
+      break;
     case Panel::sky_exposure:
-      return bar("sky exposure", sky, look_.sky_map);
+      bar("sky exposure", sky, look_.sky_map);
+      break;
     case Panel::sun_hours:
-      return bar("hours of direct sun a day", sun, look_.hours_map, look_.most_hours,
-                 look_.most_hours > 8.0f   ? 2.0f
-                 : look_.most_hours > 3.0f ? 1.0f
-                                           : 0.5f);
+      bar("hours of direct sun a day", sun, look_.hours_map, look_.most_hours,
+          look_.most_hours > 8.0f   ? 2.0f
+          : look_.most_hours > 3.0f ? 1.0f
+                                    : 0.5f);
+      break;
     case Panel::threshold: {
       const auto [above, below] = render::thresholdColours();
       const PlantLight plant = plantOf(wanted_, image);
-      const render::SwatchLegend swatches{
-          wanted_.plants.size() > 1 ? "exposure of " + plant.name : "exposure of the vine",
-          fmt::format("{:.2g} sun + {:.2g} sky\n{}", plant.needs.sun, plant.needs.sky, sky),
-          {{above, fmt::format("{:.2g} and more: it grows", plant.needs.least)}, {below, "less: too dark"}}};
-      return [swatches](Image& picture) { render::drawLegend(picture, swatches); };
+      render::drawLegend(
+          picture, render::SwatchLegend{
+                       wanted_.plants.size() > 1 ? "exposure of " + plant.name : "exposure of the vine",
+                       fmt::format("{:.2g} sun + {:.2g} sky\n{}", plant.needs.sun, plant.needs.sky, sky),
+                       {{above, fmt::format("{:.2g} and more: it grows", plant.needs.least)},
+                        {below, "less: too dark"}}});
+      break;
     }
     default:
-      return [](Image&) {};
+      break;
   }
 }
 
@@ -211,12 +216,11 @@ Image Studio::vines(const ImageSpec& image) const {
   return picture;
 }
 
-OutputFile png(const std::string& name, std::shared_ptr<const Image> picture, render::Metadata metadata) {
-  return fileOf(name + ".png", [picture, metadata] { return render::encodePng(*picture, metadata); });
-}
+/// By image, as contact sheets show them; empty where none does.
+using Thumbnails = std::vector<Image>;
 
 Image contactSheet(const PicturesWanted& wanted, const sim::LightAbout& about, const ImageSpec& sheet,
-                   const std::map<std::string, std::shared_ptr<const Image>>& pictures) {
+                   const Thumbnails& thumbnails) {
   std::vector<render::Captioned> captioned;
   bool light = false;
   for (const std::string& name : sheet.of) {
@@ -224,7 +228,8 @@ Image contactSheet(const PicturesWanted& wanted, const sim::LightAbout& about, c
                                    [&](const ImageSpec& image) { return image.name == name; });
     light = light || panelOf(spec->kind).has_value();
     const std::string letter(1, static_cast<char>('A' + captioned.size()));
-    captioned.push_back({pictures.at(name).get(), spec->letter.empty() ? letter : spec->letter,
+    captioned.push_back({&thumbnails[static_cast<std::size_t>(spec - wanted.images.begin())],
+                         spec->letter.empty() ? letter : spec->letter,
                          spec->caption.empty() ? name : spec->caption});
   }
   render::SheetLook look;
@@ -266,67 +271,84 @@ std::vector<std::string> fileNames(const std::vector<ImageSpec>& images) {
 
 std::vector<OutputFile> drawPictures(const PicturesWanted& wanted, const Finished& finished) {
   Studio studio(wanted, finished);
-  std::vector<OutputFile> files;
-  std::map<std::string, std::shared_ptr<const Image>> pictures;  // without legends, for the contact sheets
-  const auto keep = [&](const ImageSpec& image, Image picture) {
-    const auto kept = std::make_shared<const Image>(std::move(picture));
-    pictures[image.name] = kept;
-    return kept;
-  };
+  // By image, so that threads may fill them in.
+  std::vector<std::vector<OutputFile>> files(wanted.images.size());
+  const auto thumbnails = std::make_shared<Thumbnails>(wanted.images.size());
   const auto metadata = [&](const ImageSpec& image) {
     return metadataOf(wanted, finished.light.about, image);
   };
-  // The two that take time, side by side: each has stretches that keep one core alone busy.
-  std::map<std::string, render::PanelPicture> panels;
-  std::map<std::string, Image> vines;
+  const auto keepThumbnail = [&](std::size_t i, const Image& picture) {
+    const auto shows = [&](const ImageSpec& sheet) {
+      return std::find(sheet.of.begin(), sheet.of.end(), wanted.images[i].name) != sheet.of.end();
+    };
+    if (std::any_of(wanted.images.begin(), wanted.images.end(), shows))
+      (*thumbnails)[i] = render::reducedForSheet(picture, render::SheetLook().picture_width_px);
+  };
+  const auto keep = [&](std::size_t i, Image picture) {
+    const ImageSpec& image = wanted.images[i];
+    keepThumbnail(i, picture);
+    files[i] = {fileOf(image.name + ".png",
+                       [display = std::make_shared<const Image>(std::move(picture)),
+                        about = metadata(image)] { return render::encodePng(*display, about); })};
+  };
   const auto forEach = [&](const auto& of, const auto& draw) {
-    for (const ImageSpec& image : wanted.images) {
+    for (std::size_t i = 0; i < wanted.images.size(); ++i) {
       sim::throwIfStopped();
-      if (of(image)) draw(image);
+      if (of(wanted.images[i].kind)) draw(i);
     }
   };
-  sim::parallelInvoke(
-      [&] {
-        forEach(
-            [](const ImageSpec& image) { return panelOf(image.kind).has_value(); },
-            [&](const ImageSpec& image) { panels[image.name] = studio.paint(image, *panelOf(image.kind)); });
-      },
-      [&] {
-        forEach([](const ImageSpec& image) { return image.kind == ImageKind::vines; },
-                [&](const ImageSpec& image) { vines[image.name] = studio.vines(image); });
-      });
-  for (const ImageSpec& image : wanted.images) {
-    if (const auto panel = panelOf(image.kind)) {
-      render::PanelPicture& painted = panels.at(image.name);
-      const auto display = keep(image, std::move(painted.display));
-      files.push_back(fileOf(image.name + ".png",
-                             [display, legend = studio.legend(image, *panel), about = metadata(image)] {
-                               Image labelled = *display;
-                               legend(labelled);
-                               return render::encodePng(labelled, about);
-                             }));
-      const auto measured = std::make_shared<const Image>(std::move(painted.measured));
-      files.push_back(
-          fileOf(image.name + ".exr", [measured, channels = painted.channel_names, about = metadata(image)] {
-            return render::encodeExr(*measured, channels, about);
-          }));
-    } else if (image.kind == ImageKind::vines) {
-      files.push_back(png(image.name, keep(image, std::move(vines.at(image.name))), metadata(image)));
-    } else if (image.kind == ImageKind::section) {
-      files.push_back(png(image.name, keep(image, drawSection(finished.world, image)), metadata(image)));
-    } else if (image.kind == ImageKind::attempts) {
-      files.push_back(png(image.name, keep(image, drawAttempts(finished.world, finished.attempts, image)),
-                          metadata(image)));
-    }
+  const auto drawPanels = [&] {
+    struct Painted {
+      std::size_t image;
+      render::PanelPicture picture;
+    };
+    std::vector<Painted> painted;
+    forEach([](ImageKind kind) { return panelOf(kind).has_value(); },
+            [&](std::size_t i) {
+              painted.push_back({i, studio.paint(wanted.images[i], *panelOf(wanted.images[i].kind))});
+              keepThumbnail(i, painted.back().picture.display);
+              files[i].resize(2);
+            });
+    studio.forgetViews();
+    sim::parallelForEach(2 * painted.size(), [&](std::size_t k) {
+      auto& [i, picture] = painted[k / 2];
+      const ImageSpec& image = wanted.images[i];
+      if (k % 2 == 0) {
+        studio.drawLegend(picture.display, image, *panelOf(image.kind));
+        files[i][0] = fileOf(image.name + ".png", render::encodePng(picture.display, metadata(image)));
+        picture.display = {};
+      } else {
+        files[i][1] = fileOf(image.name + ".exr",
+                             render::encodeExr(picture.measured, picture.channel_names, metadata(image)));
+        picture.measured = {};
+      }
+    });
+  };
+  const auto drawVines = [&] {
+    forEach([](ImageKind kind) { return kind == ImageKind::vines; },
+            [&](std::size_t i) { keep(i, studio.vines(wanted.images[i])); });
+  };
+  // The two that take time, side by side: each has stretches that keep one core alone busy. Panels are packed
+  // as soon as they are painted, while there may still be vines to draw.
+  sim::parallelInvoke(drawPanels, drawVines);
+  forEach([](ImageKind kind) { return kind == ImageKind::section; },
+          [&](std::size_t i) { keep(i, drawSection(finished.world, wanted.images[i])); });
+  forEach([](ImageKind kind) { return kind == ImageKind::attempts; },
+          [&](std::size_t i) { keep(i, drawAttempts(finished.world, finished.attempts, wanted.images[i])); });
+
+  std::vector<OutputFile> all;
+  for (std::vector<OutputFile>& of_image : files) {
+    for (OutputFile& file : of_image) all.push_back(std::move(file));
   }
-  for (const ImageSpec& image : wanted.images) {
-    if (image.kind != ImageKind::contact_sheet) continue;
-    files.push_back(fileOf(image.name + ".png",
-                           [wanted, &light = finished.light.about, image, pictures, about = metadata(image)] {
-                             return render::encodePng(contactSheet(wanted, light, image, pictures), about);
-                           }));
-  }
-  return files;
+  forEach([](ImageKind kind) { return kind == ImageKind::contact_sheet; },
+          [&](std::size_t i) {
+            const ImageSpec& image = wanted.images[i];
+            all.push_back(fileOf(image.name + ".png", [wanted, &light = finished.light.about, image,
+                                                       thumbnails, about = metadata(image)] {
+              return render::encodePng(contactSheet(wanted, light, image, *thumbnails), about);
+            }));
+          });
+  return all;
 }
 
 }  // namespace espalier::scenes

@@ -19,6 +19,11 @@ OutputFile fileOf(std::string name, std::function<std::string()> bytes) {
   return {std::move(name), [bytes = std::move(bytes)](std::ostream& out) { out << bytes(); }};
 }
 
+OutputFile fileOf(std::string name, std::string bytes) {
+  return {std::move(name), [bytes = std::make_shared<const std::string>(std::move(bytes))](
+                               std::ostream& out) { out << *bytes; }};
+}
+
 namespace {
 
 namespace fs = std::filesystem;

@@ -20,6 +20,8 @@ struct OutputFile {
 
 /// One whose bytes are made in memory.
 OutputFile fileOf(std::string name, std::function<std::string()> bytes);
+/// One whose bytes are there.
+OutputFile fileOf(std::string name, std::string bytes);
 
 /// A folder that one run writes into. As long as this lives no other run, of this process or of another one,
 /// can have one there; the claim ends with the process, however that ends. Where nothing was written, a

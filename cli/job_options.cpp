@@ -31,6 +31,10 @@ int run(const JobOptions& options, const JobWork& work) {
   JobOutcome outcome;
   try {
     Progress progress(options.quiet || options.json);
+    if (!options.quiet && !options.json)
+      run.on_foretold = [&](const scenes::Foretold& foretold) {
+        progress.foretold(scenes::toText(foretold));
+      };
     run.on_stage = [&](const std::string& name) {
       nowDoing(options.scene, name);
       progress.stage(name);

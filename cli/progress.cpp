@@ -35,10 +35,17 @@ void Progress::line(const std::string& text) {
   last_line_ = Clock::now();
 }
 
+void Progress::foretold(const std::string& text) {
+  told_ = true;
+  warning(text);
+  stage(stage_);
+}
+
 void Progress::stage(const std::string& name) {
   if (quiet_) return;
+  stage_ = name;
   stage_began_ = Clock::now();
-  line(name);
+  if (told_ || terminal_) line(name);
 }
 
 void Progress::warning(const std::string& text) {
@@ -48,7 +55,7 @@ void Progress::warning(const std::string& text) {
 }
 
 void Progress::growth(const sim::GrowthProgress& growth) {
-  if (quiet_) return;
+  if (quiet_ || (!told_ && !terminal_)) return;
   const auto now = Clock::now();
   const bool last = growth.iteration == growth.iterations || growth.sites == 0;
   if (!last &&

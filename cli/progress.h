@@ -15,6 +15,9 @@ class Progress {
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
 
+  /// The first line, which stays: what the work will take. Elsewhere than on a terminal nothing is said
+  /// before.
+  void foretold(const std::string& text);
   void stage(const std::string& name);
   /// A line that stays, also when quiet.
   void warning(const std::string& text);
@@ -27,6 +30,8 @@ class Progress {
   bool quiet_;
   bool terminal_;
   bool open_line_ = false;
+  bool told_ = false;  // what the work will take
+  std::string stage_;
   Clock::time_point stage_began_;
   Clock::time_point last_line_;
 };

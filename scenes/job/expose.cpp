@@ -7,6 +7,7 @@
 
 #include "render/files/vdb.h"
 #include "scenes/accuracy/certificate.h"
+#include "scenes/foretell/foretell.h"
 #include "scenes/job/stages.h"
 #include "scenes/job/warnings.h"
 #include "scenes/prepare/in_scene.h"
@@ -51,35 +52,63 @@ void requireSpaceFits(const Scene& scene, const sim::Frame& frame, const sim::Vo
   }
 }
 
+/// The pictures of a scene's exposure, as far as they are known before anything is tiled: the overview's
+/// camera is not. None unless they are drawn.
+PicturesWanted exposurePictures(const Scene& scene, const RunOptions& options) {
+  if (!options.pictures) return {};
+  PicturesWanted wanted = picturesOf(scene);
+  if (wanted.cameras.empty()) wanted.cameras.emplace_back();
+  wanted.images = exposureImages(scene, wanted.cameras, true);
+  requirePicturesFit(scene, wanted);
+  return wanted;
+}
+
+Site exposureSite(const Scene& scene, const RunOptions& options, Report& report, Stages& stages) {
+  Site site = stages.run("tiling", [&] {
+    Site made = makeSiteForLight(scene);
+    requireCamerasInTheOpen(scene, made.world);
+    return made;
+  });
+  describeWorld(report, scene, site);
+  warn(site.warnings, scene.file, options, report);
+  return site;
+}
+
+std::shared_ptr<const sim::VoxelSet> fittingSpace(const Scene& scene, const Site& site) {
+  auto space = spaceWanted(site.world, scene.exposure);
+  if (space) requireSpaceFits(scene, site.world.frame(), *space);
+  return space;
+}
+
 }  // namespace
+
+Foretold foretellExpose(const Scene& scene, const RunOptions& options) {
+  Report report;
+  Stages stages(options, report);
+  const PicturesWanted pictures = exposurePictures(scene, options);
+  const Site site = exposureSite(scene, options, report, stages);
+  return foretellExposure(site, fittingSpace(scene, site).get(), pictures, stages.began());
+}
 
 ExposeResult exposeScene(const Scene& scene, const RunOptions& options) {
   ExposeResult result;
   Report& report = result.report;
   Stages stages(options, report);
   std::vector<std::string> names = {kTable, kTableJson, kFields};
-  if (options.pictures) {
-    PicturesWanted wanted = picturesOf(scene);
-    if (wanted.cameras.empty()) wanted.cameras.emplace_back();  // the overview
-    wanted.images = exposureImages(scene, wanted.cameras, true);
-    requirePicturesFit(scene, wanted);
-    for (std::string& name : fileNames(wanted.images)) names.push_back(std::move(name));
-  }
+  const PicturesWanted pictures = exposurePictures(scene, options);
+  for (std::string& name : fileNames(pictures.images)) names.push_back(std::move(name));
   names.emplace_back(kReportFile);
   OutputFolder output(options.folder, std::move(names), scene.read_paths);
-  const Site site = stages.run("tiling", [&] {
-    Site made = makeSiteForLight(scene);
-    requireCamerasInTheOpen(scene, made.world);
-    return made;
-  });
+  const Site site = exposureSite(scene, options, report, stages);
   output.protect(site.mesh_paths);
-  describeWorld(report, scene, site);
-  warn(site.warnings, scene.file, options, report);
 
   std::shared_ptr<const sim::VoxelSet> space;
   const sim::Lighting light = stages.run("lighting", [&] {
-    space = spaceWanted(site.world, scene.exposure);
-    if (space) requireSpaceFits(scene, site.world.frame(), *space);
+    space = fittingSpace(scene, site);
+    if (options.on_foretold) {
+      report.run.foretold = foretellExposure(site, space.get(), pictures, stages.began());
+      options.on_foretold(*report.run.foretold);
+    }
     sim::LightWanted wanted;
     wanted.brightest = true;
     wanted.space = space;
@@ -119,8 +148,8 @@ ExposeResult exposeScene(const Scene& scene, const RunOptions& options) {
       }
       wanted.images = exposureImages(scene, wanted.cameras, !site.sun.directions.empty());
       const Finished finished{site.meshes, site.world, no_attempts, light, no_models};
-      auto pictures = inScene(scene, [&] { return drawPictures(wanted, finished); });
-      for (OutputFile& file : pictures) files.push_back(std::move(file));
+      auto drawn = inScene(scene, [&] { return drawPictures(wanted, finished); });
+      for (OutputFile& file : drawn) files.push_back(std::move(file));
     });
   }
   stages.run("writing", [&] { output.write(files); });

@@ -20,6 +20,10 @@ struct ExposeResult {
 /// written.
 ExposeResult exposeScene(const Scene& scene, const RunOptions& options);
 
+/// What that job will take, without doing it: the scene is tiled. Throws as exposeScene does before it looks
+/// for light.
+Foretold foretellExpose(const Scene& scene, const RunOptions& options);
+
 /// What a person would paste into a report: the world, what the numbers are, the regions, the files.
 std::string summary(const ExposeResult& result, const std::filesystem::path& folder);
 

@@ -127,6 +127,13 @@ std::string toJson(const Report& report) {
     json["run"]["proposals"] = report.run.proposals;
     json["run"]["went_on_from"] = report.run.went_on_from ? Json(*report.run.went_on_from) : Json();
   }
+  if (report.run.foretold) {
+    const Foretold& foretold = *report.run.foretold;
+    Json of_stages = Json::object();
+    for (const auto& [stage, seconds] : foretold.stages_s) of_stages[stage] = seconds;
+    json["run"]["foretold"] = {
+        {"total_s", foretold.seconds}, {"peak_memory_bytes", foretold.bytes}, {"stages_s", of_stages}};
+  }
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";  // paths may be no UTF-8
 }
 

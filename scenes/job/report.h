@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "scenes/accuracy/certificate.h"
+#include "scenes/foretell/foretell.h"
 #include "scenes/job/seed_failure.h"
 #include "scenes/prepare/site.h"
 #include "scenes/write/output_folder.h"
@@ -63,8 +64,9 @@ struct Report {
     double total_s = 0.0;
     std::uint64_t peak_memory_bytes = 0;
     int threads = 1;
-    std::optional<int> went_on_from;  ///< the iteration of the saved state
-    std::size_t proposals = 0;        ///< that sites made in this run
+    std::optional<int> went_on_from;   ///< the iteration of the saved state
+    std::size_t proposals = 0;         ///< that sites made in this run
+    std::optional<Foretold> foretold;  ///< where somebody was told
   } run;
 };
 

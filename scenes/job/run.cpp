@@ -9,6 +9,7 @@
 #include "render/files/gltf.h"
 #include "render/files/vdb.h"
 #include "render/model/plant_model.h"
+#include "scenes/foretell/foretell.h"
 #include "scenes/job/plant_reports.h"
 #include "scenes/job/saved_growth.h"
 #include "scenes/job/seed_failure_words.h"
@@ -101,8 +102,7 @@ struct Prepared {
   std::vector<rules::Exposure> seed_lights;
 };
 
-Prepared prepare(const Scene& scene, const RunOptions& options, OutputFolder& output, Report& report,
-                 Stages& stages) {
+Prepared prepare(const Scene& scene, const RunOptions& options, Report& report, Stages& stages) {
   Prepared prepared = stages.run("tiling", [&] {
     Site site = makeSite(scene);
     auto plantings = makePlantings(scene, site);
@@ -110,7 +110,6 @@ Prepared prepare(const Scene& scene, const RunOptions& options, OutputFolder& ou
     auto lights = lightOfSeeds(plantings, site.world, growthSettings(scene, site).light);
     return Prepared{std::move(site), std::move(plantings), std::move(lights)};
   });
-  output.protect(prepared.site.mesh_paths);
   describeWorld(report, scene, prepared.site);
   std::vector<Problem> warnings = scene.warnings;
   for (const auto& more : {prepared.site.warnings, unknownRegions(scene, prepared.site.world)})
@@ -141,10 +140,14 @@ double laterAnElement(const std::vector<sim::Planting>& plantings) {
   return kBytesACorner * static_cast<double>(most);
 }
 
+PicturesWanted picturesAsked(const Scene& scene, const RunOptions& options) {
+  return options.pictures ? picturesOf(scene) : PicturesWanted();
+}
+
 /// Grows from the beginning or from what was kept, and keeps every so many iterations what has grown.
 sim::Growth growOn(const Scene& scene, Prepared& prepared, std::optional<sim::Growth> kept,
                    const sim::BitVolume& bare, const RunOptions& options, const OutputFolder& output,
-                   const Keeping& keeping, Report& report) {
+                   const Keeping& keeping, Clock::time_point began, Report& report) {
   Site& site = prepared.site;
   std::vector<sim::Planting>& plantings = prepared.plantings;
   sim::GrowthSettings settings = growthSettings(scene, site);
@@ -171,11 +174,21 @@ sim::Growth growOn(const Scene& scene, Prepared& prepared, std::optional<sim::Gr
     return kept ? std::make_unique<sim::Growing>(site.world, plantings, settings, std::move(*kept))
                 : std::make_unique<sim::Growing>(site.world, plantings, settings);
   });
-  while (growing->step()) {
+  std::optional<GrowthForeteller> foreteller;
+  if (options.on_foretold)
+    foreteller.emplace(site, plantings, picturesAsked(scene, options), scene.iterations, growing->growth(),
+                       began);
+  for (bool over = false; !over;) {
+    over = !growing->step();
     const sim::Growth& now = growing->growth();
-    if (keeping.every > 0 && now.iterations % keeping.every == 0)
+    if (!over && keeping.every > 0 && now.iterations % keeping.every == 0)
       output.write(
           {{kStateFile, [&](std::ostream& out) { sim::writeState(out, inputs, site.world, bare, now); }}});
+    if (!foreteller) continue;
+    report.run.foretold = foreteller->after(now, over);
+    if (!report.run.foretold) continue;
+    options.on_foretold(*report.run.foretold);
+    foreteller.reset();
   }
   return growing->take();
 }
@@ -192,7 +205,8 @@ Report runScene(const Scene& scene, const RunOptions& options, const Keeping& ke
   OutputFolder output(options.folder, std::move(names), scene.read_paths);
   Report report;
   Stages stages(options, report);
-  Prepared prepared = prepare(scene, options, output, report, stages);
+  Prepared prepared = prepare(scene, options, report, stages);
+  output.protect(prepared.site.mesh_paths);
   Site& site = prepared.site;
   const sim::BitVolume bare = site.world.occupied();
   // Plants grow in the site's own world: a run grows once, and a second world would take as much memory.
@@ -207,7 +221,7 @@ Report runScene(const Scene& scene, const RunOptions& options, const Keeping& ke
     });
   }
   const sim::Growth growth = stages.run("growing", [&] {
-    return growOn(scene, prepared, std::move(kept), bare, options, output, keeping, report);
+    return growOn(scene, prepared, std::move(kept), bare, options, output, keeping, stages.began(), report);
   });
   report.growth = growthReport(scene, world, bare, growth, prepared.seed_lights);
   if (!growth.cut_short.empty()) report.warnings.push_back(growth.cut_short);
@@ -251,6 +265,25 @@ Report runScene(const Scene& scene, const RunOptions& options, const Keeping& ke
   return report;
 }
 
+Foretold foretellRun(const Scene& scene, const RunOptions& options) {
+  const PicturesWanted pictures = picturesAsked(scene, options);
+  if (options.pictures) requirePicturesFit(scene, pictures);
+  Report report;
+  Stages stages(options, report);
+  Prepared prepared = prepare(scene, options, report, stages);
+  return inScene(scene, [&] {
+    sim::Growing growing(prepared.site.world, prepared.plantings, growthSettings(scene, prepared.site));
+    GrowthForeteller foreteller(prepared.site, prepared.plantings, pictures, scene.iterations,
+                                growing.growth(), stages.began());
+    std::optional<Foretold> foretold;
+    while (!foretold) {
+      const bool over = !growing.step();
+      foretold = foreteller.after(growing.growth(), over);
+    }
+    return *foretold;
+  });
+}
+
 Report renderScene(Scene scene, const std::filesystem::path& from, const RunOptions& options) {
   if (scene.images.empty()) {
     throw sim::InputError(
@@ -267,12 +300,18 @@ Report renderScene(Scene scene, const std::filesystem::path& from, const RunOpti
   }
   // Strewn seeds and random rays lie where they lay.
   scene.seed = seedOf(*state).value_or(scene.seed);
-  Prepared prepared = prepare(scene, options, output, report, stages);
+  Prepared prepared = prepare(scene, options, report, stages);
+  output.protect(prepared.site.mesh_paths);
   Site& site = prepared.site;
   const sim::BitVolume bare = site.world.occupied();
   const sim::Growth growth = takeUp(std::move(*state), from, scene, site, prepared.plantings, Same::plants);
   report.growth = growthReport(scene, site.world, bare, growth, prepared.seed_lights);
   report.occupied_voxels = site.world.occupied().count();
+  if (options.on_foretold) {
+    report.run.foretold =
+        foretellPictures(site, prepared.plantings, grownIn(growth.plants), picturesOf(scene), stages.began());
+    options.on_foretold(*report.run.foretold);
+  }
   const sim::Lighting light =
       stages.run("lighting", [&] { return lightFor(scene, site, drawsVines(scene.images), nullptr); });
   report.light = light.about;

@@ -10,10 +10,11 @@
 namespace espalier::scenes {
 
 struct RunOptions {
-  std::filesystem::path folder;  ///< made if it is not there
-  bool pictures = true;          ///< draw the scene's images
-  bool strict = false;           ///< warnings are errors; of one that comes after growth once all is written
+  std::filesystem::path folder{};  ///< made if it is not there
+  bool pictures = true;            ///< draw the scene's images
+  bool strict = false;  ///< warnings are errors; of one that comes after growth once all is written
   std::stop_token stop;
+  std::function<void(const Foretold&)> on_foretold;        ///< once, as soon as it can be told
   std::function<void(const std::string& stage)> on_stage;  ///< as each begins
   std::function<void(const sim::GrowthProgress&)> on_growth;
   std::function<void(const std::string& warning)> on_warning;  ///< once each, before anything grows
@@ -33,6 +34,10 @@ struct Keeping {
 /// MeshMissing; sim::Stopped when stopped, and then nothing more is written. Growth that does not fit into
 /// memory ends early, and what has grown is written, with a sentence in Report::warnings.
 Report runScene(const Scene& scene, const RunOptions& options, const Keeping& keeping = {});
+
+/// What that job will take, without doing it: the scene is tiled, and grows for as long as it takes to tell.
+/// Throws as runScene does before anything grows.
+Foretold foretellRun(const Scene& scene, const RunOptions& options);
 
 /// Draws a scene's images of what was grown before, from the state in the folder `from`: with other cameras,
 /// suns, skies, sizes and kinds if the scene says so, but on the same meshes in the same world, with the same

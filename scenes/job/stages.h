@@ -16,6 +16,8 @@ class Stages {
  public:
   Stages(const RunOptions& options, Report& report) : options_(options), report_(report) {}
 
+  Clock::time_point began() const { return began_; }
+
   template <typename Work>
   auto run(const std::string& name, Work work) {
     sim::throwIfStopped();
@@ -25,7 +27,6 @@ class Stages {
   }
 
  private:
-  using Clock = std::chrono::steady_clock;
   struct Timer {
     Report& report;
     std::string name;
@@ -38,6 +39,7 @@ class Stages {
     }
   };
 
+  const Clock::time_point began_ = Clock::now();
   const RunOptions& options_;
   Report& report_;
   sim::StopScope in_force_{options_.stop};

@@ -112,15 +112,29 @@ Result<Scene> readScene(const fs::path& path) {
   return scene;
 }
 
-std::vector<Problem> checkFile(const fs::path& path) {
-  Problems problems;
+namespace {
+
+/// By its first key; nothing where there are problems.
+std::optional<FileKind> kindOf(const fs::path& path, Problems& problems) {
   const Place asker{std::make_shared<const std::string>(path.string()), 0, 0};
   const auto root = readDocument(path.string(), asker, std::nullopt, problems);
-  if (!root) return problems.sorted();
-  const auto kind = headerOf(*root, problems);
+  if (!root) return std::nullopt;
+  return headerOf(*root, problems);
+}
+
+}  // namespace
+
+std::vector<Problem> checkFile(const fs::path& path) {
+  Problems problems;
+  const auto kind = kindOf(path, problems);
   if (kind == FileKind::rules) return readRules(path).problems();
   if (kind == FileKind::scene) return readScene(path).problems();
   return problems.sorted();
+}
+
+bool isScene(const fs::path& path) {
+  Problems problems;
+  return kindOf(path, problems) == FileKind::scene;
 }
 
 }  // namespace espalier::scenes

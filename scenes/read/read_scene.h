@@ -15,4 +15,7 @@ Result<Scene> readScene(const std::filesystem::path& path);
 /// Every problem of a rule or scene file and of the files that it names; its first key says which it is.
 std::vector<Problem> checkFile(const std::filesystem::path& path);
 
+/// Whether a file's first key says that it is a scene.
+bool isScene(const std::filesystem::path& path);
+
 }  // namespace espalier::scenes

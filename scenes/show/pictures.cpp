@@ -260,11 +260,15 @@ PicturesWanted picturesOf(const Scene& scene, const sim::Provenance& made_by) {
   return wanted;
 }
 
+bool isPanel(ImageKind kind) {
+  return panelOf(kind).has_value();
+}
+
 std::vector<std::string> fileNames(const std::vector<ImageSpec>& images) {
   std::vector<std::string> names;
   for (const ImageSpec& image : images) {
     names.push_back(image.name + ".png");
-    if (panelOf(image.kind)) names.push_back(image.name + ".exr");
+    if (isPanel(image.kind)) names.push_back(image.name + ".exr");
   }
   return names;
 }
@@ -303,8 +307,7 @@ std::vector<OutputFile> drawPictures(const PicturesWanted& wanted, const Finishe
       render::PanelPicture picture;
     };
     std::vector<Painted> painted;
-    forEach([](ImageKind kind) { return panelOf(kind).has_value(); },
-            [&](std::size_t i) {
+    forEach(isPanel, [&](std::size_t i) {
               painted.push_back({i, studio.paint(wanted.images[i], *panelOf(wanted.images[i].kind))});
               keepThumbnail(i, painted.back().picture.display);
               files[i].resize(2);

@@ -46,6 +46,9 @@ struct Finished {
   const std::vector<render::PlantModel>& models;  ///< one a plant
 };
 
+/// Whether it is one of the panels of render/voxels/panels.h.
+bool isPanel(ImageKind kind);
+
 /// The files that drawPictures makes.
 std::vector<std::string> fileNames(const std::vector<ImageSpec>& images);
 

@@ -33,7 +33,7 @@ int main(int argc, char** argv) {
   app.add_option("--into", document, "A document whose first block of ``` takes what is printed");
   app.add_option("--most-voxels", most_voxels, "Of the largest world")->capture_default_str();
   app.add_option("--most-segments", most_segments, "Of the largest growth");
-  app.add_option("--rows", rows, "Only these of 1 .. 6")->check(CLI::Range(1, 6));
+  app.add_option("--rows", rows, "Only these of 1 .. 7")->check(CLI::Range(1, 7));
   CLI11_PARSE(app, argc, argv);
   const auto wanted = [&](int row) { return rows.empty() || rows.contains(row); };
   try {
@@ -47,6 +47,7 @@ int main(int argc, char** argv) {
     if (wanted(4)) bench::benchGrowth(scene, site, report);
     if (wanted(5)) bench::benchSegments(most_segments, report);
     if (wanted(6)) bench::benchMemory(most_segments, report);
+    if (wanted(7)) bench::benchForetold(report);
     report.writeCsv(csv);
     if (!document.empty()) report.writeInto(document);
   } catch (const std::exception& error) {

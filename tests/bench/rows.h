@@ -23,6 +23,8 @@ void benchSegments(double most_segments, Report& report);
 
 /// The whole program's memory on such walls.
 void benchMemory(double most_segments, Report& report);
+/// What whole runs take over what their first lines foretold.
+void benchForetold(Report& report);
 
 /// A sky of at least so many directions, of equal weight for equal parts.
 sim::DirectionSet skyOf(int directions);

@@ -363,14 +363,6 @@ TEST(CommandLine, HelpVersionAndMistakes) {
   EXPECT_EQ(tests::espalier("grow no-such-scene.yaml").status, 2);
 }
 
-TEST(CommandLine, CheckIsSilentWhenAllIsWell) {
-  std::string all;
-  for (const auto& file : tests::libraryFiles()) all += " " + file.string();
-  const auto ran = tests::espalier("check" + all);
-  EXPECT_EQ(ran.status, 0);
-  EXPECT_EQ(ran.output, "");
-}
-
 TEST(CommandLine, CheckNamesEveryErrorOfEveryFile) {
   const tests::Scratch scratch;
   const auto a = scratch.write("a.yaml", "espalier: rules\nnam: x\nlight: {boost: -1}\n");

@@ -49,7 +49,7 @@ TEST_F(Say, NobodyWhoHearsIsNoReasonToFail) {
     EXPECT_EQ(growing(deaf).status, 0) << deaf;
     expectWhole();
   }
-  EXPECT_EQ(shell("check scene.yaml <&- >&- 2>&-").status, 0);
+  EXPECT_EQ(shell("check vine.yaml <&- >&- 2>&-").status, 0);
   EXPECT_EQ(shell("check bad.yaml 2>/dev/full").status, 2);
   EXPECT_EQ(shell("check bad.yaml <&- >&- 2>&-").status, 2);
   EXPECT_EQ(shell("grow --no-such-option 2>/dev/full").status, 2);

@@ -34,7 +34,10 @@ const std::map<std::string, Setting>& settings() {
         {0.890f, 0.920f, 0.950f},
         {0.27f, 0.42f, 0.60f}}},
       {"scenes",
-       {{{"job", "accuracy", "prepare", "import"}, {"job", "show", "write"}, {"job", "read", "yaml"}},
+       {{{"job", "accuracy", "prepare", "import"},
+         {"job", "foretell", "prepare"},
+         {"job", "foretell", "show", "write"},
+         {"job", "read", "yaml"}},
         {0.955f, 0.905f, 0.885f},
         {0.64f, 0.36f, 0.26f}}},
       {"cli", {{}, {0.925f, 0.920f, 0.915f}, {0.42f, 0.42f, 0.44f}}}};

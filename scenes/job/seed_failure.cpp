@@ -100,7 +100,8 @@ std::vector<rules::Exposure> lightOfSeeds(const std::vector<sim::Planting>& plan
   }
   std::vector<rules::Exposure> lights;
   if (places.empty()) return lights;
-  for (const sim::Light& seen : sim::LightSensor(world.opaque(), light).at(world.opaque(), places))
+  sim::ClearAhead ahead;
+  for (const sim::Light& seen : sim::LightSensor(world.opaque(), light).at(world.opaque(), places, ahead))
     lights.push_back(rules::exposureOf(seen));
   return lights;
 }

@@ -212,18 +212,19 @@ Proposal Growing::proposeAt(std::size_t planting, const Site& site, const Light*
 Proposal Growing::propose(const Due& due, std::size_t planting, const Site& site) const {
   if (planting >= plantings_.size()) throw InputError(fmt::format("there is no planting {}", planting));
   requireSites(world_, plantings_[planting], view(planting).plants, {site});
+  ClearAhead clear, sky_clear;
   std::optional<Light> light;
   if (plantings_[planting].process->wants().light) {
     const Voxel place = voxelAt(site.at_vx);
-    light = sensor_->at(world_.opaque(), {&place, 1}).front();
+    light = sensor_->at(world_.opaque(), {&place, 1}, clear).front();
   }
   std::optional<SkyInside> sky;
-  if (plantings_[planting].process->wants().sky_table) sky.emplace(*sky_sensor_, world_.opaque());
+  if (plantings_[planting].process->wants().sky_table) sky.emplace(*sky_sensor_, world_.opaque(), sky_clear);
   return proposeAt(planting, site, light ? &*light : nullptr, sky ? &*sky : nullptr,
                    due.memories.at(planting), due.commons, true);
 }
 
-void Growing::proposeAll(std::vector<Asked>& asked) const {
+void Growing::proposeAll(std::vector<Asked>& asked) {
   std::vector<Voxel> places;                      // of those that want light
   std::vector<std::size_t> lit(asked.size(), 0);  // number of its place, from 1; 0: wants no light
   bool sky_wanted = false;
@@ -234,9 +235,9 @@ void Growing::proposeAll(std::vector<Asked>& asked) const {
     places.push_back(voxelAt(asked[i].site.at_vx));
     lit[i] = places.size();
   }
-  const auto lights = sensor_ ? sensor_->at(world_.opaque(), places) : std::vector<Light>();
+  const auto lights = sensor_ ? sensor_->at(world_.opaque(), places, clear_) : std::vector<Light>();
   std::optional<SkyInside> sky;
-  if (sky_wanted) sky.emplace(*sky_sensor_, world_.opaque());
+  if (sky_wanted) sky.emplace(*sky_sensor_, world_.opaque(), sky_clear_);
   parallelFor(asked.size(), 4, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       throwIfStopped();

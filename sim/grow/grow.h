@@ -91,7 +91,7 @@ class Growing {
   std::vector<Site> dueOf(std::size_t planting, Columns& memory, Commons& commons) const;
   Proposal proposeAt(std::size_t planting, const Site& site, const Light* light, const SkyInside* sky,
                      const Columns& memory, const Commons& commons, bool record) const;
-  void proposeAll(std::vector<Asked>& asked) const;
+  void proposeAll(std::vector<Asked>& asked);
   void acceptAll(std::vector<Asked>& asked);
   bool hindered(const Asked& asked, std::uint32_t before);
   void place(Asked& asked, std::uint32_t before, std::vector<TiledVoxel>& edit);
@@ -105,6 +105,7 @@ class Growing {
   std::vector<std::uint64_t> streams_;   // of each plant
   std::optional<LightSensor> sensor_;    // if a process wants light
   std::optional<SkySensor> sky_sensor_;  // if a process wants its table
+  ClearAhead clear_, sky_clear_;         // theirs
   std::unique_ptr<Claims> claims_;
   std::unique_ptr<PieceGrid> pieces_;
   std::unique_ptr<Nearby> nearby_;  // while pieces are accepted

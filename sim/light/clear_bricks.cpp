@@ -5,7 +5,9 @@
 #include <bit>
 #include <cstdlib>
 #include <cstring>
+#include <iterator>
 #include <map>
+#include <optional>
 #include <tuple>
 
 #include "sim/base/parallel.h"
@@ -133,11 +135,11 @@ class ReadPlane {
 
 /// Where a brick's low corner comes to lie while it moves along v, up to the edge of the world; nearer ones
 /// first.
-std::vector<looking::Step> wayOf(const Layout& layout, Voxel size, Voxel v) {
+template <class Visit>
+void forEachOnWay(Voxel size, Voxel v, Visit visit) {
   const Voxel way = glm::abs(v), sign = glm::sign(v);
-  std::vector<looking::Step> steps;
   for (Voxel o(0); o.x < size.x && o.y < size.y && o.z < size.z;) {
-    steps.push_back(layout.step(o * sign));
+    visit(o * sign);
     int next = -1;  // the axis along which the next plane between bricks is met: the least (o + 1) / v
     for (int axis = 0; axis < 3; ++axis) {
       if (way[axis] != 0 && (next < 0 || (o[axis] + 1) * way[next] < (o[next] + 1) * way[axis])) next = axis;
@@ -147,7 +149,31 @@ std::vector<looking::Step> wayOf(const Layout& layout, Voxel size, Voxel v) {
       if (way[axis] != 0 && (o[axis] + 1) * length == planes * way[axis]) ++o[axis];
     }
   }
+}
+
+std::vector<looking::Step> wayOf(const Layout& layout, Voxel size, Voxel v) {
+  std::vector<looking::Step> steps;
+  forEachOnWay(size, v, [&](Voxel o) { steps.push_back(layout.step(o)); });
   return steps;
+}
+
+/// Calls visit(o, at) for the bricks `at` that brick 0 overlaps on its way along v, each once, where its low
+/// corner is in brick o.
+template <class Visit>
+void forEachAhead(Voxel size, Voxel v, Visit visit) {
+  const Voxel sign = glm::sign(v), way = glm::abs(sign);
+  std::optional<Voxel> before;
+  forEachOnWay(size, v, [&](Voxel o) {
+    for (int corner = 0; corner < 8; ++corner) {
+      const Voxel out(corner & 1, (corner >> 1) & 1, corner >> 2);
+      if (out != out * way) continue;  // it does not move along that axis
+      const Voxel at = o + out * sign;
+      // note: the way only goes on, so what was overlapped before was so a step ago.
+      const Voxel since = before ? (at - *before) * sign : Voxel(2);
+      if (since != glm::clamp(since, Voxel(0), way)) visit(o, at);
+    }
+    before = o;
+  });
 }
 
 /// The bricks that a brick overlaps at once on its way, from the one that holds its low corner on.
@@ -175,16 +201,38 @@ std::uint64_t wordAt(const Plane& plane, std::size_t byte) {
 }  // namespace
 
 ClearBricks::ClearBricks(const BitVolume& occupied, std::span<const LatticeDirection> directions)
-    : size_(occupied.size()), bricks_((size_ + (kSide - 1)) / kSide), coarser_(halvings(bricks_)) {
-  const Voxel size = ((bricks_ - 1) >> Voxel(coarser_)) + 1;
-  const Layout layout(size);
+    : size_(occupied.size()),
+      bricks_((size_ + (kSide - 1)) / kSide),
+      coarser_(halvings(bricks_)),
+      filled_(((bricks_ - 1) >> Voxel(coarser_)) + 1) {
+  const Layout layout(filled_.size());
   step_[static_cast<std::size_t>(layout.lane)] = 1;
   step_[static_cast<std::size_t>(layout.row)] = 8 * layout.lane_bytes;
   step_[static_cast<std::size_t>(layout.column)] = 8 * layout.bytes;
-  ReadPlane filled(layout);
+  rows_.resize(kWords * 8 * layout.allBytes());
+  find(directions, judgedBricks(occupied));
+}
+
+std::vector<Voxel> ClearBricks::judgedBricks(const BitVolume& occupied) {
+  BitVolume judged(filled_.size());
+  std::vector<Voxel> bricks;
   for (const auto& slab : filledBricks(occupied)) {
-    for (const Voxel brick : slab) filled.set(brick >> Voxel(coarser_));
+    for (const Voxel brick : slab) {
+      const Voxel as_one = brick >> Voxel(coarser_);
+      if (judged.at(as_one)) continue;
+      judged.set(as_one);
+      bricks.push_back(as_one);
+    }
   }
+  filled_ = std::move(judged);
+  return bricks;
+}
+
+void ClearBricks::find(std::span<const LatticeDirection> directions, const std::vector<Voxel>& bricks) {
+  const Voxel size = filled_.size();
+  const Layout layout(size);
+  ReadPlane filled(layout);
+  for (const Voxel brick : bricks) filled.set(brick);
   std::map<std::tuple<int, int, int>, ReadPlane> met;  // by a brick whose low corner lies here, by v's signs
   for (const LatticeDirection& direction : directions) {
     const Voxel sign = glm::sign(direction.v);
@@ -194,7 +242,7 @@ ClearBricks::ClearBricks(const BitVolume& occupied, std::span<const LatticeDirec
     filled.unite(overlapped(layout, sign), plane);
     at->second.take(plane);
   }
-  rows_.resize(kWords * 8 * layout.allBytes(), ~std::uint64_t{0});
+  std::fill(rows_.begin(), rows_.end(), ~std::uint64_t{0});
   parallelForEach((directions.size() + 63) / 64, [&](std::size_t column) {
     const auto mine =
         directions.subspan(64 * column, std::min<std::size_t>(64, directions.size() - 64 * column));
@@ -212,6 +260,42 @@ ClearBricks::ClearBricks(const BitVolume& occupied, std::span<const LatticeDirec
       for (std::size_t bit = 0; bit < 64; ++bit) rows_[kWords * (8 * byte + bit) + column] = ~square[bit];
     }
   });
+}
+
+void ClearBricks::addFilled(std::span<const Voxel> judged, std::span<const LatticeDirection> directions) {
+  if (ahead_.empty()) {
+    for (const LatticeDirection& direction : directions) {
+      std::vector<Ahead>& ahead = ahead_.emplace_back();
+      forEachAhead(filled_.size(), direction.v, [&](Voxel o, Voxel at) { ahead.push_back({o, at}); });
+    }
+  }
+  parallelForEach((directions.size() + 63) / 64, [&](std::size_t column) {
+    for (std::size_t i = 64 * column; i < std::min<std::size_t>(64 * (column + 1), directions.size()); ++i) {
+      const std::uint64_t others = ~(std::uint64_t{1} << (i % 64));
+      for (const Voxel brick : judged) {
+        for (const Ahead& ahead : ahead_[i]) {
+          if (!contains(filled_.size(), brick - ahead.corner)) break;  // no other comes from inside
+          const Voxel from = brick - ahead.brick;
+          if (contains(filled_.size(), from)) rows_[kWords * indexJudged(from) + column] &= others;
+        }
+      }
+    }
+  });
+}
+
+void ClearBricks::follow(const BitVolume& occupied, std::span<const LatticeDirection> directions) {
+  constexpr std::size_t kFew = 300;  // adding one of so many bricks costs less than finding all anew
+  const BitVolume before = filled_;
+  const std::vector<Voxel> bricks = judgedBricks(occupied);
+  std::vector<Voxel> added;
+  std::copy_if(bricks.begin(), bricks.end(), std::back_inserter(added),
+               [&](Voxel brick) { return !before.at(brick); });
+  const bool none_emptied = bricks.size() - added.size() == before.count();
+  if (none_emptied && kFew * added.size() <= rows_.size() / kWords) {
+    addFilled(added, directions);
+  } else {
+    find(directions, bricks);
+  }
 }
 
 }  // namespace espalier::sim

@@ -94,28 +94,45 @@ OpenRays::OpenRays(const BitVolume& shape, const DirectionSet& directions)
   groups_ = std::make_shared<const std::vector<looking::Group>>(std::move(groups));
 }
 
-std::vector<std::uint64_t> OpenRays::from(const BitVolume& occupied, std::span<const Voxel> places) const {
+ClearAhead::ClearAhead() = default;
+ClearAhead::~ClearAhead() = default;
+ClearAhead::ClearAhead(ClearAhead&&) noexcept = default;
+ClearAhead& ClearAhead::operator=(ClearAhead&&) noexcept = default;
+
+void OpenRays::look(const BitVolume& occupied, ClearAhead& ahead) const {
+  const bool known = ahead.known();
+  for (std::size_t g = 0; g < groups_->size(); ++g) {
+    const auto directions = (*groups_)[g].directions;
+    if (known) {
+      ahead.of_groups_[g].follow(occupied, directions);
+    } else {
+      ahead.of_groups_.emplace_back(occupied, directions);
+    }
+  }
+}
+
+std::vector<std::uint64_t> OpenRays::from(const BitVolume& occupied, std::span<const Voxel> places,
+                                          ClearAhead& ahead) const {
+  look(occupied, ahead);
   std::vector<std::uint64_t> open(places.size() * words());
   for (std::size_t g = 0; g < groups_->size(); ++g) {
-    const looking::Group& group = (*groups_)[g];
-    const ClearBricks clear(occupied, group.directions);
     parallelFor(places.size(), 16, [&](std::size_t begin, std::size_t end) {
-      looking::look(occupied, group, clear, places.subspan(begin, end - begin),
+      looking::look(occupied, (*groups_)[g], ahead.of_groups_[g], places.subspan(begin, end - begin),
                     open.data() + begin * words() + g * ClearBricks::kWords, words());
     });
   }
   return open;
 }
 
-RaysInside::RaysInside(const OpenRays& rays, const BitVolume& occupied) : rays_(rays), occupied_(occupied) {
-  for (const looking::Group& group : *rays.groups_) clear_.emplace_back(occupied, group.directions);
+RaysInside::RaysInside(const OpenRays& rays, const BitVolume& occupied, ClearAhead& ahead)
+    : rays_(rays), occupied_(occupied), ahead_(ahead) {
+  rays.look(occupied, ahead);
 }
-RaysInside::~RaysInside() = default;
 
 std::vector<std::uint64_t> RaysInside::from(Voxel place) const {
   std::vector<std::uint64_t> open(rays_.words());
-  for (std::size_t g = 0; g < clear_.size(); ++g) {
-    looking::look(occupied_, (*rays_.groups_)[g], clear_[g], {&place, 1},
+  for (std::size_t g = 0; g < ahead_.of_groups_.size(); ++g) {
+    looking::look(occupied_, (*rays_.groups_)[g], ahead_.of_groups_[g], {&place, 1},
                   open.data() + g * ClearBricks::kWords, rays_.words());
   }
   return open;

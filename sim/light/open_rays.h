@@ -17,6 +17,23 @@ struct Group;
 class ClearBricks;
 class RaysInside;
 
+/// What is clear along the rays' ways in a volume, kept from question to question: asking again costs as much
+/// as has changed in between. Of one OpenRays alone.
+class ClearAhead {
+ public:
+  ClearAhead();
+  ~ClearAhead();
+  ClearAhead(ClearAhead&&) noexcept;
+  ClearAhead& operator=(ClearAhead&&) noexcept;
+
+  bool known() const { return !of_groups_.empty(); }
+
+ private:
+  friend class OpenRays;
+  friend class RaysInside;
+  std::vector<ClearBricks> of_groups_;
+};
+
 /// Directions made ready to be looked along from many places, again and again in worlds of one shape. The
 /// answer is that of reachesEdge for each of them; what is near is found for many directions at once, and
 /// rays end where nothing lies ahead any more.
@@ -29,20 +46,23 @@ class OpenRays {
   std::size_t words() const { return (directions_->size() + 63) / 64; }
   /// A row of bits for each place, one after another: bit i says whether direction i reaches the world's
   /// edge. `occupied` must have the shape that was given, and the places must lie in it.
-  std::vector<std::uint64_t> from(const BitVolume& occupied, std::span<const Voxel> places) const;
+  std::vector<std::uint64_t> from(const BitVolume& occupied, std::span<const Voxel> places,
+                                  ClearAhead& ahead) const;
 
  private:
   friend class RaysInside;
+  /// Makes it true of the volume.
+  void look(const BitVolume& occupied, ClearAhead& ahead) const;
+
   std::shared_ptr<const DirectionSet> directions_;  // the groups refer to them
   std::shared_ptr<const std::vector<looking::Group>> groups_;
 };
 
 /// The same for single places, in a volume that stands still meanwhile: nothing is found for places of which
-/// nobody asks. May be asked from any number of threads. Borrows both.
+/// nobody asks. May be asked from any number of threads. Borrows all three.
 class RaysInside {
  public:
-  RaysInside(const OpenRays& rays, const BitVolume& occupied);
-  ~RaysInside();
+  RaysInside(const OpenRays& rays, const BitVolume& occupied, ClearAhead& ahead);
 
   /// A place's row of bits.
   std::vector<std::uint64_t> from(Voxel place) const;
@@ -50,7 +70,7 @@ class RaysInside {
  private:
   const OpenRays& rays_;
   const BitVolume& occupied_;
-  std::vector<ClearBricks> clear_;  // of each group
+  const ClearAhead& ahead_;
 };
 
 }  // namespace espalier::sim

@@ -76,13 +76,20 @@ void benchGrowth(const scenes::Scene& scene, scenes::Site& site, Report& report)
     if (progress.iteration % kEvery == 0) {
       growing += seconds;
       const sim::BitVolume& opaque = site.world.opaque();
-      const auto medians =
-          medianSeconds({[&] { sensor.at(opaque, places); }, [&] { sensor.byRays(opaque, places); },
-                         [&] { sensor.byOpenRays(opaque, places); }, [&] { sensor.bySweep(opaque, places); },
-                         [&] {
-                           sim::sweepExposure(opaque, settings.light.sky);
-                           sim::sweepExposure(opaque, settings.light.sun);
-                         }});
+      const auto medians = medianSeconds({[&] {
+                                            sim::ClearAhead anew;  // growth keeps it
+                                            sensor.at(opaque, places, anew);
+                                          },
+                                          [&] { sensor.byRays(opaque, places); },
+                                          [&] {
+                                            sim::ClearAhead anew;
+                                            sensor.byOpenRays(opaque, places, anew);
+                                          },
+                                          [&] { sensor.bySweep(opaque, places); },
+                                          [&] {
+                                            sim::sweepExposure(opaque, settings.light.sky);
+                                            sim::sweepExposure(opaque, settings.light.sun);
+                                          }});
       asking += medians[0];
       casting += medians[1];
       opening += medians[2];

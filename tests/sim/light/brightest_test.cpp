@@ -195,7 +195,8 @@ TEST(Brightest, TheSensorFindsWhatEachPlaceSees) {
   for (int i = 0; i < 60; ++i)
     places.emplace_back(static_cast<int>(random() % 70), static_cast<int>(random() % 30),
                         static_cast<int>(random() % 44));
-  const sim::SkyInside sky(sensor, bits);
+  sim::ClearAhead ahead;
+  const sim::SkyInside sky(sensor, bits, ahead);
   for (const Voxel place : places) EXPECT_EQ(sky.brightest(place), brightest(table, bits, place));
 }
 

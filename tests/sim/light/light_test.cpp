@@ -22,7 +22,8 @@ TEST(Light, IsTheSameEveryWay) {
     places.emplace_back(static_cast<int>(random() % 61), static_cast<int>(random() % 40),
                         static_cast<int>(random() % 53));
   const auto rays = sensor.byRays(bits, places);
-  for (const auto& other : {sensor.bySweep(bits, places), sensor.byOpenRays(bits, places)}) {
+  sim::ClearAhead ahead;
+  for (const auto& other : {sensor.bySweep(bits, places), sensor.byOpenRays(bits, places, ahead)}) {
     for (std::size_t i = 0; i < places.size(); ++i) {
       ASSERT_EQ(rays[i].sky.sum, other[i].sky.sum);
       ASSERT_EQ(rays[i].sun.sum, other[i].sun.sum);
@@ -43,7 +44,8 @@ TEST(Light, IsWhateverTheMapSays) {
   const sim::LightSensor sensor(bits, {sky, {}});
   const Voxel few[] = {{4, 5, 6}};
   const auto map = sim::sweepExposure(bits, sky);
-  EXPECT_EQ(sensor.at(bits, few)[0].sky.sum, map.values[map.index(few[0])]);
+  sim::ClearAhead ahead;
+  EXPECT_EQ(sensor.at(bits, few, ahead)[0].sky.sum, map.values[map.index(few[0])]);
 }
 
 }  // namespace

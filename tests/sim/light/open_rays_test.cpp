@@ -47,7 +47,8 @@ std::vector<Voxel> placesIn(Voxel size, int count, unsigned seed) {
 void expectWhatRaysMeet(const sim::BitVolume& bits, const sim::DirectionSet& set,
                         const std::vector<Voxel>& places) {
   const sim::OpenRays rays(bits, set);
-  const auto open = rays.from(bits, places);
+  sim::ClearAhead ahead;
+  const auto open = rays.from(bits, places, ahead);
   ASSERT_EQ(open.size(), places.size() * rays.words());
   for (std::size_t i = 0; i < places.size(); ++i) {
     for (std::size_t d = 0; d < 64 * rays.words(); ++d) {
@@ -141,6 +142,59 @@ TEST(ClearBricks, NoRayThroughOneMeetsAnything) {
       }
     }
     EXPECT_GT(clear_ones, 1000u);
+  }
+}
+
+/// Whether all bricks are as those of clear bricks made anew.
+bool isAsAnew(const sim::ClearBricks& clear, const sim::BitVolume& bits, const sim::DirectionSet& set) {
+  const sim::ClearBricks anew(bits, set);
+  const Voxel bricks = (bits.size() + 7) / 8;
+  for (int y = 0; y < bricks.y; ++y)
+    for (int z = 0; z < bricks.z; ++z)
+      for (int x = 0; x < bricks.x; ++x)
+        if (!std::equal(anew.ofBrick({x, y, z}), anew.ofBrick({x, y, z}) + sim::ClearBricks::kWords,
+                        clear.ofBrick({x, y, z})))
+          return false;
+  return true;
+}
+
+// However many bricks fill or empty at a time; in the last of these worlds some are judged as one.
+TEST(ClearBricks, ThatFollowAVolumeAreAsIfMadeAnew) {
+  auto set = allKinds();
+  set.resize(std::min<std::size_t>(set.size(), 64 * sim::ClearBricks::kWords));
+  for (const Voxel size : {Voxel(90, 70, 61), Voxel(17, 140, 25), Voxel(8, 8, 8), Voxel(530, 525, 513)}) {
+    auto bits = tests::randomBits(size, size.x > 100 ? 1e-7 : 2e-5, 21);
+    sim::ClearBricks clear(bits, set);
+    std::mt19937 random(22);
+    const auto anywhere = [&] {
+      const auto below = [&](int n) { return static_cast<int>(random() % static_cast<unsigned>(n)); };
+      return Voxel(below(size.x), below(size.y), below(size.z));
+    };
+    for (const int voxels : {1, 0, 3, 1, 40, 2, 3000, 1}) {
+      const sim::ClearBricks unchanged = clear;
+      for (int i = 0; i < voxels; ++i) bits.set(anywhere());
+      clear.follow(bits, set);
+      ASSERT_TRUE(isAsAnew(clear, bits, set)) << size.x << " " << voxels;
+      // There is something to follow.
+      if (voxels == 3 && size.x == 90) {
+        EXPECT_FALSE(isAsAnew(unchanged, bits, set));
+      }
+    }
+    clear.follow(sim::BitVolume(size), set);
+    ASSERT_TRUE(isAsAnew(clear, sim::BitVolume(size), set));
+  }
+}
+
+TEST(OpenRays, WithWhatWasClearBeforeAreThoseThatReachTheEdgeNow) {
+  const sim::DirectionSet set = allKinds();
+  auto bits = tests::randomBits({75, 50, 66}, 0.0005, 31);
+  const sim::OpenRays rays(bits, set);
+  sim::ClearAhead ahead;
+  for (unsigned round = 0; round < 6; ++round) {
+    const auto places = placesIn(bits.size(), 20, round);
+    sim::ClearAhead anew;
+    ASSERT_EQ(rays.from(bits, places, ahead), rays.from(bits, places, anew));
+    for (const Voxel place : placesIn(bits.size(), 3, 100 + round)) bits.set(place);
   }
 }
 

@@ -10,6 +10,7 @@
 
 #include "scenes/clean_text.h"
 #include "scenes/import/assimp_scene.h"
+#include "scenes/import/mtl.h"
 #include "sim/base/error.h"
 
 namespace espalier::scenes {
@@ -17,43 +18,72 @@ namespace {
 
 constexpr const char* kShown = "shapes.obj";
 
-/// Appends a statement for each MTL file that is there, and warns of the others.
-void appendLibraries(MeshFolderIo& io, const ObjText& obj, std::string& shown,
-                     std::vector<Problem>& warnings) {
-  const auto append = [&](const std::string& name, const ObjText::Named& library) {
-    if (io.read(name) != nullptr) {
-      shown += "mtllib " + name + "\n";
+/// The MTL files that an OBJ file names.
+class MtlFiles {
+ public:
+  MtlFiles(MeshFolderIo& io, const ObjText& obj) : io_(io) {
+    for (const ObjText::Named& library : obj.libraries) {
+      std::istringstream words(library.name);
+      std::string first, second;
+      words >> first >> second;
+      if (second.empty() || io.read(library.name) != nullptr) {  // a name may have spaces
+        add(library.name, library);
+        continue;
+      }
+      words.seekg(0);
+      for (std::string name; words >> name && !name.starts_with('#');) add(name, library);
+    }
+  }
+
+  bool allThere() const { return missing_.empty(); }
+  MtlMaterials takeMaterials() { return std::move(materials_); }
+
+  /// One warning for all that are not there, and one for the first line that is wrong: a file may name a
+  /// million.
+  void warn(std::vector<Problem>& warnings) const {
+    if (!missing_.empty()) {
+      const std::string what =
+          missing_.size() == 1
+              ? fmt::format("the MTL file {} is not there as a regular file", inQuotes(missing_[0]))
+              : fmt::format("the {} MTL files {} are not there as regular files", missing_.size(),
+                            listed(missing_));
+      warnings.push_back({{},
+                          first_missing_.line,
+                          first_missing_.column,
+                          what + " in the mesh's folder; materials that no other file has are grey"});
+    }
+    if (!wrong_.text.empty()) warnings.push_back(wrong_);
+  }
+
+ private:
+  void add(const std::string& name, const ObjText::Named& library) {
+    if (!known_.insert(name).second) return;
+    const std::string* const mtl = io_.read(name);
+    if (mtl == nullptr) {
+      if (missing_.empty()) first_missing_ = library;
+      missing_.push_back(name);
       return;
     }
-    warnings.push_back(
-        {{},
-         library.line,
-         library.column,
-         fmt::format("the MTL file {} is not there as a regular file in the mesh's folder; its "
-                     "materials are grey",
-                     inQuotes(name))});
-  };
-  for (const ObjText::Named& library : obj.libraries) {
-    std::istringstream words(library.name);
-    std::string first, second;
-    words >> first >> second;
-    if (second.empty() || io.read(library.name) != nullptr) {  // a name may have spaces
-      append(library.name, library);
-      continue;
-    }
-    words.seekg(0);
-    for (std::string name; words >> name;) append(name, library);
+    const int line = readMtl(*mtl, materials_);
+    if (line == 0 || !wrong_.text.empty()) return;
+    wrong_ = {{},
+              library.line,
+              library.column,
+              fmt::format("line {} of the MTL file {} is no colour, and is left out", line, inQuotes(name))};
   }
-}
+
+  MeshFolderIo& io_;
+  std::set<std::string> known_;
+  MtlMaterials materials_;
+  std::vector<std::string> missing_;
+  ObjText::Named first_missing_;
+  Problem wrong_;
+};
 
 /// The materials that the file's polygons have, by their numbers in the order of first use.
 class ObjMaterials {
  public:
-  ObjMaterials(const aiScene& scene, const std::string& stem) : stem_(stem) {
-    const auto materials = materialsOf(scene, stem, MeshColours::display);
-    for (unsigned i = 0; i < scene.mNumMaterials; ++i)
-      known_.emplace(scene.mMaterials[i]->GetName().C_Str(), materials[i]);
-  }
+  ObjMaterials(MtlMaterials known, const std::string& stem) : stem_(stem), known_(std::move(known)) {}
 
   std::size_t number(const ObjText::Named& material) {
     const auto [at, is_new] = numbers_.try_emplace(material.name, materials_.size());
@@ -78,14 +108,18 @@ class ObjMaterials {
  private:
   sim::Material find(const ObjText::Named& material) {
     if (material.name.empty()) return {.name = stem_};
-    if (const auto known = known_.find(material.name); known != known_.end()) return known->second;
-    if (unknown_.empty()) first_unknown_ = material;
-    unknown_.push_back(cleanText(material.name));
-    return unknownMaterial(unknown_.back().empty() ? stem_ : unknown_.back());
+    const auto known = known_.find(material.name);
+    sim::Material found = known != known_.end() ? known->second : unknownMaterial(cleanText(material.name));
+    if (known == known_.end()) {
+      if (unknown_.empty()) first_unknown_ = material;
+      unknown_.push_back(found.name);
+    }
+    if (found.name.empty()) found.name = stem_;  // nothing in it can be shown
+    return found;
   }
 
   std::string stem_;
-  std::map<std::string, sim::Material> known_;
+  MtlMaterials known_;
   std::map<std::string, std::size_t> numbers_;
   std::vector<sim::Material> materials_;
   std::vector<std::string> unknown_;
@@ -127,18 +161,17 @@ sim::Mesh readObj(MeshFolderIo& io, const std::string& name, RegionsFrom regions
                   std::vector<Problem>& warnings) {
   const std::string* const text = io.read(name);
   if (text == nullptr) throw sim::InputError("cannot be read");
-  ObjText obj = takeApart(*text);
+  const ObjText obj = takeApart(*text);
   if (obj.polygons == 0) throw sim::InputError("there are no triangles in the file");
-  std::string shown = std::exchange(obj.shapes, {});
-  appendLibraries(io, obj, shown, warnings);
-  const bool all_there = warnings.empty();
-  io.show(kShown, shown);
+  MtlFiles files(io, obj);
+  files.warn(warnings);
+  ObjMaterials materials(files.takeMaterials(), stem);
+  io.show(kShown, obj.shapes);
   const aiScene& scene = read_scene(kShown);
   if (scene.mNumMeshes != 1 || scene.mMeshes[0]->mNumFaces != obj.polygons)
     throw sim::InputError("cannot be read: Assimp left out some of its polygons");
-  ObjMaterials materials(scene, stem);
   const auto instances = instancesOf(*scene.mMeshes[0], obj, materials);
-  if (all_there) materials.warn(!obj.libraries.empty(), warnings);
+  if (files.allThere()) materials.warn(!obj.libraries.empty(), warnings);
   return meshOf(instances, materials.materials(), regions_from, stem);
 }
 

@@ -14,8 +14,8 @@ struct Drawn {
   std::string text;                 ///< as it stands behind its key
   std::vector<DrawnEntry> entries;  ///< of a map; of a list, without keys
 
-  Drawn() = default;
-  Drawn(std::string written) : text(std::move(written)) {}  // NOLINT: a text is a value
+  Drawn();
+  Drawn(std::string written);  // NOLINT: a text is a value
 };
 
 struct DrawnEntry {
@@ -26,11 +26,14 @@ struct DrawnEntry {
   int line = 0;           ///< where it was written last, from 1
 };
 
+inline Drawn::Drawn() = default;
+inline Drawn::Drawn(std::string written) : text(std::move(written)) {}
+
 /// The file's text, each entry on lines of its own; notes these lines.
 std::string write(Drawn& root);
 
-/// Takes out the innermost entry around a line that may go: one that is not required. False where there is
-/// none.
-bool takeOut(Drawn& root, int line);
+/// Takes out the innermost entry around a line that may go: one that is not required. The line on which it
+/// began, or 0 where there is none.
+int takeOut(Drawn& root, int line);
 
 }  // namespace espalier::fuzz

@@ -63,18 +63,21 @@ TEST_F(Folder, NothingThatIsReadIsWrittenOver) {
 }
 
 TEST_F(Folder, WhatCannotBeWrittenIsFoundBeforeTheWork) {
+  scratch_.write("plot.obj", "f 1 2 3\n");  // any work would begin with a complaint about it
   const std::string scene = scratch_.path("scene.yaml").string();
   for (const std::string command : {"grow", "expose"}) {
     const tests::Ran ran = tests::espalier(command + " " + scene + " -o /dev/null");
     expectSays(ran, "/dev/null: cannot make the folder");
-    EXPECT_EQ(ran.output.find("tiling"), std::string::npos) << ran.output;
+    EXPECT_EQ(ran.output.find("plot.obj"), std::string::npos) << ran.output;
   }
   scratch_.write("file", "in the way");
   expectSays(grow("--no-pictures", "file"), scratch_.path("file").string() + ": cannot make the folder");
   fs::create_directories(scratch_.path("out/vines.png"));
   const tests::Ran ran = grow();
   expectSays(ran, "vines.png: this is no file");
-  EXPECT_EQ(ran.output.find("tiling"), std::string::npos) << ran.output;
+  EXPECT_EQ(ran.output.find("plot.obj"), std::string::npos) << ran.output;
+  fs::remove_all(scratch_.path("out"));
+  EXPECT_NE(grow().output.find("plot.obj"), std::string::npos);
 }
 
 }  // namespace

@@ -110,7 +110,7 @@ class Stop : public tests::Plot {
 
 TEST_F(Stop, IsHeardInEveryStageOfGrowth) {
   for (const int after_ms : {0, 150}) {
-    stops("grow " + fine_, "tiling", after_ms);
+    stops("grow " + fine_, "", 200 + after_ms);  // it tiles
     stops("grow " + fine_, "growing", after_ms);
     stops("grow " + fine_, "lighting", after_ms);
     stops("grow " + fine_, "drawing", after_ms, SIGTERM);
@@ -171,8 +171,8 @@ TEST_F(Stop, EndsTheImportOfALargeMesh) {
     }
   }
   scratch_.write("plot.obj", mesh);
-  stops("grow " + fine_, "tiling", 100);
-  stops("grow " + fine_, "tiling", 700);
+  stops("grow " + fine_, "", 300);
+  stops("grow " + fine_, "", 900);
   stops("certify " + scratch_.path("fine.yaml").string(), "", 500);
   EXPECT_EQ(stopped_, 3);
 }

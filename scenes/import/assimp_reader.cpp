@@ -148,7 +148,7 @@ sim::Mesh readGltf(MeshFolderIo& io, const std::string& name, RegionsFrom region
       triangles += std::max(instance.mesh->mFaces[f].mNumIndices, 2U) - 2;
   }
   requireAll(checked.triangles, triangles, "triangles");
-  return meshOf(instances, materialsOf(scene, stem, MeshColours::linear), regions_from, stem);
+  return meshOf(instances, materialsOf(scene, stem, true), regions_from, stem);
 }
 
 sim::Mesh readPly(const std::filesystem::path& file, RegionsFrom regions_from, const std::string& stem,
@@ -163,13 +163,13 @@ sim::Mesh readPly(const std::filesystem::path& file, RegionsFrom regions_from, c
   }
   requireAll(declared.vertices, vertices, "vertices");
   requireAll(declared.faces, faces, "faces");
-  return meshOf(instances, materialsOf(scene, stem, MeshColours::none), regions_from, stem);
+  return meshOf(instances, materialsOf(scene, stem, false), regions_from, stem);
 }
 
 sim::Mesh readStl(const std::filesystem::path& file, RegionsFrom regions_from, const std::string& stem,
                   const ReadScene& read_scene) {
   const aiScene& scene = read_scene(file.filename().string());
-  return meshOf(instancesOf(scene), materialsOf(scene, stem, MeshColours::none), regions_from, stem);
+  return meshOf(instancesOf(scene), materialsOf(scene, stem, false), regions_from, stem);
 }
 
 }  // namespace

@@ -29,31 +29,22 @@ std::string nameIn(const aiString& raw) {
   return name.empty() || isMadeUp(name) ? std::string() : name;
 }
 
-/// A display value as linear light (IEC 61966-2-1).
-float linearFromSrgb(float v) {
-  return v <= 0.04045f ? v / 12.92f : std::pow((v + 0.055f) / 1.055f, 2.4f);
-}
-
-sim::Material materialOf(const aiMaterial& from, const std::string& stem, bool is_gltf) {
+sim::Material materialOf(const aiMaterial& from, const std::string& stem) {
   sim::Material material;
   material.name = stem;
   aiString name;
   if (from.Get(AI_MATKEY_NAME, name) == AI_SUCCESS) {
-    if (name == aiString(AI_DEFAULT_MATERIAL_NAME)) return material;  // Assimp's own, where the file has none
     const std::string given = nameIn(name);
     if (!given.empty()) material.name = given;
   }
   aiColor4D found;
-  const bool has_colour = (is_gltf ? from.Get(AI_MATKEY_BASE_COLOR, found)
-                                   : from.Get(AI_MATKEY_COLOR_DIFFUSE, found)) == AI_SUCCESS;
-  if (!has_colour) return material;
+  if (from.Get(AI_MATKEY_BASE_COLOR, found) != AI_SUCCESS) return material;
   for (int c = 0; c < 3; ++c) {
     const float value = found[static_cast<unsigned>(c)];
     if (!std::isfinite(value)) {
       throw sim::InputError(fmt::format("the colour of material '{}' is not a finite number", material.name));
     }
-    const float clamped = std::clamp(value, 0.0f, 1.0f);
-    material.colour[c] = is_gltf ? clamped : linearFromSrgb(clamped);
+    material.colour[c] = std::clamp(value, 0.0f, 1.0f);
   }
   return material;
 }
@@ -155,17 +146,12 @@ std::vector<MeshInstance> instancesOf(const aiScene& scene) {
   return instances;
 }
 
-std::vector<sim::Material> materialsOf(const aiScene& scene, const std::string& stem, MeshColours colours) {
+std::vector<sim::Material> materialsOf(const aiScene& scene, const std::string& stem, bool colours) {
   std::vector<sim::Material> materials(scene.mNumMaterials, sim::Material{.name = stem});
   // Behind a glTF file's own materials Assimp puts one more, for primitives that have none.
-  const unsigned given = scene.mNumMaterials - (colours == MeshColours::linear ? 1 : 0);
-  for (unsigned i = 0; i < given && colours != MeshColours::none; ++i)
-    materials[i] = materialOf(*scene.mMaterials[i], stem, colours == MeshColours::linear);
+  for (unsigned i = 0; colours && i + 1 < scene.mNumMaterials; ++i)
+    materials[i] = materialOf(*scene.mMaterials[i], stem);
   return materials;
-}
-
-sim::Material unknownMaterial(const std::string& name) {
-  return {name, sim::Colour(linearFromSrgb(0.6f))};
 }
 
 sim::Mesh meshOf(const std::vector<MeshInstance>& instances, const std::vector<sim::Material>& materials,

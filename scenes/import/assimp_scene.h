@@ -28,14 +28,9 @@ struct MeshInstance {
 /// The scene's nodes, flattened, in the file's order. Throws sim::InputError above kMostTriangles.
 std::vector<MeshInstance> instancesOf(const aiScene& scene);
 
-/// What the base colours in a file are: none to speak of (PLY, STL), display values (OBJ), linear light
-/// (glTF).
-enum class MeshColours { none, display, linear };
-
-/// The scene's materials, with linear base colours. Those without a name get `stem`.
-std::vector<sim::Material> materialsOf(const aiScene& scene, const std::string& stem, MeshColours colours);
-/// One of a file with display values that does not say what it looks like: grey.
-sim::Material unknownMaterial(const std::string& name);
+/// The scene's materials; those without a name get `stem`. With `colours`, as of a glTF file, what they say
+/// of their base colours, which is linear light.
+std::vector<sim::Material> materialsOf(const aiScene& scene, const std::string& stem, bool colours);
 
 /// The instances' triangles as one mesh, named `stem`, with regions.
 sim::Mesh meshOf(const std::vector<MeshInstance>& instances, const std::vector<sim::Material>& materials,

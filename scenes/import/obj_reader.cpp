@@ -4,12 +4,12 @@
 #include <fmt/format.h>
 
 #include <map>
-#include <set>
 #include <sstream>
 #include <utility>
 
 #include "scenes/clean_text.h"
 #include "scenes/import/assimp_scene.h"
+#include "scenes/import/mtl.h"
 #include "sim/base/error.h"
 
 namespace espalier::scenes {
@@ -17,43 +17,41 @@ namespace {
 
 constexpr const char* kShown = "shapes.obj";
 
-/// Appends a statement for each MTL file that is there, and warns of the others.
-void appendLibraries(MeshFolderIo& io, const ObjText& obj, std::string& shown,
-                     std::vector<Problem>& warnings) {
-  const auto append = [&](const std::string& name, const ObjText::Named& library) {
-    if (io.read(name) != nullptr) {
-      shown += "mtllib " + name + "\n";
-      return;
+/// The materials of the MTL files that are there; warns of the others.
+MtlMaterials materialsOf(MeshFolderIo& io, const ObjText& obj, std::vector<Problem>& warnings) {
+  MtlMaterials materials;
+  const auto warn = [&](const ObjText::Named& library, const std::string& what) {
+    warnings.push_back({{}, library.line, library.column, what});
+  };
+  const auto add = [&](const std::string& name, const ObjText::Named& library) {
+    const std::string* const mtl = io.read(name);
+    if (mtl == nullptr) {
+      warn(library, fmt::format("the MTL file {} is not there as a regular file in the mesh's folder; its "
+                                "materials are grey",
+                                inQuotes(name)));
+    } else if (const int line = readMtl(*mtl, materials); line > 0) {
+      warn(library, fmt::format("line {} of the MTL file {} is no colour; its material is grey", line,
+                                inQuotes(name)));
     }
-    warnings.push_back(
-        {{},
-         library.line,
-         library.column,
-         fmt::format("the MTL file {} is not there as a regular file in the mesh's folder; its "
-                     "materials are grey",
-                     inQuotes(name))});
   };
   for (const ObjText::Named& library : obj.libraries) {
     std::istringstream words(library.name);
     std::string first, second;
     words >> first >> second;
     if (second.empty() || io.read(library.name) != nullptr) {  // a name may have spaces
-      append(library.name, library);
+      add(library.name, library);
       continue;
     }
     words.seekg(0);
-    for (std::string name; words >> name;) append(name, library);
+    for (std::string name; words >> name;) add(name, library);
   }
+  return materials;
 }
 
 /// The materials that the file's polygons have, by their numbers in the order of first use.
 class ObjMaterials {
  public:
-  ObjMaterials(const aiScene& scene, const std::string& stem) : stem_(stem) {
-    const auto materials = materialsOf(scene, stem, MeshColours::display);
-    for (unsigned i = 0; i < scene.mNumMaterials; ++i)
-      known_.emplace(scene.mMaterials[i]->GetName().C_Str(), materials[i]);
-  }
+  ObjMaterials(MtlMaterials known, const std::string& stem) : stem_(stem), known_(std::move(known)) {}
 
   std::size_t number(const ObjText::Named& material) {
     const auto [at, is_new] = numbers_.try_emplace(material.name, materials_.size());
@@ -81,11 +79,11 @@ class ObjMaterials {
     if (const auto known = known_.find(material.name); known != known_.end()) return known->second;
     if (unknown_.empty()) first_unknown_ = material;
     unknown_.push_back(cleanText(material.name));
-    return unknownMaterial(unknown_.back().empty() ? stem_ : unknown_.back());
+    return unknownMaterial(unknown_.back());
   }
 
   std::string stem_;
-  std::map<std::string, sim::Material> known_;
+  MtlMaterials known_;
   std::map<std::string, std::size_t> numbers_;
   std::vector<sim::Material> materials_;
   std::vector<std::string> unknown_;
@@ -127,16 +125,14 @@ sim::Mesh readObj(MeshFolderIo& io, const std::string& name, RegionsFrom regions
                   std::vector<Problem>& warnings) {
   const std::string* const text = io.read(name);
   if (text == nullptr) throw sim::InputError("cannot be read");
-  ObjText obj = takeApart(*text);
+  const ObjText obj = takeApart(*text);
   if (obj.polygons == 0) throw sim::InputError("there are no triangles in the file");
-  std::string shown = std::exchange(obj.shapes, {});
-  appendLibraries(io, obj, shown, warnings);
+  ObjMaterials materials(materialsOf(io, obj, warnings), stem);
   const bool all_there = warnings.empty();
-  io.show(kShown, shown);
+  io.show(kShown, obj.shapes);
   const aiScene& scene = read_scene(kShown);
   if (scene.mNumMeshes != 1 || scene.mMeshes[0]->mNumFaces != obj.polygons)
     throw sim::InputError("cannot be read: Assimp left out some of its polygons");
-  ObjMaterials materials(scene, stem);
   const auto instances = instancesOf(*scene.mMeshes[0], obj, materials);
   if (all_there) materials.warn(!obj.libraries.empty(), warnings);
   return meshOf(instances, materials.materials(), regions_from, stem);

@@ -6,99 +6,30 @@
 #include <charconv>
 #include <set>
 
+#include "scenes/import/obj_statements.h"
 #include "scenes/problem.h"
 #include "sim/base/error.h"
 
 namespace espalier::scenes {
 namespace {
 
-bool isBlank(char c) {
-  return static_cast<unsigned char>(c) <= ' ';
-}
-
-std::string_view withoutBlanks(std::string_view text) {
-  while (!text.empty() && isBlank(text.front())) text.remove_prefix(1);
-  while (!text.empty() && isBlank(text.back())) text.remove_suffix(1);
-  return text;
-}
-
-std::string_view takeWord(std::string_view& text) {
-  std::size_t begin = 0;
-  while (begin < text.size() && isBlank(text[begin])) ++begin;
-  std::size_t end = begin;
-  while (end < text.size() && !isBlank(text[end])) ++end;
-  const std::string_view word = text.substr(begin, end - begin);
-  text.remove_prefix(end);
-  return word;
-}
-
-/// The same in a list of numbers, which a comment may follow.
-std::string_view takeNumber(std::string_view& text) {
-  const std::string_view word = takeWord(text);
-  if (!word.starts_with('#')) return word;
-  text = {};
-  return {};
-}
-
-/// A file's statements: its lines, those that end in a backslash joined with the next.
-class Statements {
- public:
-  explicit Statements(std::string_view text) : left_(text) {}
-
-  bool next() {
-    if (left_.empty()) return false;
-    line_ = lines_ + 1;
-    statement_ = takeLine();
-    if (!statement_.ends_with('\\')) return true;
-    joined_.clear();
-    while (statement_.ends_with('\\')) {
-      joined_ += statement_.substr(0, statement_.size() - 1);
-      joined_ += ' ';
-      statement_ = takeLine();
-    }
-    joined_ += statement_;
-    statement_ = joined_;
-    return true;
-  }
-  std::string_view statement() const { return statement_; }
-  int line() const { return line_; }  ///< where it begins, from 1
-
- private:
-  std::string_view takeLine() {
-    ++lines_;
-    const std::size_t end = std::min(left_.find_first_of("\n\r"), left_.size());
-    const std::string_view line = left_.substr(0, end);
-    left_.remove_prefix(end);
-    if (left_.starts_with("\r\n")) left_.remove_prefix(1);
-    if (!left_.empty()) left_.remove_prefix(1);
-    return line;
-  }
-
-  std::string_view left_, statement_;
-  std::string joined_;
-  int lines_ = 0, line_ = 0;
-};
-
 class TakingApart {
  public:
   ObjText takeApart(std::string_view obj) {
-    if (obj.starts_with("\xef\xbb\xbf")) obj.remove_prefix(3);  // a byte order mark
     text_.shapes.reserve(obj.size());
-    Statements statements(obj);
-    while (statements.next()) {
-      line_ = statements.line();
-      std::string_view rest = statements.statement();
-      const std::string_view keyword = takeWord(rest);
+    for (ObjStatements statement(obj); statement.next();) {
+      line_ = statement.line();
+      const std::string_view keyword = statement.keyword();
       if (keyword == "v") {
-        addVertex(rest);
+        addVertex(statement);
       } else if (keyword == "f") {
-        addPolygon(rest);
+        addPolygon(statement);
       } else if (keyword == "g" || keyword == "o") {
-        now_.group = withoutBlanks(rest);
+        now_.group = statement.rest();
       } else if (keyword == "usemtl") {
-        now_.material = named(rest, statements.statement());
+        now_.material = named(statement);
       } else if (keyword == "mtllib") {
-        addLibrary(named(rest, statements.statement()));
+        addLibrary(named(statement));
       }
     }
     if (highest_ > vertices_) {
@@ -117,10 +48,10 @@ class TakingApart {
   }
 
   /// Three coordinates, and a fourth alone: more are colours.
-  void addVertex(std::string_view rest) {
+  void addVertex(ObjStatements& statement) {
     std::array<std::string_view, 5> words;
     std::size_t count = 0;
-    while (count < words.size() && !(words[count] = takeNumber(rest)).empty()) ++count;
+    while (count < words.size() && !(words[count] = statement.takeNumber()).empty()) ++count;
     if (count < 3) fail(fmt::format("a vertex has {} numbers; expected three: x, y and z", count));
     text_.shapes += 'v';
     for (std::size_t i = 0; i < (count == 4 ? 4 : 3); ++i) addNumber(words[i]);
@@ -138,9 +69,9 @@ class TakingApart {
     text_.shapes += word;
   }
 
-  void addPolygon(std::string_view rest) {
+  void addPolygon(ObjStatements& statement) {
     corners_.clear();
-    for (std::string_view word = takeNumber(rest); !word.empty(); word = takeNumber(rest))
+    for (std::string_view word = statement.takeNumber(); !word.empty(); word = statement.takeNumber())
       corners_.push_back(vertexOf(word));
     if (corners_.size() < 3) return;
     text_.shapes += 'f';
@@ -174,9 +105,8 @@ class TakingApart {
     return vertex;
   }
 
-  ObjText::Named named(std::string_view rest, std::string_view statement) const {
-    const std::string_view name = withoutBlanks(rest);
-    return {std::string(name), line_, static_cast<int>(name.data() - statement.data()) + 1};
+  static ObjText::Named named(const ObjStatements& statement) {
+    return {std::string(statement.rest()), statement.line(), statement.column()};
   }
 
   void addLibrary(const ObjText::Named& library) {

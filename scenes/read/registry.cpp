@@ -71,10 +71,12 @@ std::shared_ptr<const Table> worldKeys() {
              {.unit = "voxels",
               .limits = {1.0, 4096.0},
               .meaning = "Voxels along the world's longest side; either this or a voxel size."})
-      .metres("margin", &WorldSpec::margin_m,
-              {.unit = kMetres,
-               .limits = {0.0, 1e6},
-               .meaning = "Free space around the meshes on every side, where no bounds are given."})
+      .metres(
+          "margin", &WorldSpec::margin_m,
+          {.unit = kMetres,
+           .limits = {0.0, 1e6},
+           .meaning = "Free space around the meshes on every side, where no bounds are given; three voxels "
+                      "where the world would be thinner than that or no surface could be lit."})
       .section("bounds", &WorldSpec::bounds_m, bounds,
                {.meaning = "The world's box; without it, the meshes' box plus the margin."})
       .whole("layers", &WorldSpec::layers,

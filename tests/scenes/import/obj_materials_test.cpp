@@ -104,6 +104,22 @@ TEST_F(ObjMaterials, NothingIsSaidOfWhatIsThere) {
   EXPECT_EQ(warnings(read(std::string(kSquareObj) + "usemtl unused\n")), "");
 }
 
+TEST_F(ObjMaterials, ColoursAsOtherProgramsWriteThem) {
+  write("paint.mtl",
+        "\xef\xbb\xbf# by hand\r\nKd 1 1 1\r\nnewmtl red \r\n\tKd 1.0 +0 .0 # pure\r\nKs 1 1 1\r\nmap_Kd "
+        "lost.png\r\n"
+        "newmtl grey\r\nkd 0.5\r\n");
+  Read found = read(kSquareObj);
+  EXPECT_EQ(warnings(found), "");
+  EXPECT_EQ(found.mesh.materials[0].colour, sim::Colour(1, 0, 0));
+  for (int c = 0; c < 3; ++c) EXPECT_NEAR(found.mesh.materials[1].colour[c], 0.21404f, 1e-5f);
+  write("paint.mtl", "newmtl red\nd 1\nnewmtl grey\nKd spectral grey.rfl\nKd 1 2\n");
+  found = read(kSquareObj);
+  expectGrey(found.mesh);
+  EXPECT_EQ(warnings(found),
+            "square.obj:1:8: line 4 of the MTL file 'paint.mtl' is no colour; its material is grey");
+}
+
 /// Assimp takes time by the product of materials and their uses; each must get its own.
 TEST_F(ObjMaterials, ManyGroupsAndMaterials) {
   constexpr int kMany = 3000;

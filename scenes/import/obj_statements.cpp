@@ -1,0 +1,75 @@
+#include "scenes/import/obj_statements.h"
+
+#include <algorithm>
+
+namespace espalier::scenes {
+namespace {
+
+bool isBlank(char c) {
+  return static_cast<unsigned char>(c) <= ' ';
+}
+
+std::string_view withoutBlanks(std::string_view text) {
+  while (!text.empty() && isBlank(text.front())) text.remove_prefix(1);
+  while (!text.empty() && isBlank(text.back())) text.remove_suffix(1);
+  return text;
+}
+
+std::string_view takeWord(std::string_view& text) {
+  std::size_t begin = 0;
+  while (begin < text.size() && isBlank(text[begin])) ++begin;
+  std::size_t end = begin;
+  while (end < text.size() && !isBlank(text[end])) ++end;
+  const std::string_view word = text.substr(begin, end - begin);
+  text.remove_prefix(end);
+  return word;
+}
+
+}  // namespace
+
+ObjStatements::ObjStatements(std::string_view text) : left_(text) {
+  constexpr std::string_view kByteOrderMark = "\xef\xbb\xbf";
+  if (left_.starts_with(kByteOrderMark)) left_.remove_prefix(kByteOrderMark.size());
+}
+
+std::string_view ObjStatements::takeLine() {
+  ++lines_;
+  const std::size_t end = std::min(left_.find_first_of("\n\r"), left_.size());
+  const std::string_view line = left_.substr(0, end);
+  left_.remove_prefix(end);
+  if (left_.starts_with("\r\n")) left_.remove_prefix(1);
+  if (!left_.empty()) left_.remove_prefix(1);
+  return line;
+}
+
+bool ObjStatements::next() {
+  if (left_.empty()) return false;
+  line_ = lines_ + 1;
+  statement_ = takeLine();
+  if (statement_.ends_with('\\')) {
+    joined_.clear();
+    for (; statement_.ends_with('\\'); statement_ = takeLine()) {
+      joined_ += statement_.substr(0, statement_.size() - 1);
+      joined_ += ' ';
+    }
+    joined_ += statement_;
+    statement_ = joined_;
+  }
+  numbers_ = statement_;
+  keyword_ = takeWord(numbers_);
+  rest_ = withoutBlanks(numbers_);
+  return true;
+}
+
+int ObjStatements::column() const {
+  return static_cast<int>(rest_.data() - statement_.data()) + 1;
+}
+
+std::string_view ObjStatements::takeNumber() {
+  const std::string_view word = takeWord(numbers_);
+  if (!word.starts_with('#')) return word;
+  numbers_ = {};
+  return {};
+}
+
+}  // namespace espalier::scenes

@@ -1,7 +1,6 @@
 #include "scenes/import/mtl.h"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <optional>
 
@@ -13,14 +12,6 @@ namespace {
 
 float linearFromSrgb(float v) {
   return v <= 0.04045f ? v / 12.92f : std::pow((v + 0.055f) / 1.055f, 2.4f);
-}
-
-std::optional<float> numberOf(std::string_view word) {
-  if (word.starts_with('+')) word.remove_prefix(1);
-  float value = 0.0f;
-  const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
-  if (error != std::errc() || end != word.data() + word.size() || !std::isfinite(value)) return std::nullopt;
-  return value;
 }
 
 /// Red, green and blue, or one number for all.

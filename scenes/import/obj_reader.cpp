@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <map>
+#include <set>
 #include <sstream>
 #include <utility>
 
@@ -17,36 +18,67 @@ namespace {
 
 constexpr const char* kShown = "shapes.obj";
 
-/// The materials of the MTL files that are there; warns of the others.
-MtlMaterials materialsOf(MeshFolderIo& io, const ObjText& obj, std::vector<Problem>& warnings) {
-  MtlMaterials materials;
-  const auto warn = [&](const ObjText::Named& library, const std::string& what) {
-    warnings.push_back({{}, library.line, library.column, what});
-  };
-  const auto add = [&](const std::string& name, const ObjText::Named& library) {
-    const std::string* const mtl = io.read(name);
-    if (mtl == nullptr) {
-      warn(library, fmt::format("the MTL file {} is not there as a regular file in the mesh's folder; its "
-                                "materials are grey",
-                                inQuotes(name)));
-    } else if (const int line = readMtl(*mtl, materials); line > 0) {
-      warn(library, fmt::format("line {} of the MTL file {} is no colour; its material is grey", line,
-                                inQuotes(name)));
+/// The MTL files that an OBJ file names.
+class MtlFiles {
+ public:
+  MtlFiles(MeshFolderIo& io, const ObjText& obj) : io_(io) {
+    for (const ObjText::Named& library : obj.libraries) {
+      std::istringstream words(library.name);
+      std::string first, second;
+      words >> first >> second;
+      if (second.empty() || io.read(library.name) != nullptr) {  // a name may have spaces
+        add(library.name, library);
+        continue;
+      }
+      words.seekg(0);
+      for (std::string name; words >> name && !name.starts_with('#');) add(name, library);
     }
-  };
-  for (const ObjText::Named& library : obj.libraries) {
-    std::istringstream words(library.name);
-    std::string first, second;
-    words >> first >> second;
-    if (second.empty() || io.read(library.name) != nullptr) {  // a name may have spaces
-      add(library.name, library);
-      continue;
-    }
-    words.seekg(0);
-    for (std::string name; words >> name;) add(name, library);
   }
-  return materials;
-}
+
+  bool allThere() const { return missing_.empty(); }
+  MtlMaterials takeMaterials() { return std::move(materials_); }
+
+  /// One warning for all that are not there, and one for the first line that is wrong: a file may name a
+  /// million.
+  void warn(std::vector<Problem>& warnings) const {
+    if (!missing_.empty()) {
+      const std::string what =
+          missing_.size() == 1
+              ? fmt::format("the MTL file {} is not there as a regular file", inQuotes(missing_[0]))
+              : fmt::format("the {} MTL files {} are not there as regular files", missing_.size(),
+                            listed(missing_));
+      warnings.push_back({{},
+                          first_missing_.line,
+                          first_missing_.column,
+                          what + " in the mesh's folder; materials that no other file has are grey"});
+    }
+    if (!wrong_.text.empty()) warnings.push_back(wrong_);
+  }
+
+ private:
+  void add(const std::string& name, const ObjText::Named& library) {
+    if (!known_.insert(name).second) return;
+    const std::string* const mtl = io_.read(name);
+    if (mtl == nullptr) {
+      if (missing_.empty()) first_missing_ = library;
+      missing_.push_back(name);
+      return;
+    }
+    const int line = readMtl(*mtl, materials_);
+    if (line == 0 || !wrong_.text.empty()) return;
+    wrong_ = {{},
+              library.line,
+              library.column,
+              fmt::format("line {} of the MTL file {} is no colour, and is left out", line, inQuotes(name))};
+  }
+
+  MeshFolderIo& io_;
+  std::set<std::string> known_;
+  MtlMaterials materials_;
+  std::vector<std::string> missing_;
+  ObjText::Named first_missing_;
+  Problem wrong_;
+};
 
 /// The materials that the file's polygons have, by their numbers in the order of first use.
 class ObjMaterials {
@@ -76,10 +108,14 @@ class ObjMaterials {
  private:
   sim::Material find(const ObjText::Named& material) {
     if (material.name.empty()) return {.name = stem_};
-    if (const auto known = known_.find(material.name); known != known_.end()) return known->second;
-    if (unknown_.empty()) first_unknown_ = material;
-    unknown_.push_back(cleanText(material.name));
-    return unknownMaterial(unknown_.back());
+    const auto known = known_.find(material.name);
+    sim::Material found = known != known_.end() ? known->second : unknownMaterial(cleanText(material.name));
+    if (known == known_.end()) {
+      if (unknown_.empty()) first_unknown_ = material;
+      unknown_.push_back(found.name);
+    }
+    if (found.name.empty()) found.name = stem_;  // nothing in it can be shown
+    return found;
   }
 
   std::string stem_;
@@ -127,14 +163,15 @@ sim::Mesh readObj(MeshFolderIo& io, const std::string& name, RegionsFrom regions
   if (text == nullptr) throw sim::InputError("cannot be read");
   const ObjText obj = takeApart(*text);
   if (obj.polygons == 0) throw sim::InputError("there are no triangles in the file");
-  ObjMaterials materials(materialsOf(io, obj, warnings), stem);
-  const bool all_there = warnings.empty();
+  MtlFiles files(io, obj);
+  files.warn(warnings);
+  ObjMaterials materials(files.takeMaterials(), stem);
   io.show(kShown, obj.shapes);
   const aiScene& scene = read_scene(kShown);
   if (scene.mNumMeshes != 1 || scene.mMeshes[0]->mNumFaces != obj.polygons)
     throw sim::InputError("cannot be read: Assimp left out some of its polygons");
   const auto instances = instancesOf(*scene.mMeshes[0], obj, materials);
-  if (all_there) materials.warn(!obj.libraries.empty(), warnings);
+  if (files.allThere()) materials.warn(!obj.libraries.empty(), warnings);
   return meshOf(instances, materials.materials(), regions_from, stem);
 }
 

@@ -1,6 +1,8 @@
 #include "scenes/import/obj_statements.h"
 
 #include <algorithm>
+#include <charconv>
+#include <cmath>
 
 namespace espalier::scenes {
 namespace {
@@ -25,7 +27,26 @@ std::string_view takeWord(std::string_view& text) {
   return word;
 }
 
+bool goesOn(std::string_view line) {
+  return line.ends_with('\\') && !withoutBlanks(line).starts_with('#');
+}
+
 }  // namespace
+
+std::optional<float> numberOf(std::string_view word) {
+  if (word.starts_with('+') && !word.starts_with("+-")) word.remove_prefix(1);
+  std::string with_point;
+  if (const auto comma = word.find(','); comma != word.npos) {
+    with_point = word;
+    with_point[comma] = '.';
+    word = with_point;
+  }
+  double value = 0.0;
+  const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
+  if (error != std::errc() || end != word.data() + word.size()) return std::nullopt;
+  const auto single = static_cast<float>(value);
+  return std::isfinite(single) ? std::optional(single) : std::nullopt;
+}
 
 ObjStatements::ObjStatements(std::string_view text) : left_(text) {
   constexpr std::string_view kByteOrderMark = "\xef\xbb\xbf";
@@ -46,7 +67,7 @@ bool ObjStatements::next() {
   if (left_.empty()) return false;
   line_ = lines_ + 1;
   statement_ = takeLine();
-  if (statement_.ends_with('\\')) {
+  if (goesOn(statement_)) {
     joined_.clear();
     for (; statement_.ends_with('\\'); statement_ = takeLine()) {
       joined_ += statement_.substr(0, statement_.size() - 1);

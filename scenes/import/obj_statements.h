@@ -1,10 +1,16 @@
 #pragma once
+#include <optional>
 #include <string>
 #include <string_view>
 
 namespace espalier::scenes {
 
+/// A number as OBJ and MTL files have them: a `+` may stand before it, and a decimal comma in it. Nothing
+/// where the word is something else, or no finite number in single precision.
+std::optional<float> numberOf(std::string_view word);
+
 /// The statements of an OBJ or MTL file: its lines, those that end in a backslash joined with the next.
+/// Comments are not joined, since a folder's name may end them.
 class ObjStatements {
  public:
   /// Borrows the text.

@@ -60,12 +60,9 @@ class TakingApart {
   }
 
   void addNumber(std::string_view word) {
-    const std::string_view digits = word.substr(word.find_first_not_of("+-") == 1 ? 1 : 0);
-    const bool finite = word.find_first_not_of("0123456789+-.,eE") == std::string_view::npos;
-    if (!finite && std::string_view("nNiI").find(digits.front()) == std::string_view::npos)
-      fail(fmt::format("{} is not a number", inQuotes(word)));
+    if (!numberOf(word)) fail(fmt::format("{} is not a finite number", inQuotes(word)));
     text_.shapes += ' ';
-    if (word.front() == '.') text_.shapes += '0';
+    if (word.front() == '.' || word.front() == ',') text_.shapes += '0';
     text_.shapes += word;
   }
 
@@ -95,7 +92,7 @@ class TakingApart {
       fail(fmt::format("{} is not the number of a vertex", inQuotes(word)));
     if (vertex == 0) fail("a face asks for vertex 0; they are counted from 1");
     if (vertex < 0) {
-      if (-vertex > vertices_) failOutOfRange(std::string(number));
+      if (vertex < -vertices_) failOutOfRange(std::string(number));
       return vertices_ + 1 + vertex;
     }
     if (vertex > highest_) {  // it may come later

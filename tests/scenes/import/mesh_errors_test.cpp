@@ -71,7 +71,8 @@ TEST_F(MeshErrors, WithoutTriangles) {
 }
 
 TEST_F(MeshErrors, NumbersThatAreNotFinite) {
-  expectRefused(write("nan.obj", "v 0 0 0\nv nan 0 0\nv 0 1 0\nf 1 2 3\n"), "vertex 1");
+  expectRefused(write("nan.obj", "v 0 0 0\nv nan 0 0\nv 0 1 0\nf 1 2 3\n"),
+                "line 2: 'nan' is not a finite number");
   expectRefused(write("inf.obj", "v 0 0 0\nv 1 0 0\nv 0 1e39 0\nf 1 2 3\n"), "not a finite number");
   expectRefused(write("nan.ply", replaced(kSquarePly, "1 1 0", "1 nan 0")), "vertex 2");
   auto buffer = gltfBuffer();

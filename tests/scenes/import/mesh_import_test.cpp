@@ -67,6 +67,16 @@ TEST_F(MeshImport, ObjGroupsMaterialsAndDisplayColoursMadeLinear) {
   EXPECT_NEAR(mesh.materials[mesh.material[1]].colour.g, 0.21404f, 1e-5f);  // what sRGB 0.5 means as light
 }
 
+TEST_F(MeshImport, ObjNumbersInAllTheirWritings) {
+  const auto mesh = importMesh(
+      write("n.obj", "v -.5 +.5 1.\nv +5 -5e-1 1E+1\nv ,5 -,25 1,5\nv 1e-50 -0 5e-324\nf 1 2 3\nf 2 3 4\n"),
+      RegionsFrom::group);
+  ASSERT_EQ(mesh.vertices_m.size(), 6u);  // each polygon has corners of its own
+  const sim::Vec3 expected[] = {{-.5, .5, 1}, {5, -.5, 10},    {.5, -.25, 1.5},
+                                {5, -.5, 10}, {.5, -.25, 1.5}, {0, 0, 0}};
+  for (std::size_t i = 0; i < 6; ++i) expectNear(mesh.vertices_m[i], expected[i]);
+}
+
 TEST_F(MeshImport, TellsTheHashOfEveryFileThatWasRead) {
   write("paint.mtl", kPaintMtl);
   MeshSources sources;

@@ -51,8 +51,9 @@ TEST_F(ObjMaterials, AFileThatIsNotThereIsGreyWithAWarning) {
     EXPECT_EQ(found.mesh.triangles.size(), 2u);
     EXPECT_EQ(found.mesh.materials.size(), 2u);
     expectGrey(found.mesh);
-    const std::string shown = name == "a folder/x.mtl" ? "a" : name;
-    EXPECT_TRUE(warnings(found).starts_with("square.obj:1:8: the MTL file '" + shown + "' is not there"))
+    const std::string shown =
+        name == "a folder/x.mtl" ? "2 MTL files a, folder/x.mtl are" : "MTL file '" + name + "' is";
+    EXPECT_TRUE(warnings(found).starts_with("square.obj:1:8: the " + shown + " not there"))
         << warnings(found);
     EXPECT_EQ(found.sources.files.size(), 1u);
   }
@@ -63,11 +64,19 @@ TEST_F(ObjMaterials, ThePartsKeepTheirNames) {
   EXPECT_EQ(read(kSquareObj, RegionsFrom::material).mesh.regions, (std::vector<std::string>{"red", "grey"}));
 }
 
-TEST_F(ObjMaterials, OneWarningForAFileThatIsNamedOftenAndOneForEachFile) {
+TEST_F(ObjMaterials, OneWarningForAllFilesThatAreNotThere) {
   std::string obj = kSquareObj;
   for (int i = 0; i < 100; ++i) obj += "mtllib paint.mtl\nusemtl red\nf 1 2 3\n";
   EXPECT_EQ(read(obj).sources.warnings.size(), 1u);
-  EXPECT_EQ(read(withLibrary("a.mtl b.mtl")).sources.warnings.size(), 2u);
+  EXPECT_EQ(
+      warnings(read(withLibrary("a.mtl b.mtl a.mtl # c.mtl"))),
+      "square.obj:1:8: the 2 MTL files a.mtl, b.mtl are not there as regular files in the mesh's folder; "
+      "materials that no other file has are grey");
+  obj = "mtllib";
+  for (int i = 0; i < 20000; ++i) obj += fmt::format(" {}.mtl", i);
+  const Read many = read(obj + "\n" + kSquareObj);
+  EXPECT_EQ(many.sources.warnings.size(), 1u);
+  EXPECT_NE(warnings(many).find("the 20001 MTL files 0.mtl, 1.mtl,"), std::string::npos) << warnings(many);
 }
 
 TEST_F(ObjMaterials, SeveralFilesInOneLineAndNamesWithSpaces) {
@@ -117,7 +126,27 @@ TEST_F(ObjMaterials, ColoursAsOtherProgramsWriteThem) {
   found = read(kSquareObj);
   expectGrey(found.mesh);
   EXPECT_EQ(warnings(found),
-            "square.obj:1:8: line 4 of the MTL file 'paint.mtl' is no colour; its material is grey");
+            "square.obj:1:8: line 4 of the MTL file 'paint.mtl' is no colour, and is left out");
+  for (const std::string wrong :
+       {"Kd", "Kd 1 1", "Kd nan 0 0", "Kd 1e39 0 0", "Kd xyz 1 1 1", "Kd 0x1 0 0"}) {
+    write("paint.mtl", "newmtl red\n" + wrong + "\n");  // and no grey
+    EXPECT_EQ(warnings(read(kSquareObj)),
+              "square.obj:1:8: line 2 of the MTL file 'paint.mtl' is no colour, and is left out\n"
+              "square.obj:10:8: no MTL file that it names has the material 'grey', which is grey");
+  }
+  for (const std::string right : {"Kd -1 2 1e-50", "Kd 0,0 1,0 0", "map_Kd -s 1 1 1 lost.png\nKd 0 1 0"}) {
+    write("paint.mtl", "# C:\\\nnewmtl red\n" + right + "\nnewmtl grey");
+    found = read(kSquareObj);
+    EXPECT_EQ(warnings(found), "");
+    EXPECT_EQ(found.mesh.materials[0].colour, sim::Colour(0, 1, 0)) << right;
+  }
+}
+
+TEST_F(ObjMaterials, WhatHasNoNameThatCanBeShownIsCalledAfterTheMesh) {
+  write("paint.mtl", "newmtl \x7f\nKd 1 0 0\n");
+  const Read found =
+      read("mtllib paint.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl \x7f\nf 1 2 3\nusemtl \x7f\x7f\nf 1 2 3\n");
+  for (const sim::Material& material : found.mesh.materials) EXPECT_EQ(material.name, "square");
 }
 
 /// Assimp takes time by the product of materials and their uses; each must get its own.

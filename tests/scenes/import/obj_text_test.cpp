@@ -50,6 +50,7 @@ TEST(ObjText, ReadsWhatOtherProgramsWrite) {
            "v .5 -.5 1e-3\rv 1 0 0\rv 0 1 0\rf 1 2 3\r",            //
            "  v\t.5  -.5\t1e-3 \n\tv 1 0 0\nv 0 1 0\n f 1 2 3 # a face\n",          // indented
            "v .5 -.5 \\\n 1e-3\nv 1 0 0\nv 0 1 0\nf 1 \\\r\n2 \\\r\n3\n",           // over several lines
+           "# of C:\\meshes\\\nv .5 -.5 1e-3\nv 1 0 0\nv 0 1 0\nf 1 2 3\n",         // a comment alone
            "v .5 -.5 1e-3 0.1 0.2 0.3\nv 1 0 0 1 1 1\nv 0 1 0 0 0 0 1\nf 1 2 3\n",  // colours
            "f 1 2 3\nv .5 -.5 1e-3\nv 1 0 0\nv 0 1 0\n",                            // faces first
        }) {
@@ -64,12 +65,17 @@ TEST(ObjText, ReadsWhatOtherProgramsWrite) {
 TEST(ObjText, SaysWhichLineIsWrong) {
   const std::string triangle = kTriangle;
   EXPECT_EQ(problemIn("v 0 0\n"), "line 1: a vertex has 2 numbers; expected three: x, y and z");
-  EXPECT_EQ(problemIn("v 0 0 zero\n"), "line 1: 'zero' is not a number");
-  EXPECT_EQ(problemIn("v 0 0 0x10\n"), "line 1: '0x10' is not a number");
+  EXPECT_EQ(problemIn("v 0 0 zero\n"), "line 1: 'zero' is not a finite number");
+  for (const std::string word :
+       {"nan", "inf", "1e39", "1e4294967297", "1.2.3", "1-2", "1e", "+-1", "-", "1.#IND"})
+    EXPECT_EQ(problemIn("v 0 " + word + " 0\n"), "line 1: '" + word + "' is not a finite number");
+  EXPECT_EQ(problemIn("v 0 0 0x10\n"), "line 1: '0x10' is not a finite number");
   EXPECT_EQ(problemIn(triangle + "f 1 2 4\n"),
             "line 4: a face asks for vertex 4, which is out of range: there are 3");
   EXPECT_EQ(problemIn(triangle + "\nf 1 2 -4\nv 0 0 0\n"),
             "line 5: a face asks for vertex -4, which is out of range: there are 3");
+  EXPECT_EQ(problemIn(triangle + "f 1 2 -9223372036854775808\n"),
+            "line 4: a face asks for vertex -9223372036854775808, which is out of range: there are 3");
   EXPECT_EQ(problemIn(triangle + "f 0 1 2\n"), "line 4: a face asks for vertex 0; they are counted from 1");
   EXPECT_EQ(problemIn(triangle + "f 1 2 b\n"), "line 4: 'b' is not the number of a vertex");
   EXPECT_EQ(problemIn(triangle + "f 1 2 99999999999999999999\n"),

@@ -62,7 +62,7 @@ std::uint64_t numberAt(const char* at) {
 }  // namespace
 
 Accessors::Accessors(const Json& document, const Buffers& buffers) {
-  for (const Json& view : listIn(document, "bufferViews")) {
+  for (const Json& view : objectsIn(document, "bufferViews")) {
     inPart("bufferView", views_.size(), [&] {
       const std::size_t buffer = requiredIndex(view, "buffer", document, "buffers");
       const std::string_view bytes = buffers.of(buffer);
@@ -76,13 +76,13 @@ Accessors::Accessors(const Json& document, const Buffers& buffers) {
                         wholeIn(view, "byteStride").value_or(0)});
     });
   }
-  for (const Json& accessor : listIn(document, "accessors")) {
+  for (const Json& accessor : objectsIn(document, "accessors")) {
     inPart("accessor", accessors_.size(), [&] { accessors_.push_back(accessorOf(accessor, document)); });
   }
 }
 
 Accessors::Known Accessors::accessorOf(const Json& json, const Json& document) const {
-  const std::string type = json.value("type", std::string());
+  const std::string type = json.contains("type") ? requiredText(json, "type") : std::string();
   const std::uint64_t component = requiredWhole(json, "componentType");
   const std::uint64_t size = sizeOfElement(type, component);
   const std::uint64_t count = requiredWhole(json, "count");

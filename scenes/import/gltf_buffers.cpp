@@ -70,7 +70,7 @@ Container containerOf(std::string_view file) {
 }
 
 Buffers::Buffers(const Json& document, const Container& container, const FileBeside& file_beside) {
-  for (const Json& buffer : listIn(document, "buffers")) {
+  for (const Json& buffer : objectsIn(document, "buffers")) {
     const std::size_t number = bytes_.size();
     inPart("buffer", number, [&] {
       const std::uint64_t length = requiredWhole(buffer, "byteLength");
@@ -84,12 +84,11 @@ Buffers::Buffers(const Json& document, const Container& container, const FileBes
 
 std::string_view Buffers::find(const Json& buffer, std::size_t number, const Container& container,
                                const FileBeside& file_beside) {
-  const auto uri = buffer.find("uri");
-  if (uri == buffer.end()) {
+  if (!buffer.contains("uri")) {
     if (number == 0 && container.binary) return *container.binary;
     throw sim::InputError("it has neither a uri nor data in the file");
   }
-  const std::string& name = uri->get_ref<const std::string&>();
+  const std::string& name = requiredText(buffer, "uri");
   if (name.starts_with("data:")) {
     const auto& bytes = decoded_.emplace_back(decoded(name));
     return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};

@@ -35,6 +35,8 @@ void requireReadable(const Json& document) {
       "KHR_materials_", "KHR_texture_",   "EXT_texture_", "MSFT_texture_",
       "KHR_lights_",    "KHR_animation_", kDraco};
   for (const Json& extension : listIn(document, "extensionsRequired")) {
+    if (!extension.is_string())
+      throw sim::InputError(fmt::format("extensionsRequired holds {}; expected names", shown(extension)));
     const std::string& name = extension.get_ref<const std::string&>();
     if (std::none_of(kHarmless.begin(), kHarmless.end(), [&](auto known) { return name.starts_with(known); }))
       throw sim::InputError(fmt::format("it needs the glTF extension {}, which is not read", inQuotes(name)));
@@ -49,7 +51,7 @@ class Meshes {
   Json read(const Json& mesh) {
     Json some = Json::object();
     keepName(mesh, some);
-    const Json& primitives = listIn(mesh, "primitives");
+    const Json& primitives = objectsIn(mesh, "primitives");
     if (primitives.empty()) throw sim::InputError("it has no primitives");
     triangles_.push_back(0);
     for (const Json& primitive : primitives)
@@ -158,13 +160,13 @@ Json accessorOf(const Json& accessor) {
 template <class Work>
 Json each(const Json& document, const char* list, const char* part, Work work) {
   Json some = Json::array();
-  for (const Json& entry : listIn(document, list))
+  for (const Json& entry : objectsIn(document, list))
     some.push_back(inPart(part, some.size(), [&] { return work(entry); }));
   return some;
 }
 
 Checked checkDocument(const Json& document, const Container& container, const FileBeside& file_beside) {
-  const std::string version = document.at("asset").at("version").get<std::string>();
+  const std::string& version = requiredText(requiredObject(document, "asset"), "version");
   if (!version.starts_with("2.")) throw sim::InputError(fmt::format("glTF {} is not glTF 2", version));
   requireReadable(document);
   Checked checked{{}, Buffers(document, container, file_beside), 0};
@@ -207,8 +209,11 @@ Checked check(std::string_view file, const FileBeside& file_beside) {
   const Container container = containerOf(file);
   try {
     return checkDocument(Json::parse(container.json), container, file_beside);
-  } catch (const Json::exception& error) {
-    throw sim::InputError(fmt::format("the glTF file's JSON is not as it should be: {}", error.what()));
+  } catch (const Json::parse_error& error) {
+    throw sim::InputError(
+        fmt::format("the glTF file's JSON is damaged at byte {} of {}", error.byte, container.json.size()));
+  } catch (const Json::exception&) {
+    throw sim::InputError("a member of the glTF file's JSON is of another kind than glTF has it");
   }
 }
 

@@ -5,12 +5,6 @@
 namespace espalier::scenes::gltf {
 namespace {
 
-/// A value for a message.
-std::string shown(const Json& value) {
-  if (value.is_string()) return inQuotes(value.get_ref<const std::string&>());
-  return value.is_primitive() ? value.dump() : std::string("an ") + value.type_name();
-}
-
 std::uint64_t wholeOf(const Json& value, const char* key) {
   constexpr std::uint64_t kMost = std::uint64_t{1} << 53;  // sums of some such numbers cannot overflow
   if (value.is_number_unsigned() && value.get<std::uint64_t>() <= kMost) return value.get<std::uint64_t>();
@@ -22,6 +16,11 @@ std::uint64_t wholeOf(const Json& value, const char* key) {
 }
 
 }  // namespace
+
+std::string shown(const Json& value) {
+  if (value.is_string()) return inQuotes(value.get_ref<const std::string&>());
+  return value.is_primitive() ? value.dump() : std::string("an ") + value.type_name();
+}
 
 std::optional<std::uint64_t> wholeIn(const Json& object, const char* key) {
   const auto member = object.find(key);
@@ -42,6 +41,23 @@ const Json& listIn(const Json& object, const char* key) {
   if (!member->is_array())
     throw sim::InputError(fmt::format("{} is {}; expected an array", key, shown(*member)));
   return *member;
+}
+
+const Json& objectsIn(const Json& object, const char* key) {
+  const Json& list = listIn(object, key);
+  for (std::size_t i = 0; i < list.size(); ++i) {
+    if (!list[i].is_object())
+      throw sim::InputError(fmt::format("number {} of {} is {}; expected an object", i, key, shown(list[i])));
+  }
+  return list;
+}
+
+const std::string& requiredText(const Json& object, const char* key) {
+  const auto member = object.find(key);
+  if (member == object.end()) failMissing(key);
+  if (!member->is_string())
+    throw sim::InputError(fmt::format("{} is {}; expected a text", key, shown(*member)));
+  return member->get_ref<const std::string&>();
 }
 
 const Json& requiredObject(const Json& object, const char* key) {

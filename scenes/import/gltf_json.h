@@ -19,10 +19,16 @@ using Json = nlohmann::json;
 std::optional<std::uint64_t> wholeIn(const Json& object, const char* key);
 std::uint64_t requiredWhole(const Json& object, const char* key);
 
-/// An array of objects; empty where there is no such member.
+/// An array; empty where there is no such member.
 const Json& listIn(const Json& object, const char* key);
+/// The same of objects alone.
+const Json& objectsIn(const Json& object, const char* key);
 /// An object that must be there.
 const Json& requiredObject(const Json& object, const char* key);
+/// A text that must be there.
+const std::string& requiredText(const Json& object, const char* key);
+/// A value for a message.
+std::string shown(const Json& value);
 
 /// The number of an entry of the document's `list`.
 std::size_t indexOf(const Json& value, const char* key, const Json& document, const char* list);
@@ -38,8 +44,9 @@ auto inPart(const char* part, std::size_t number, Work work) {
     return work();
   } catch (const sim::InputError& error) {
     throw sim::InputError(fmt::format("{} {}: {}", part, number, error.what()));
-  } catch (const Json::exception& error) {
-    throw sim::InputError(fmt::format("{} {}: it is not as it should be: {}", part, number, error.what()));
+  } catch (const Json::exception&) {
+    throw sim::InputError(
+        fmt::format("{} {}: a member of it is of another kind than glTF has it", part, number));
   }
 }
 

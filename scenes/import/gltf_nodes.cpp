@@ -25,7 +25,7 @@ class Nodes {
  public:
   Nodes(const Json& document, const std::vector<std::uint64_t>& triangles)
       : below_(listIn(document, "nodes").size()) {
-    for (const Json& node : listIn(document, "nodes")) {
+    for (const Json& node : objectsIn(document, "nodes")) {
       const std::size_t number = children_.size();
       children_.emplace_back();
       inPart("node", number, [&] {
@@ -98,7 +98,7 @@ class Nodes {
 
 std::uint64_t trianglesInScene(const Json& document, const std::vector<std::uint64_t>& triangles) {
   const Nodes nodes(document, triangles);
-  const Json& scenes = listIn(document, "scenes");
+  const Json& scenes = objectsIn(document, "scenes");
   if (scenes.empty())
     throw sim::InputError("the glTF file has no scene, so no mesh in it is placed anywhere");
   const std::size_t scene = indexIn(document, "scene", document, "scenes").value_or(0);

@@ -3,7 +3,9 @@
 #include <cmath>
 #include <functional>
 #include <limits>
+#include <set>
 
+#include "scenes/import/gltf_check.h"
 #include "scenes/import/mesh_import.h"
 #include "sim/base/error.h"
 #include "tests/scenes/import/mesh_files.h"
@@ -227,6 +229,48 @@ TEST_F(GltfCheck, NumbersThatDoNotFitAreNamed) {
     const std::string problem = problemOf(write("m.glb", glb(document, gltfBuffer())));
     EXPECT_TRUE(problem.starts_with(mutation.told)) << mutation.name << ": " << problem;
   }
+}
+
+/// What the JSON library has to say is not what anybody wants to read.
+TEST(GltfMembers, OfAnotherKindAreToldOfInOurWords) {
+  json whole = gltfDocument();
+  whole["buffers"][0]["uri"] = "beside.bin";
+  whole["accessors"][0]["sparse"] = sparse();
+  whole["extensionsRequired"] = json::array({"KHR_materials_unlit"});
+  const std::string bytes = gltfBuffer();
+  const auto problem_of = [&](const std::string& text) -> std::string {
+    try {
+      gltf::check(text, [&](const std::string&) { return &bytes; });
+    } catch (const sim::InputError& error) {
+      EXPECT_EQ(std::string(error.what()).find("json.exception"), std::string::npos) << error.what();
+      return error.what();
+    }
+    return "taken";
+  };
+  EXPECT_EQ(problem_of(whole.dump()), "taken");
+  std::set<std::string> members;
+  const json flat = whole.flatten();
+  for (const auto& [at, value] : flat.items()) {
+    for (json::json_pointer member(at); !member.empty(); member = member.parent_pointer())
+      members.insert(member.to_string());
+  }
+  const json others[] = {nullptr,          true,           -1,        0.5, "text", json::array(),
+                         json::array({1}), json::object(), {{"a", 1}}};
+  for (const std::string& member : members) {
+    for (const json& other : others) {
+      json changed = whole;
+      changed[json::json_pointer(member)] = other;
+      problem_of(changed.dump());
+    }
+  }
+  EXPECT_EQ(problem_of("[]"), "it has no asset");
+  EXPECT_EQ(problem_of("{\"asset\": {\"version\": 2}}"), "version is 2; expected a text");
+  EXPECT_EQ(problem_of("{\"asset\": x}"), "the glTF file's JSON is damaged at byte 11 of 12");
+  whole["extensionsRequired"] = json::array({1});
+  EXPECT_EQ(problem_of(whole.dump()), "extensionsRequired holds 1; expected names");
+  whole["nodes"] = json::array({1});
+  whole.erase("extensionsRequired");
+  EXPECT_EQ(problem_of(whole.dump()), "number 0 of nodes is 1; expected an object");
 }
 
 TEST_F(GltfCheck, PlacesThatAreNotFinite) {

@@ -226,7 +226,7 @@ class OwnId {
 /// no two of them need to be in memory.
 class Writer : public openvdb::io::Archive {
  public:
-  void write(std::ostream& file, const std::vector<MakeGrid>& grids, const openvdb::MetaMap& about) const {
+  void writeAll(std::ostream& file, const std::vector<MakeGrid>& grids, const openvdb::MetaMap& about) const {
     OwnId id(file);
     std::ostream out(&id.sink());
     out.exceptions(std::ios::failbit | std::ios::badbit);
@@ -290,7 +290,7 @@ void writeVdb(std::ostream& file, const sim::World& world, const std::vector<Vdb
   addSurface(
       grids.coverage, [](const sim::Surface& s) { return s.coverage; },
       {"coverage", "area inside a voxel over a face's area, 1 inside solids", "1"},
-      [fog](openvdb::GridBase& grid) { grid.setGridClass(fog); });
+      [](openvdb::GridBase& grid) { grid.setGridClass(fog); });
   addSurface(
       grids.normal, [](const sim::Surface& s) { return toVdb(s.normal); },
       {"normal", "mean surface normal, zero where there is none", "1"},
@@ -308,7 +308,7 @@ void writeVdb(std::ostream& file, const sim::World& world, const std::vector<Vdb
                  world);
   });
   addFields(out, fields, world);
-  Writer().write(file, out, aboutFile(world, made_by));
+  Writer().writeAll(file, out, aboutFile(world, made_by));
 }
 
 void writeFieldVdb(std::ostream& file, const sim::World& world, const std::vector<VdbField>& fields,
@@ -316,7 +316,7 @@ void writeFieldVdb(std::ostream& file, const sim::World& world, const std::vecto
   openvdb::initialize();
   std::vector<MakeGrid> out;
   addFields(out, fields, world);
-  Writer().write(file, out, aboutFile(world, made_by));
+  Writer().writeAll(file, out, aboutFile(world, made_by));
 }
 
 std::string vdbBytes(const sim::World& world, const std::vector<VdbField>& fields,

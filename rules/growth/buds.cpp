@@ -30,10 +30,26 @@ std::vector<Bud> budsOf(const sim::Columns& memory) {
   return buds;
 }
 
+bool before(const Bud& a, const Bud& b) {
+  return std::tie(a.plant, a.node, a.number) < std::tie(b.plant, b.node, b.number);
+}
+
+/// Also of those whose time has not come: a state may hold anything, and should be refused before it is gone
+/// on with.
+void requireSound(const std::vector<Bud>& buds, const sim::StandView& stand) {
+  for (std::size_t i = 0; i < buds.size(); ++i) {
+    const Bud& bud = buds[i];
+    if (bud.plant < 0 || static_cast<std::size_t>(bud.plant) >= stand.plants.size() || bud.node < 0 ||
+        bud.node >= stand.plants[static_cast<std::size_t>(bud.plant)].skeleton.size())
+      throw sim::BrokenContract("a bud on a node that is not there");
+    if (bud.number < 0 || static_cast<std::uint32_t>(bud.number) >= sim::Slots::kNumbers)
+      throw sim::BrokenContract("a bud with a number that no site has");
+    if (i > 0 && !before(buds[i - 1], bud)) throw sim::BrokenContract("buds that are out of their order");
+  }
+}
+
 void keep(std::vector<Bud>& buds, sim::Columns& memory) {
-  std::sort(buds.begin(), buds.end(), [](const Bud& a, const Bud& b) {
-    return std::tie(a.plant, a.node, a.number) < std::tie(b.plant, b.node, b.number);
-  });
+  std::sort(buds.begin(), buds.end(), before);
   const auto set = [&](const char* name, std::int32_t Bud::*field) {
     Numbers& values = sim::column<std::int32_t>(memory, name);
     values.clear();
@@ -55,13 +71,11 @@ void beginBuds(const sim::StandView& stand, sim::Columns& memory) {
 }
 
 std::vector<sim::Site> dueBuds(const sim::StandView& stand, const sim::Columns& memory) {
+  const std::vector<Bud> buds = budsOf(memory);
+  requireSound(buds, stand);
   std::vector<sim::Site> sites;
-  for (const Bud& bud : budsOf(memory)) {
+  for (const Bud& bud : buds) {
     if (bud.due > stand.iteration) continue;
-    if (bud.plant < 0 || static_cast<std::size_t>(bud.plant) >= stand.plants.size() || bud.node < 0 ||
-        bud.node >= stand.plants[static_cast<std::size_t>(bud.plant)].skeleton.size())
-      throw sim::BrokenContract("a bud on a node that is not there");
-    if (bud.number < 0) throw sim::BrokenContract("a bud with a number that no site has");
     const sim::Skeleton& skeleton = stand.plants[static_cast<std::size_t>(bud.plant)].skeleton;
     sites.push_back({bud.plant, bud.node, static_cast<std::uint32_t>(bud.number),
                      skeleton.position_vx[static_cast<std::size_t>(bud.node)]});

@@ -144,6 +144,17 @@ PicturesWanted picturesAsked(const Scene& scene, const RunOptions& options) {
   return options.pictures ? picturesOf(scene) : PicturesWanted();
 }
 
+/// A state may be whole, and what its processes remember be nothing that they can go on with.
+void requireMemories(const sim::Growing& growing, const std::filesystem::path& folder) {
+  try {
+    static_cast<void>(growing.alive());
+    static_cast<void>(growing.due());
+  } catch (const sim::BrokenContract& error) {
+    throw sim::InputError(
+        fmt::format("{}: the state is damaged: {}", (folder / kStateFile).string(), error.what()));
+  }
+}
+
 /// Grows from the beginning or from what was kept, and keeps every so many iterations what has grown.
 sim::Growth growOn(const Scene& scene, Prepared& prepared, std::optional<sim::Growth> kept,
                    const sim::BitVolume& bare, const RunOptions& options, const OutputFolder& output,
@@ -174,6 +185,7 @@ sim::Growth growOn(const Scene& scene, Prepared& prepared, std::optional<sim::Gr
     return kept ? std::make_unique<sim::Growing>(site.world, plantings, settings, std::move(*kept))
                 : std::make_unique<sim::Growing>(site.world, plantings, settings);
   });
+  if (report.run.went_on_from) requireMemories(*growing, options.folder);
   std::optional<GrowthForeteller> foreteller;
   if (options.on_foretold)
     foreteller.emplace(site, plantings, picturesAsked(scene, options), scene.iterations, growing->growth(),

@@ -14,13 +14,21 @@ bool finite(Vec3 v) {
   return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
 }
 
-bool inside(Voxel size, Vec3 p_vx) {
-  return finite(p_vx) && std::max({std::abs(p_vx.x), std::abs(p_vx.y), std::abs(p_vx.z)}) < 1e9 &&
-         contains(size, voxelAt(p_vx));
+/// Near enough to be told by whole voxels.
+bool near(Vec3 p_vx) {
+  return finite(p_vx) && std::max({std::abs(p_vx.x), std::abs(p_vx.y), std::abs(p_vx.z)}) < 1e9;
 }
 
-/// Whether a skeleton is one: a tree whose nodes lie in the world.
-bool sound(const Skeleton& s, Voxel size) {
+bool inside(Voxel size, Vec3 p_vx) {
+  return near(p_vx) && contains(size, voxelAt(p_vx));
+}
+
+bool within(std::int32_t born, int iterations) {
+  return born >= 0 && born <= iterations;
+}
+
+/// Whether a skeleton is one: a tree whose nodes lie in the world, and came while it grew.
+bool sound(const Skeleton& s, Voxel size, int iterations) {
   const std::size_t nodes = s.parent.size();
   if (nodes == 0 || s.position_vx.size() != nodes || s.born.size() != nodes) return false;
   for (const auto& [name, values] : s.columns) {
@@ -29,18 +37,25 @@ bool sound(const Skeleton& s, Voxel size) {
   for (std::size_t i = 0; i < nodes; ++i) {
     const NodeId parent = s.parent[i];
     if (parent < kNoNode || parent >= static_cast<NodeId>(i) || (parent == kNoNode) != (i == 0)) return false;
-    if (!inside(size, s.position_vx[i])) return false;
+    if (!inside(size, s.position_vx[i]) || !within(s.born[i], iterations)) return false;
   }
   return true;
 }
 
-bool sound(const PlacedElement& e, const Plant& plant, const std::vector<FacetShape>& shapes) {
+bool sound(const PlacedElement& e, const Plant& plant, const std::vector<FacetShape>& shapes,
+           int iterations) {
   if (e.node < 0 || e.node >= plant.skeleton.size() || e.shape < 0 ||
       static_cast<std::size_t>(e.shape) >= plant.shapes.size() || !finite(e.position_vx) || !finite(e.x) ||
-      !finite(e.y) || !finite(e.z) || !std::isfinite(e.scale))
+      !finite(e.y) || !finite(e.z) || !std::isfinite(e.scale) || !std::isfinite(e.exposure) ||
+      !within(e.born, iterations))
     return false;
   Facets facets;
   return place(e, shapes[static_cast<std::size_t>(e.shape)], facets);
+}
+
+bool sound(const Surface& s) {
+  return finite(Vec3(s.colour)) && std::isfinite(s.coverage) && s.coverage >= 0.0f &&
+         finite(Vec3(s.normal)) && std::isfinite(s.offset_vx);
 }
 
 std::vector<std::string> namesOf(const Skeleton& skeleton) {
@@ -102,9 +117,10 @@ Growth restore(State state, World& world, const std::vector<Planting>& plantings
         plant.element_parts.push_back(part_of(plant.name, shape.name, PartKind::element, number));
       require(namesOf(plant.skeleton) == namesOf(seedling.skeleton),
               fmt::format("'{}' keeps other columns than its process does", plant.name));
-      require(sound(plant.skeleton, size), fmt::format("the state is damaged: '{}' is no tree", plant.name));
+      require(sound(plant.skeleton, size, growth.iterations),
+              fmt::format("the state is damaged: '{}' is no tree", plant.name));
       require(std::all_of(plant.elements.begin(), plant.elements.end(),
-                          [&](const PlacedElement& e) { return sound(e, plant, shapes); }),
+                          [&](const PlacedElement& e) { return sound(e, plant, shapes, growth.iterations); }),
               fmt::format("the state is damaged: an element of '{}' stands nowhere", plant.name));
     }
   }
@@ -114,8 +130,12 @@ Growth restore(State state, World& world, const std::vector<Planting>& plantings
             "a plant stands where the site has something");
     require(surface.part >= 0 && static_cast<std::size_t>(surface.part) < parts.size(),
             "the state is damaged: a voxel of no plant");
+    require(sound(surface), "the state is damaged: what is in a voxel is no number");
     surface.part += base;
   }
+  require(std::all_of(growth.attempts.begin(), growth.attempts.end(),
+                      [](const Attempt& a) { return near(a.from_vx) && near(a.to_vx); }),
+          "the state is damaged: a trial at no place");
   for (Part& part : parts) world.addPart(std::move(part));
   world.occupy(state.voxels);
   return std::move(growth);

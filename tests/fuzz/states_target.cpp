@@ -53,6 +53,7 @@ void goOn(sim::World& world, sim::Growth growth) {
   for (const sim::Plant& plant : growth.plants) render::modelPlant(plant, world.frame());
   sim::Growing growing(world, plantings(), settings(growth.iterations + 2), std::move(growth));
   try {
+    growing.alive();
     growing.due();
   } catch (const sim::BrokenContract&) {
     return;

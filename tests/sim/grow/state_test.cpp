@@ -2,7 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <functional>
+#include <limits>
 #include <random>
+#include <string_view>
 
 #include "sim/base/error.h"
 #include "sim/grow/grow.h"
@@ -103,6 +106,41 @@ TEST(State, DamageIsAnErrorThatNamesTheFile) {
   EXPECT_NE(messageOf("espalier state ").find("no saved state"), std::string::npos);
   EXPECT_NE(messageOf("espalier state 2\n" + good.substr(17)).find("version 2;"), std::string::npos);
   EXPECT_NE(messageOf("espalier state 12\n" + good.substr(17)).find("version 12;"), std::string::npos);
+}
+
+TEST(State, NumbersThatGrowthNeverWritesAreAnErrorToo) {
+  constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+  constexpr auto kFar = std::numeric_limits<std::int32_t>::min();
+  const std::string bytes = savedAfter(6, true).bytes;
+  const auto restored = [&](const std::function<void(sim::State&)>& change) {
+    sim::World world = tests::wallPlot();
+    const auto words = world.occupied().words();
+    sim::State state = sim::readState(bytes, "f");
+    change(state);
+    try {
+      sim::restore(std::move(state), world, plantings(world.frame()), "f");
+    } catch (const sim::InputError& error) {
+      EXPECT_TRUE(std::string_view(error.what()).starts_with("f: the state is damaged: ")) << error.what();
+      EXPECT_EQ(world.occupied().words(), words);
+      return false;
+    }
+    return true;
+  };
+  const auto tile = [](sim::State& s) -> sim::PlacedElement& { return s.growth.plants[0].elements.at(0); };
+  const auto surface = [](sim::State& s) -> sim::Surface& { return s.voxels.at(0).surface; };
+  EXPECT_TRUE(restored([](sim::State&) {}));
+  EXPECT_FALSE(restored([](sim::State& s) { s.growth.plants[2].skeleton.born.back() = kFar; }));
+  EXPECT_FALSE(restored([](sim::State& s) { s.growth.plants[2].skeleton.born.back() = 7; }));
+  EXPECT_FALSE(restored([&](sim::State& s) { tile(s).born = kFar; }));
+  EXPECT_FALSE(restored([&](sim::State& s) { tile(s).born = 7; }));
+  EXPECT_FALSE(restored([&](sim::State& s) { tile(s).exposure = static_cast<float>(kNone); }));
+  EXPECT_FALSE(restored([&](sim::State& s) { surface(s).coverage = static_cast<float>(kNone); }));
+  EXPECT_FALSE(restored([&](sim::State& s) { surface(s).coverage = -1.0f; }));
+  EXPECT_FALSE(restored([&](sim::State& s) { surface(s).colour.g = static_cast<float>(kNone); }));
+  EXPECT_FALSE(restored([&](sim::State& s) { surface(s).normal.z = static_cast<float>(kNone); }));
+  EXPECT_FALSE(restored([&](sim::State& s) { surface(s).offset_vx = static_cast<float>(kNone); }));
+  EXPECT_FALSE(restored([](sim::State& s) { s.growth.attempts.at(0).to_vx.y = kNone; }));
+  EXPECT_FALSE(restored([](sim::State& s) { s.growth.attempts.at(0).from_vx.x = 1e300; }));
 }
 
 TEST(State, BelongsToItsSiteAndItsPlantings) {

@@ -93,6 +93,16 @@ const render::Camera& cameraOf(const PicturesWanted& wanted, const ImageSpec& im
   throw sim::InputError(fmt::format("image '{}' needs a camera", image.name));
 }
 
+/// What a camera looks at: all that is occupied, but for the voxel of a plant that has grown around it. Its
+/// eye was in the open when the scene was made, and nobody should lose a plant to it.
+sim::BitVolume seenFrom(const render::Camera& camera, const sim::World& world) {
+  sim::BitVolume seen = world.occupied();
+  const sim::Voxel eye = sim::voxelAt(sim::voxelFromWorld(world.frame(), camera.eye_m));
+  const sim::PartId part = world.partAt(eye);
+  if (part != sim::kFree && world.part(part).kind != sim::PartKind::scene) seen.clear(eye);
+  return seen;
+}
+
 /// The cameras' views and the painters of their panels, each made once.
 class Studio {
  public:
@@ -152,8 +162,9 @@ render::PanelPicture Studio::paint(const ImageSpec& image, Panel panel) {
       const auto kind = panelOf(other.kind);
       if (kind && other.camera == image.camera) panels.push_back(*kind);
     }
+    const render::Camera& camera = cameraOf(wanted_, image);
     view = std::make_unique<View>(
-        render::see(finished_.world.frame(), finished_.world.occupied(), bricks_, cameraOf(wanted_, image),
+        render::see(finished_.world.frame(), seenFrom(camera, finished_.world), bricks_, camera,
                     wanted_.width_px, wanted_.height_px, mostFragments(wanted_)),
         world_, look_, panels);
   }

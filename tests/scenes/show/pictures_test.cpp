@@ -108,7 +108,7 @@ class Ground : public testing::Test {
     return files;
   }
 
-  const sim::World world_ = world();
+  sim::World world_ = world();
   const sim::Lighting light_ = sim::lightOf(world_, sim::makeSky({.directions = 64}));
   PicturesWanted wanted_;
 };
@@ -134,6 +134,20 @@ TEST_F(Ground, ThresholdPanelsShowThePlantsOwnNeeds) {
   EXPECT_EQ(draw(), rose) << "the first plant is another's concern";
   wanted_.images[0].plant = "fern";
   EXPECT_NE(draw(), rose);
+}
+
+TEST_F(Ground, ACameraAroundWhichAPlantHasGrownLooksOutOfIt) {
+  wanted_.images = {image("a", ImageKind::surface_colour)};
+  wanted_.cameras = {{"main", {{8, 5, 11.5}, {8, 0, 6}, 40}}};
+  const auto before = draw();
+  const sim::PartId stem = world_.addPart({"vine", "stem", sim::PartKind::stem, 0});
+  const sim::Voxel eye = sim::voxelAt(sim::voxelFromWorld(world_.frame(), wanted_.cameras[0].camera.eye_m));
+  world_.occupy(std::vector<sim::TiledVoxel>{{eye, {stem, sim::Colour(1.0f), 1.0f}}});
+  EXPECT_EQ(draw(), before);
+  world_.occupy(std::vector<sim::TiledVoxel>{{eye + sim::Voxel(0, -1, 0), {stem, sim::Colour(1.0f), 1.0f}}});
+  EXPECT_NE(draw(), before);                    // what stands beside it is seen
+  wanted_.cameras[0].camera.eye_m = {4, 3, 4};  // in the block
+  EXPECT_THROW(draw(), sim::InputError);
 }
 
 TEST_F(Ground, AnImageWithoutItsCameraIsNamed) {

@@ -29,15 +29,16 @@ class Writer {
   int line_ = 1;
 };
 
-bool takeOutOf(std::vector<DrawnEntry>& entries, int line) {
+int takeOutOf(std::vector<DrawnEntry>& entries, int line) {
   const auto behind = std::find_if(entries.begin(), entries.end(),
                                    [&](const DrawnEntry& entry) { return entry.line > line; });
-  if (behind == entries.begin()) return false;
+  if (behind == entries.begin()) return 0;
   const auto around = behind - 1;
-  if (takeOutOf(around->value.entries, line)) return true;
-  if (around->required) return false;
+  if (const int inner = takeOutOf(around->value.entries, line)) return inner;
+  if (around->required) return 0;
+  const int began = around->line;
   entries.erase(around);
-  return true;
+  return began;
 }
 
 }  // namespace
@@ -48,7 +49,7 @@ std::string write(Drawn& root) {
   return writer.take();
 }
 
-bool takeOut(Drawn& root, int line) {
+int takeOut(Drawn& root, int line) {
   return takeOutOf(root.entries, line);
 }
 

@@ -29,8 +29,8 @@ struct DrawnEntry {
 /// The file's text, each entry on lines of its own; notes these lines.
 std::string write(Drawn& root);
 
-/// Takes out the innermost entry around a line that may go: one that is not required. False where there is
-/// none.
-bool takeOut(Drawn& root, int line);
+/// Takes out the innermost entry around a line that may go: one that is not required. The line on which it
+/// began, or 0 where there is none.
+int takeOut(Drawn& root, int line);
 
 }  // namespace espalier::fuzz

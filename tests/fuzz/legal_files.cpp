@@ -34,8 +34,10 @@ struct Arguments {
 std::string reasonOf(const std::string& refusal) {
   std::string reason;
   bool quoted = false;
-  const bool of_rules = refusal.find(": rule set '") != refusal.npos;  // "FILE: rule set 'NAME', PATH: REASON"
-  for (const char c : refusal.substr(std::min(of_rules ? refusal.rfind(": ") : refusal.find(": "), refusal.size()))) {
+  const bool of_rules =
+      refusal.find(": rule set '") != refusal.npos;  // "FILE: rule set 'NAME', PATH: REASON"
+  for (const char c :
+       refusal.substr(std::min(of_rules ? refusal.rfind(": ") : refusal.find(": "), refusal.size()))) {
     if (c == '\'') quoted = !quoted;
     const bool number = (c >= '0' && c <= '9') || c == '.' || c == '-';
     if (quoted || (number && reason.ends_with('#'))) continue;

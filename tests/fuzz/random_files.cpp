@@ -87,7 +87,8 @@ RandomFiles::World RandomFiles::drawWorld(tests::Numbers& numbers) {
   const bool flat = std::min({world.size.x, world.size.y, world.size.z}) < 6;  // a mesh leaves no room there
   world.meshes = numbers.chance(flat ? 0.1 : 0.7);
   world.bounds = !world.meshes || numbers.chance(0.5);
-  if (!world.bounds) world.size = sim::Voxel(std::min(30, std::max({world.size.x, world.size.y, world.size.z})));
+  if (!world.bounds)
+    world.size = sim::Voxel(std::min(30, std::max({world.size.x, world.size.y, world.size.z})));
   return world;
 }
 
@@ -318,14 +319,17 @@ std::string RandomFiles::repaired() {
     const auto problems = scenes::checkFile(folder_ / files_.back().name);
     if (problems.empty()) return "";
     left = scenes::format(problems);
-    bool changed = false;
-    // From the end, so that the lines before stay where they are.
-    for (auto problem = problems.rbegin(); problem != problems.rend() && !changed; ++problem) {
+    // From the end of each file, so that the lines before stay where they are.
+    std::map<std::string, int> removed_from;
+    for (auto problem = problems.rbegin(); problem != problems.rend(); ++problem) {
       for (File& file : files_) {
-        if (problem->path == (folder_ / file.name).string()) changed = takeOut(file.root, problem->line);
+        if (problem->path != (folder_ / file.name).string()) continue;
+        const auto below = removed_from.find(file.name);
+        if (below != removed_from.end() && problem->line >= below->second) continue;
+        if (const int from = takeOut(file.root, problem->line)) removed_from[file.name] = from;
       }
     }
-    if (!changed) break;
+    if (removed_from.empty()) break;
   }
   return left;
 }

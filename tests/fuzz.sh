@@ -67,7 +67,7 @@ look() {
   local target=$1 program=build/fuzz/tests/fuzz/fuzz_$1 log=build/fuzz/$1.log status=0
   mkdir -p "build/fuzz/corpus/$target" build/fuzz/found build/fuzz/coverage
   rm -f "build/fuzz/coverage/$target".*
-  "build/fuzz/tests/fuzz/replay_$target" --seeds-into "build/fuzz/seeds/$target"
+  LLVM_PROFILE_FILE=/dev/null "build/fuzz/tests/fuzz/replay_$target" --seeds-into "build/fuzz/seeds/$target"
   LLVM_PROFILE_FILE="build/fuzz/coverage/$target.%p.profraw" "$program" "build/fuzz/corpus/$target" "build/fuzz/seeds/$target" \
     -max_total_time="$seconds" -timeout=20 -rss_limit_mb=4096 -max_len=8192 -print_final_stats=1 -close_fd_mask=1 \
     -artifact_prefix="build/fuzz/found/$target-" >"$log" 2>&1 || status=$?

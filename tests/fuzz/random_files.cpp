@@ -9,6 +9,7 @@
 #include "rules/language/registry.h"
 #include "scenes/read/read_scene.h"
 #include "scenes/read/registry.h"
+#include "tests/fuzz/agreement.h"
 
 namespace espalier::fuzz {
 namespace {
@@ -347,6 +348,7 @@ void gather(const Drawn& drawn, std::set<std::string>& keys) {
 
 WrittenScene RandomFiles::scene() {
   File scene{"scene.yaml", table(scenes::sceneTable(), "scene:")};
+  makeAgree(scene.root, numbers_);
   files_.push_back(std::move(scene));
   WrittenScene written;
   written.refused = repaired();

@@ -1,0 +1,71 @@
+#include "tests/fuzz/agreement.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <set>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace espalier::fuzz {
+namespace {
+
+constexpr double kMostly = 0.9;
+
+Drawn* find(Drawn& map, const std::string& key) {
+  const auto at = std::find_if(map.entries.begin(), map.entries.end(),
+                               [&](const DrawnEntry& entry) { return entry.key == key; });
+  return at == map.entries.end() ? nullptr : &at->value;
+}
+
+void takeOut(Drawn& map, const std::set<std::string>& keys) {
+  std::erase_if(map.entries, [&](const DrawnEntry& entry) { return keys.contains(entry.key); });
+}
+
+/// What the entries of a list are called: by their names, or else by another key of theirs.
+std::vector<std::string> namesOf(Drawn* list, const std::string& else_by) {
+  std::vector<std::string> names;
+  if (list == nullptr) return names;
+  for (DrawnEntry& entry : list->entries) {
+    const Drawn* name = find(entry.value, "name");
+    if (name == nullptr) name = find(entry.value, else_by);
+    if (name != nullptr) names.push_back(name->text);
+  }
+  return names;
+}
+
+void agreeOnSun(Drawn& sun, tests::Numbers& numbers) {
+  const bool real = find(sun, "place") != nullptr;
+  takeOut(sun, real ? std::set<std::string>{"tilt", "toward", "samples"}
+                    : std::set<std::string>{"date", "dates", "hours", "step", "weighting", "north"});
+  if (find(sun, "date") && find(sun, "dates")) takeOut(sun, {numbers.chance(0.5) ? "date" : "dates"});
+}
+
+void agreeOnImages(Drawn& images, const std::vector<std::string>& plants, tests::Numbers& numbers) {
+  for (DrawnEntry& image : images.entries) {
+    for (const auto& [key, only] :
+         {std::pair("plant", "threshold"), {"axis", "section"}, {"of", "contact_sheet"}}) {
+      if (find(image.value, key) && numbers.chance(0.5)) find(image.value, "kind")->text = only;
+    }
+  }
+  const std::vector<std::string> names = namesOf(&images, "kind");
+  for (DrawnEntry& image : images.entries) {
+    Drawn* const plant = find(image.value, "plant");
+    if (plant && !plants.empty()) plant->text = numbers.pick(plants);
+    Drawn* const of = find(image.value, "of");
+    if (of)
+      of->text = fmt::format("[{}]", fmt::join(std::vector{numbers.pick(names), numbers.pick(names)}, ", "));
+  }
+}
+
+}  // namespace
+
+void makeAgree(Drawn& scene, tests::Numbers& numbers) {
+  if (Drawn* sun = find(scene, "sun"); sun && numbers.chance(kMostly)) agreeOnSun(*sun, numbers);
+  if (Drawn* images = find(scene, "images"); images && numbers.chance(kMostly))
+    agreeOnImages(*images, namesOf(find(scene, "plants"), ""), numbers);
+}
+
+}  // namespace espalier::fuzz

@@ -1,0 +1,12 @@
+#pragma once
+#include "tests/fuzz/drawn.h"
+#include "tests/support/numbers.h"
+
+namespace espalier::fuzz {
+
+/// Makes keys of a scene that were drawn apart agree more often than chance would have it, or the checks
+/// would take most of them out again: images name plants and images that are there, and a sun is of one kind.
+/// Now and then it does not.
+void makeAgree(Drawn& scene, tests::Numbers& numbers);
+
+}  // namespace espalier::fuzz

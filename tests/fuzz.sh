@@ -16,10 +16,13 @@ declare -A sources=(
   [yaml]="scenes/yaml scenes/problem.cpp"
   [rules]="scenes/yaml scenes/read rules/language rules/growth/voxel_widths.cpp"
   [scenes]="scenes/yaml scenes/read scenes/lights.cpp"
-  [states]="sim/grow/state.cpp sim/grow/restore.cpp sim/grow/columns.h sim/base/cbor_writer.cpp"
+  [states]="sim/grow/state.cpp sim/grow/restore.cpp sim/grow/columns.h sim/base/cbor_writer.h"
   [mesh_wire]="scenes/import/mesh_wire.cpp scenes/import/mesh_import.cpp"
   [obj]="scenes/import" [stl]="scenes/import" [ply]="scenes/import" [gltf]="scenes/import"
 )
+for target in "${!sources[@]}"; do
+  for path in ${sources[$target]}; do [ -e "$path" ] || { echo "fuzz.sh: there is no $path" >&2 && exit 2; }; done
+done
 all=(yaml rules scenes states mesh_wire obj stl ply gltf)
 
 seconds=60 files=500 targets=()
@@ -48,13 +51,21 @@ build() {
 
 tool() { command -v "$1" || command -v "$1-14" || echo "/usr/lib/llvm-14/bin/$1"; }
 
-# covered TARGET: how many of the lines of its sources it has reached.
+# covered TARGET: how many of the lines of its sources it has reached. Sources are named as the compiler saw them, from the
+# build folder, so that llvm-cov cannot pick them by their paths.
 covered() {
   local there=build/fuzz/coverage/$1
   "$(tool llvm-profdata)" merge -o "$there.profdata" "$there".*.profraw 2>/dev/null || { echo "unknown" && return; }
-  # shellcheck disable=SC2086
-  "$(tool llvm-cov)" report "build/fuzz/tests/fuzz/fuzz_$1" -instr-profile="$there.profdata" ${sources[$1]} 2>/dev/null |
-    awk '/^TOTAL/ { print $8 - $9 " of " $8 " lines (" $10 ")" }'
+  "$(tool llvm-cov)" export "build/fuzz/tests/fuzz/fuzz_$1" -instr-profile="$there.profdata" -format=lcov -summary-only |
+    awk -F: -v wanted="${sources[$1]}" -v root="$PWD" '
+      /^SF/ {
+        counts = 0
+        n = split(wanted, paths, " ")
+        for (i = 1; i <= n; i++) counts = counts || index($2, "/../../" paths[i]) || index($2, root "/" paths[i]) == 1
+      }
+      counts && /^LF/ { lines += $2 }
+      counts && /^LH/ { reached += $2 }
+      END { printf "%d of %d lines (%.1f%%)\n", reached, lines, 100 * reached / (lines + !lines) }'
 }
 
 failed=0

@@ -33,6 +33,13 @@ std::vector<std::string> objSeeds() {
   files.push_back(with(
       "mtllib x.mtl\nvn 0 0 1\nvt 0 1\nv 0 0 0\nv 2 0 0\nv 2 1 0\nv 1 1 0\nv 1 2 0\nv 0 2 0\nf 1 2 3 4 5 6\n",
       "newmtl m\nKd nan 2 -1\nmap_Kd a.png\nd 0.5\n"));
+  files.push_back(
+      with("# C:\\\rmtllib gone.mtl x.mtl # a\r\nv .5 ,5 +1e-3 .1 .2 .3\nv 1 \\\n 0 0\nv 0 1 0\nusemtl m "
+           "n\ng \xff "
+           "\x1b\nf 1 \\\r\n2 3\nusemtl gone\nf 3 2 1\nusemtl\ng\nf 1 2 3 1\n",
+           "\xef\xbb\xbfnewmtl m n\r\nkd 0.5 # grey\r\nKd xyz 1 1 1\nnewmtl\nKd 0,5 1e9 1e-50\nnewmtl m "
+           "n\nKd 1 \\\n1 "
+           "1"));
   return files;
 }
 
@@ -62,6 +69,18 @@ std::vector<std::string> gltfSeeds() {
   document["buffers"][0]["uri"] = "data:application/octet-stream;base64," + std::string(59, 'A') + "=";
   document["meshes"][0]["primitives"][0]["mode"] = 5;
   files.push_back(document.dump());
+  document = samples::gltfDocument();  // places that are changed by others, and indices in steps
+  document["accessors"][0]["sparse"] = {{"count", 2},
+                                        {"indices", {{"bufferView", 1}, {"componentType", 5123}}},
+                                        {"values", {{"bufferView", 0}, {"byteOffset", 12}}}};
+  document["bufferViews"][0]["byteStride"] = 12;
+  document["accessors"][1]["componentType"] = 5121;
+  document["meshes"][0]["primitives"][0]["mode"] = 6;
+  document["nodes"][1] = {{"mesh", 0}, {"matrix", {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 5, 0, 0, 1}}};
+  document["extensionsUsed"] = document["extensionsRequired"] = {"KHR_materials_unlit"};
+  document["scenes"].push_back({{"nodes", {1, 2}}});
+  document["scene"] = 1;
+  files.push_back(samples::glb(document, samples::gltfBuffer()));
   return files;
 }
 

@@ -23,7 +23,7 @@ char lower(char c) {
 /// more than that. A message may ask for thousands of words.
 std::size_t editDistance(std::string_view a, std::string_view b, std::size_t most) {
   if (std::max(a.size(), b.size()) > kLongestWord) return most + 1;
-  const auto [less, more] = std::minmax(a.size(), b.size());
+  const auto [less, more] = std::minmax({a.size(), b.size()});  // in braces: by value
   if (more - less > most) return most + 1;
   using Row = std::array<std::size_t, kLongestWord + 1>;
   std::array<Row, 3> rows{};  // of this letter of `a` and the two before it

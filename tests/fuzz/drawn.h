@@ -14,8 +14,8 @@ struct Drawn {
   std::string text;                 ///< as it stands behind its key
   std::vector<DrawnEntry> entries;  ///< of a map; of a list, without keys
 
-  Drawn() = default;
-  Drawn(std::string written) : text(std::move(written)) {}  // NOLINT: a text is a value
+  Drawn();
+  Drawn(std::string written);  // NOLINT: a text is a value
 };
 
 struct DrawnEntry {
@@ -25,6 +25,9 @@ struct DrawnEntry {
   std::string path = {};  ///< of its key in the registry, after "rules:" or "scene:"; empty where it has none
   int line = 0;           ///< where it was written last, from 1
 };
+
+inline Drawn::Drawn() = default;
+inline Drawn::Drawn(std::string written) : text(std::move(written)) {}
 
 /// The file's text, each entry on lines of its own; notes these lines.
 std::string write(Drawn& root);

@@ -179,7 +179,7 @@ Checked checkDocument(const Json& document, const Container& container, const Fi
   checked.triangles = trianglesInScene(document, meshes.triangles());
   const std::size_t scene = indexIn(document, "scene", document, "scenes").value_or(0);
   some["scene"] = 0;
-  some["scenes"] = {only(document["scenes"][scene], {"nodes"})};
+  some["scenes"] = Json::array({only(document["scenes"][scene], {"nodes"})});  // {json} may be a copy of it
   some["nodes"] = each(document, "nodes", "node", [](const Json& node) {
     Json kept = only(node, {"mesh", "children", "matrix", "translation", "rotation", "scale"});
     keepName(node, kept);
@@ -193,7 +193,7 @@ Checked checkDocument(const Json& document, const Container& container, const Fi
     some["buffers"].push_back({{"byteLength", checked.buffers.of(i).size()}, {"uri", bufferName(i)}});
   for (const char* key : {"extensionsUsed", "extensionsRequired"}) {
     const Json& names = listIn(document, key);
-    if (std::find(names.begin(), names.end(), kDraco) != names.end()) some[key] = {kDraco};
+    if (std::find(names.begin(), names.end(), kDraco) != names.end()) some[key] = Json::array({kDraco});
   }
   checked.json = some.dump();
   return checked;

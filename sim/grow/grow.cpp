@@ -212,14 +212,13 @@ Proposal Growing::proposeAt(std::size_t planting, const Site& site, const Light*
 Proposal Growing::propose(const Due& due, std::size_t planting, const Site& site) const {
   if (planting >= plantings_.size()) throw InputError(fmt::format("there is no planting {}", planting));
   requireSites(world_, plantings_[planting], view(planting).plants, {site});
+  const Wants wants = plantings_[planting].process->wants();
+  const Voxel place = voxelAt(site.at_vx);
   ClearAhead clear, sky_clear;
   std::optional<Light> light;
-  if (plantings_[planting].process->wants().light) {
-    const Voxel place = voxelAt(site.at_vx);
-    light = sensor_->at(world_.opaque(), {&place, 1}, clear).front();
-  }
+  if (wants.light) light = sensor_->at(world_.opaque(), {&place, 1}, clear).front();
   std::optional<SkyInside> sky;
-  if (plantings_[planting].process->wants().sky_table) sky.emplace(*sky_sensor_, world_.opaque(), sky_clear);
+  if (wants.sky_table) sky.emplace(*sky_sensor_, world_.opaque(), sky_clear);
   return proposeAt(planting, site, light ? &*light : nullptr, sky ? &*sky : nullptr,
                    due.memories.at(planting), due.commons, true);
 }

@@ -29,8 +29,8 @@ struct LitWorld {
 /// What a camera sees.
 struct Seen {
   double fragments = 0.0;  ///< all of its picture's
-  int panels = 0;        ///< drawn of it
-  bool shadows = false;  ///< one of them needs the sun's
+  int panels = 0;          ///< drawn of it
+  bool shadows = false;    ///< one of them needs the sun's
 };
 
 StageCost lightingCost(const LitWorld& world);

@@ -69,9 +69,7 @@ Lookout::Lookout(const BitVolume& shape, const DirectionSet& directions) {
   }
 }
 
-namespace {
-
-}  // namespace
+namespace {}  // namespace
 
 Outlook Lookout::from(const BitVolume& occupied, Voxel p) const {
   const std::uint64_t* const words = occupied.words().data();

@@ -69,8 +69,6 @@ Lookout::Lookout(const BitVolume& shape, const DirectionSet& directions) {
   }
 }
 
-namespace {}  // namespace
-
 Outlook Lookout::from(const BitVolume& occupied, Voxel p) const {
   const std::uint64_t* const words = occupied.words().data();
   const std::ptrdiff_t start = (occupied.row(p.y, p.z) - words) * BitVolume::kWordBits + p.x;

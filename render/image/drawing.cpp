@@ -139,11 +139,21 @@ void drawSegment(Image& image, glm::vec2 a, glm::vec2 b, float width_px, Ink ink
   const float half = 0.5f * std::max(1.0f, width_px);
   const glm::vec2 along = b - a;
   const float length2 = glm::dot(along, along);
-  cover(image, reachOf(image, glm::min(a, b) - half - 1.0f, glm::max(a, b) + half + 1.0f), ink,
-        [&](glm::vec2 p) {
-          const float t = length2 > 0.0f ? std::clamp(glm::dot(p - a, along) / length2, 0.0f, 1.0f) : 0.0f;
-          return half + 0.5f - glm::length(p - a - t * along);
-        });
+  const float near = half + 1.0f;
+  const Reach all = reachOf(image, glm::min(a, b) - near, glm::max(a, b) + near);
+  for (int y = all.y0; y < all.y1; ++y) {
+    // Pixels of this row are touched by the part of the segment that is as near to the row.
+    const float from_a = static_cast<float>(y) + 0.5f - a.y;
+    const auto at = [&](float up) {
+      return along.y != 0.0f ? std::clamp((from_a + up) / along.y, 0.0f, 1.0f) : up < 0.0f ? 0.0f : 1.0f;
+    };
+    const float x0 = a.x + at(-near) * along.x, x1 = a.x + at(near) * along.x;
+    const Reach row = reachOf(image, {std::min(x0, x1) - near, 0.0f}, {std::max(x0, x1) + near, 0.0f});
+    cover(image, {row.x0, y, row.x1, y + 1}, ink, [&](glm::vec2 p) {
+      const float t = length2 > 0.0f ? std::clamp(glm::dot(p - a, along) / length2, 0.0f, 1.0f) : 0.0f;
+      return half + 0.5f - glm::length(p - a - t * along);
+    });
+  }
 }
 
 void fillBox(Image& image, glm::vec2 low, glm::vec2 high, Ink ink, float corner_radius_px) {

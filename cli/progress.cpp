@@ -38,7 +38,7 @@ void Progress::line(const std::string& text) {
 void Progress::foretold(const std::string& text) {
   told_ = true;
   warning(text);
-  stage(stage_);
+  line(stage_);  // which began before
 }
 
 void Progress::stage(const std::string& name) {

@@ -319,10 +319,10 @@ std::vector<OutputFile> drawPictures(const PicturesWanted& wanted, const Finishe
     };
     std::vector<Painted> painted;
     forEach(isPanel, [&](std::size_t i) {
-              painted.push_back({i, studio.paint(wanted.images[i], *panelOf(wanted.images[i].kind))});
-              keepThumbnail(i, painted.back().picture.display);
-              files[i].resize(2);
-            });
+      painted.push_back({i, studio.paint(wanted.images[i], *panelOf(wanted.images[i].kind))});
+      keepThumbnail(i, painted.back().picture.display);
+      files[i].resize(2);
+    });
     studio.forgetViews();
     sim::parallelForEach(2 * painted.size(), [&](std::size_t k) {
       auto& [i, picture] = painted[k / 2];

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <random>
 
 #include "render/image/contact_sheet.h"
 #include "render/image/legend.h"
@@ -181,6 +182,35 @@ TEST(Attempts, RejectedOnesAreOnTheLeftAlone) {
   for (int y = 0; y < image.height; ++y) {
     for (int x = margin + 203; x < right - 3; ++x) {
       ASSERT_FLOAT_EQ(image.at(x, y)[0], image.at(1, 1)[0]) << "nothing sticks out";
+    }
+  }
+}
+
+/// The share of a pixel that a segment at least a pixel wide covers, asked of every pixel.
+float plainCoverage(glm::vec2 p, glm::vec2 a, glm::vec2 b, float width_px) {
+  const glm::vec2 along = b - a;
+  const float length2 = glm::dot(along, along);
+  const float t = length2 > 0.0f ? std::clamp(glm::dot(p - a, along) / length2, 0.0f, 1.0f) : 0.0f;
+  return std::clamp(0.5f * width_px + 0.5f - glm::length(p - a - t * along), 0.0f, 1.0f);
+}
+
+TEST(Drawing, ASegmentTouchesThePixelsNearItAndNoOthers) {
+  std::mt19937 random(3);
+  const auto anywhere = [&] { return static_cast<float>(random() % 2400) / 20.0f - 20.0f; };
+  for (int round = 0; round < 60; ++round) {
+    glm::vec2 a(anywhere(), anywhere()), b(anywhere(), anywhere());
+    if (round % 6 == 0) b.y = a.y;
+    if (round % 6 == 1) b.x = a.x;
+    if (round % 12 == 2) b = a;
+    const float width_px = 1.0f + static_cast<float>(round % 5);
+    render::Image image(80, 70, 3);
+    render::drawSegment(image, a, b, width_px, {sim::Colour(1.0f), 1.0f});
+    for (int y = 0; y < image.height; ++y) {
+      for (int x = 0; x < image.width; ++x) {
+        const glm::vec2 p(static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f);
+        ASSERT_NEAR(image.at(x, y)[0], plainCoverage(p, a, b, width_px), 1e-5f)
+            << round << ": " << x << " " << y;
+      }
     }
   }
 }

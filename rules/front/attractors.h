@@ -1,0 +1,91 @@
+#pragma once
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "sim/base/vec.h"
+
+/// Attractors, sorted in space so that only those are looked at that a new node can reach. Distances are in
+/// whatever unit the places have.
+namespace espalier::rules {
+
+/// What became of an attractor.
+enum class Fate : std::int32_t {
+  waiting,   ///< it pulls, or would if a node came within reach
+  reached,   ///< a node came within its kill distance
+  given_up,  ///< it pulled where no step led nearer
+  taken      ///< a node stands on it
+};
+
+inline constexpr std::int32_t kNobody = -1;
+
+/// A squared distance whose bits do not change when axes are exchanged or turned round.
+double distance2(sim::Vec3 a, sim::Vec3 b);
+
+/// Arrays by attractor, sorted along a space-filling curve, and an octree over them whose leaves are runs of a
+/// few; in each leaf those that wait come first. Each remembers the nearest of the nodes so far that were
+/// within reach, and how far that is: nodes are only added and attractors only end, so nothing else changes it.
+struct Attractors {
+  std::vector<double> x, y, z;
+  std::vector<double> nearest2;       ///< squared distance from its node; infinite where it has none
+  std::vector<std::int32_t> nearest;  ///< that node, or kNobody
+  std::vector<std::int32_t> number;   ///< as which it was given
+  std::vector<std::int32_t> fate;     ///< Fate
+  std::vector<std::int32_t> place;    ///< by number: where it lies now; they move within their leaves
+
+  // The tree, parents before their children.
+  std::vector<std::int32_t> first, last;        ///< the run of a tree node: first, and one behind its end
+  std::vector<std::int32_t> waiting;            ///< of a leaf: how many wait; of others 0
+  std::vector<std::int32_t> child, children;    ///< number of its first child, and how many; 0 for a leaf
+  std::vector<sim::Vec3> low, high;             ///< of a box around all in it
+  std::vector<double> farthest2;                ///< greatest nearest2 of those that wait; below 0: none waits
+
+  std::int32_t size() const { return static_cast<std::int32_t>(x.size()); }
+  sim::Vec3 at(std::int32_t i) const {
+    const auto n = static_cast<std::size_t>(i);
+    return {x[n], y[n], z[n]};
+  }
+};
+
+/// Sorts them, all waiting for nobody. The places must be finite.
+Attractors sortedAttractors(std::span<const sim::Vec3> places);
+
+/// How the nodes that came last act: on attractors nearer than `influence`; those nearer than `kill` are reached.
+struct Reach {
+  double influence = 0.0, kill = 0.0;
+};
+
+/// One unit of pull, in the whole numbers that pulls are summed in: so that a sum needs no order.
+inline constexpr double kPullOne = 0x1p40;
+
+/// What pulls each node: the sum of the unit vectors to the attractors whose nearest it is, and how many they
+/// are.
+struct Pulls {
+  std::vector<std::int64_t> x, y, z;
+  std::vector<std::int32_t> count;
+};
+
+/// New nodes, from number `first_new` of `nodes` on, take over the attractors to which they are nearer than
+/// all before and than their reach; of equally near ones the lower number has it. Those within the kill
+/// distance end. Parallel inside.
+void meet(Attractors& attractors, std::span<const sim::Vec3> nodes, std::int32_t first_new, Reach reach,
+          Pulls& pulls);
+
+/// The nearest attractor that waits, nearer than `within`; of those of one node alone, if it is not kNobody.
+/// Equally near ones by their places: the least x, then y, then z. Its index, or kNobody.
+std::int32_t nearestWaiting(const Attractors& attractors, sim::Vec3 to, double within,
+                            std::int32_t of_node = kNobody);
+
+/// The attractors that wait for a node which stands at `at`, nearer to it than `within`, by their places: the
+/// least x first, then y, then z. Their indices.
+std::vector<std::int32_t> waitingFor(const Attractors& attractors, std::int32_t node, sim::Vec3 at,
+                                     double within);
+
+/// Ends an attractor, and its pull; `at` is its index, and after this another's.
+void end(Attractors& attractors, std::int32_t at, Fate fate, std::span<const sim::Vec3> nodes, Pulls& pulls);
+
+/// A node lets go of all its attractors: they wait for the next that comes within reach.
+void letGo(Attractors& attractors, std::int32_t node, std::span<const sim::Vec3> nodes, double within,
+           Pulls& pulls);
+
+}  // namespace espalier::rules

@@ -1,0 +1,82 @@
+#include "rules/front/colonize.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <numeric>
+
+#include "sim/base/error.h"
+#include "sim/base/stop.h"
+
+namespace espalier::rules {
+namespace {
+
+void requireFinite(std::span<const sim::Vec3> places, const char* what) {
+  if (places.empty()) throw sim::InputError(fmt::format("there is no {}; expected at least one", what));
+  for (const sim::Vec3& at : places) {
+    if (!std::isfinite(at.x) || !std::isfinite(at.y) || !std::isfinite(at.z))
+      throw sim::InputError(fmt::format("a place of the {}s is no number", what));
+  }
+}
+
+}  // namespace
+
+void requireSound(const FrontRules& rules) {
+  const auto require = [](bool good, const char* what, double is, const char* expected) {
+    if (!good) throw sim::InputError(fmt::format("the {} is {}; expected {}", what, is, expected));
+  };
+  require(std::isfinite(rules.step) && rules.step > 0.0, "step", rules.step, "a number above 0");
+  require(rules.influence > 0.0, "influence radius", rules.influence, "a number above 0");
+  require(std::isfinite(rules.kill) && rules.kill >= 0.0, "kill distance", rules.kill, "a number from 0 on");
+}
+
+Colony colonize(std::span<const sim::Vec3> attractors, std::span<const sim::Vec3> starts,
+                const FrontRules& rules, int iterations) {
+  requireSound(rules);
+  requireFinite(attractors, "attractor");
+  requireFinite(starts, "start");
+  Front front = frontOf(attractors);
+  Colony colony;
+  colony.parent.assign(starts.size(), kNobody);
+  colony.born.assign(starts.size(), 0);
+  join(front, starts, rules);
+  std::vector<std::int32_t> active(starts.size()), trunks(starts.size());
+  std::iota(active.begin(), active.end(), 0);
+  std::iota(trunks.begin(), trunks.end(), 0);
+  for (; colony.iterations < iterations; ++colony.iterations) {
+    sim::throwIfStopped();
+    std::vector<Way> ways = waysOf(front, active, rules);
+    const std::size_t pulled = ways.size();
+    std::erase_if(trunks, [&](std::int32_t tip) {
+      const Way way = trunkWay(front, tip, rules);
+      if (way.node != kNobody) ways.push_back(way);
+      return way.node == kNobody;
+    });
+    if (ways.empty()) break;
+    std::vector<sim::Vec3> ends;
+    for (const Way& way : ways) ends.push_back(endOfWay(front, way, way.direction, rules));
+    for (std::size_t i = 0; i < ways.size(); ++i) {
+      taken(front, ways[i], ends[i], rules);
+      const auto node = static_cast<std::int32_t>(colony.parent.size());
+      colony.parent.push_back(ways[i].node);
+      colony.born.push_back(colony.iterations);
+      active.push_back(node);
+      if (i >= pulled) trunks[i - pulled] = node;
+    }
+    join(front, ends, rules);
+  }
+  colony.position = std::move(front.nodes);
+  colony.fates = fatesOf(front);
+  return colony;
+}
+
+std::string endingOf(const Fates& fates, bool iterations_left) {
+  if (fates.waiting == 0 && fates.given_up == 0) return "all attractors were reached";
+  if (iterations_left) {
+    return fmt::format("no attractor is in reach any more: {} of {} wait", fates.waiting,
+                       fates.waiting + fates.reached + fates.given_up + fates.taken);
+  }
+  return fmt::format("all iterations were done while {} attractors wait", fates.waiting);
+}
+
+}  // namespace espalier::rules

@@ -1,0 +1,228 @@
+#include "rules/front/front.h"
+
+#include <cmath>
+#include <limits>
+
+#include "sim/base/parallel.h"
+
+namespace espalier::rules {
+namespace {
+
+constexpr double kEverywhere = std::numeric_limits<double>::infinity();
+
+std::size_t asIndex(std::int32_t i) {
+  return static_cast<std::size_t>(i);
+}
+
+sim::Vec3 unitTo(sim::Vec3 from, sim::Vec3 to) {
+  return (to - from) / std::sqrt(distance2(from, to));
+}
+
+/// Whether a step from there towards a place ends nearer to it.
+bool leadsNearer(sim::Vec3 from, sim::Vec3 to, const FrontRules& rules) {
+  return 2.0 * std::sqrt(distance2(from, to)) > rules.step;
+}
+
+/// Zero where nothing pulls, or all sides do.
+sim::Vec3 pulled(const Front& front, std::size_t node) {
+  const sim::Vec3 sum(static_cast<double>(front.pulls.x[node]), static_cast<double>(front.pulls.y[node]),
+                      static_cast<double>(front.pulls.z[node]));
+  const double long_ = std::sqrt(distance2(sum, sim::Vec3(0.0)));
+  return long_ > 0.0 ? sum / long_ : sim::Vec3(0.0);
+}
+
+void setGait(Front& front, std::size_t node, std::int32_t tried, Gait gait) {
+  front.tried[node] = tried;
+  front.gait[node] = static_cast<std::int32_t>(gait);
+}
+
+/// Towards the nearest of a node's attractors; those that no step leads nearer to are given up. None is left
+/// where the way's node is kNobody.
+Way straightWay(Front& front, std::int32_t node, const FrontRules& rules) {
+  const sim::Vec3 from = front.nodes[asIndex(node)];
+  while (front.pulls.count[asIndex(node)] > 0) {
+    const std::int32_t at = nearestWaiting(front.attractors, from, kEverywhere, node);
+    const sim::Vec3 to = front.attractors.at(at);
+    if (rules.onto || leadsNearer(from, to, rules)) {
+      const sim::Vec3 direction = from == to ? sim::Vec3(0, 1, 0) : unitTo(from, to);
+      return {node, 0, direction, front.attractors.number[asIndex(at)]};
+    }
+    end(front.attractors, at, Fate::given_up, front.nodes, front.pulls);
+  }
+  return {kNobody};
+}
+
+/// By the attractors that have the node as their nearest.
+Way wayOf(Front& front, std::int32_t node, const FrontRules& rules) {
+  const std::size_t n = asIndex(node);
+  const bool same = front.tried[n] == front.pulls.count[n] && !rules.onto;
+  Gait gait = same ? Gait::straight : Gait::pulled;
+  if (same && front.gait[n] == static_cast<std::int32_t>(Gait::straight)) {
+    const std::int32_t at = nearestWaiting(front.attractors, front.nodes[n], kEverywhere, node);
+    end(front.attractors, at, Fate::given_up, front.nodes, front.pulls);
+    gait = Gait::pulled;
+  }
+  Way way{node, 0, pulled(front, n)};
+  if (gait == Gait::straight || way.direction == sim::Vec3(0.0)) {
+    gait = Gait::straight;
+    way = straightWay(front, node, rules);
+  }
+  setGait(front, n, front.pulls.count[n], gait);
+  return way;
+}
+
+/// A way to each of the attractors that have the node as their nearest.
+void allWaysOf(Front& front, std::int32_t node, const FrontRules& rules, std::vector<Way>& ways) {
+  const sim::Vec3 from = front.nodes[asIndex(node)];
+  std::uint32_t count = 0;
+  for (const std::int32_t at : waitingFor(front.attractors, node, from, rules.influence)) {
+    const sim::Vec3 to = front.attractors.at(at);
+    if (from != to && (rules.onto || leadsNearer(from, to, rules)))
+      ways.push_back({node, count++, unitTo(from, to), front.attractors.number[asIndex(at)]});
+  }
+  // What is left after a node has gone for all is too near to all its ways.
+  if (count == 0) straightWay(front, node, rules);
+}
+
+bool waits(const Attractors& attractors, std::int32_t number) {
+  const auto at = asIndex(attractors.place[asIndex(number)]);
+  return attractors.fate[at] == static_cast<std::int32_t>(Fate::waiting);
+}
+
+/// The attractor that is nearest to a node, by number: the same until it ends; kNobody where none is within
+/// reach any more. Those that no step leads nearer to are given up.
+std::int32_t pickOf(Front& front, std::int32_t node, const FrontRules& rules) {
+  const std::size_t n = asIndex(node);
+  if (front.tried[n] != kNobody && waits(front.attractors, front.tried[n])) return front.tried[n];
+  setGait(front, n, kNobody, Gait::none);
+  while (true) {
+    const std::int32_t at = nearestWaiting(front.attractors, front.nodes[n], rules.influence);
+    if (at == kNobody) return kNobody;
+    const sim::Vec3 to = front.attractors.at(at);
+    if (rules.onto || leadsNearer(front.nodes[n], to, rules)) {
+      const auto number = asIndex(front.attractors.number[asIndex(at)]);
+      front.tried[n] = static_cast<std::int32_t>(number);
+      const double away2 = distance2(front.nodes[n], to);
+      if (away2 < front.picked2[number] || (away2 == front.picked2[number] && node < front.picker[number])) {
+        front.picked2[number] = away2;
+        front.picker[number] = node;
+      }
+      return static_cast<std::int32_t>(number);
+    }
+    end(front.attractors, at, Fate::given_up, front.nodes, front.pulls);
+  }
+}
+
+/// The ways of nodes that pick an attractor each.
+void waysOfPickers(Front& front, std::vector<std::int32_t>& active, const FrontRules& rules,
+                   std::vector<Way>& ways) {
+  front.picker.resize(asIndex(front.attractors.size()), kNobody);
+  front.picked2.resize(asIndex(front.attractors.size()), kEverywhere);
+  std::erase_if(active, [&](std::int32_t node) { return pickOf(front, node, rules) == kNobody; });
+  std::vector<bool> used(rules.onto ? asIndex(front.attractors.size()) : 0);
+  for (const std::int32_t node : active) {
+    const std::size_t n = asIndex(node), number = asIndex(front.tried[n]);
+    const bool gone = front.gait[n] == static_cast<std::int32_t>(Gait::straight);
+    if (gone || !waits(front.attractors, front.tried[n])) continue;
+    if (!rules.repeated && front.picker[number] != node) continue;
+    if (rules.onto) {
+      if (used[number]) continue;
+      used[number] = true;
+    }
+    const sim::Vec3 to = front.attractors.at(front.attractors.place[number]);
+    setGait(front, n, front.tried[n], Gait::straight);
+    ways.push_back({node, 0, front.nodes[n] == to ? sim::Vec3(0, 1, 0) : unitTo(front.nodes[n], to),
+                    front.tried[n]});
+  }
+}
+
+}  // namespace
+
+Front frontOf(std::span<const sim::Vec3> attractors) {
+  Front front;
+  front.attractors = sortedAttractors(attractors);
+  return front;
+}
+
+void join(Front& front, std::span<const sim::Vec3> nodes, const FrontRules& rules) {
+  const auto first = static_cast<std::int32_t>(front.nodes.size());
+  front.nodes.insert(front.nodes.end(), nodes.begin(), nodes.end());
+  const std::size_t count = front.nodes.size();
+  front.pulls.x.resize(count);
+  front.pulls.y.resize(count);
+  front.pulls.z.resize(count);
+  front.pulls.count.resize(count);
+  front.tried.resize(count, kNobody);
+  front.gait.resize(count, static_cast<std::int32_t>(Gait::none));
+  const double influence = rules.acts == Acts::on_nearest_node ? rules.influence : 0.0;
+  meet(front.attractors, front.nodes, first, {influence, rules.kill}, front.pulls);
+}
+
+std::vector<Way> waysOf(Front& front, std::vector<std::int32_t>& active, const FrontRules& rules) {
+  std::vector<Way> ways;
+  if (rules.acts == Acts::on_every_node) {
+    waysOfPickers(front, active, rules, ways);
+    return ways;
+  }
+  std::erase_if(active, [&](std::int32_t node) { return front.pulls.count[asIndex(node)] == 0; });
+  for (const std::int32_t node : active) {
+    if (rules.repeated) {
+      allWaysOf(front, node, rules, ways);
+    } else if (const Way way = wayOf(front, node, rules); way.node != kNobody) {
+      ways.push_back(way);
+    }
+  }
+  return ways;
+}
+
+Way trunkWay(const Front& front, std::int32_t tip, const FrontRules& rules) {
+  const sim::Vec3 from = front.nodes[asIndex(tip)];
+  const std::int32_t at = nearestWaiting(front.attractors, from, kEverywhere);
+  if (at == kNobody) return {kNobody};
+  const sim::Vec3 to = front.attractors.at(at);
+  const double away = std::sqrt(distance2(from, to));
+  if (away < rules.influence || !leadsNearer(from, to, rules)) return {kNobody};
+  const sim::Vec3 upright(0, to.y < from.y ? -1 : 1, 0);
+  const bool nearer = std::sqrt(distance2(from + rules.step * upright, to)) < away;
+  return {tip, 0, nearer ? upright : unitTo(from, to), kNobody, true};
+}
+
+sim::Vec3 endOfWay(const Front& front, const Way& way, sim::Vec3 direction, const FrontRules& rules) {
+  const sim::Vec3 end = front.nodes[asIndex(way.node)] + rules.step * direction;
+  if (!rules.onto || way.trunk) return end;
+  const std::int32_t at = way.attractor != kNobody
+                              ? front.attractors.place[asIndex(way.attractor)]
+                              : nearestWaiting(front.attractors, end, kEverywhere, way.node);
+  return front.attractors.at(at);
+}
+
+void taken(Front& front, const Way& way, sim::Vec3 at, const FrontRules& rules) {
+  if (!rules.onto || way.trunk) return;
+  const std::int32_t of_node = rules.acts == Acts::on_nearest_node ? way.node : kNobody;
+  const std::int32_t attractor = nearestWaiting(front.attractors, at, kEverywhere, of_node);
+  if (attractor != kNobody && front.attractors.at(attractor) == at)
+    end(front.attractors, attractor, Fate::taken, front.nodes, front.pulls);
+}
+
+void giveUp(Front& front, std::int32_t node, const FrontRules& rules) {
+  letGo(front.attractors, node, front.nodes, rules.influence, front.pulls);
+}
+
+void keepForLater(Front& front, std::int32_t node) {
+  setGait(front, asIndex(node), kNobody, Gait::none);
+}
+
+Fates fatesOf(const Front& front) {
+  Fates fates;
+  for (const std::int32_t fate : front.attractors.fate) {
+    switch (static_cast<Fate>(fate)) {
+      case Fate::waiting: ++fates.waiting; break;
+      case Fate::reached: ++fates.reached; break;
+      case Fate::given_up: ++fates.given_up; break;
+      case Fate::taken: ++fates.taken; break;
+    }
+  }
+  return fates;
+}
+
+}  // namespace espalier::rules

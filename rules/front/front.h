@@ -1,0 +1,99 @@
+#pragma once
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "rules/front/attractors.h"
+
+/// The front of space colonization (Runions et al. 2007; Tanaka et al. 2022, section 3; ours where they leave
+/// it open). In each iteration every node that attractors act on sends a new one a step their way; then
+/// attractors go over to nodes that have come nearer, and those that were reached end.
+///
+/// No stalls: a node that was pulled by the same attractors when it last grew would only grow the same again.
+/// So would one that is pulled evenly from all sides. Such a node goes straight for its nearest attractor; if
+/// even so the same ones pull it still, or no step leads nearer as it is within half a step, that attractor
+/// is given up.
+///
+/// The trunk: a plant that no attractor has been in reach of yet grows straight up (or down) as long as that
+/// leads nearer to the nearest attractor, and else towards it.
+namespace espalier::rules {
+
+/// Who chooses whom.
+enum class Acts {
+  on_nearest_node,  ///< each attractor pulls the node nearest to it (Runions)
+  /// Each node picks the attractor that is nearest to it (Tanaka); of those that pick the same, the nearest
+  /// grows towards it, once.
+  on_every_node
+};
+
+struct FrontRules {
+  double step = 1.0;       ///< D, above 0
+  double influence = 1.0;  ///< R_m: an attractor acts on nodes that are nearer than this
+  double kill = 0.0;       ///< D_k: an attractor ends when a node is nearer than this
+  Acts acts = Acts::on_nearest_node;
+  bool onto = false;      ///< new nodes stand on attractors, which are used up by it (Tanaka 4.2)
+  /// A node is a start again and again (Tanaka, figure 6): it grows towards each attractor that acts on it;
+  /// with on_every_node, all that pick an attractor grow towards it, which is many.
+  bool repeated = false;
+};
+
+/// How a node grew when it last did.
+enum class Gait : std::int32_t { none, pulled, straight };
+
+/// All that the front remembers, in plain arrays. A node's number is its place in `nodes`: the older, the
+/// lower.
+struct Front {
+  Attractors attractors;
+  std::vector<sim::Vec3> nodes;
+  Pulls pulls;
+  std::vector<std::int32_t> tried;  ///< how many attractors pulled it when it last grew; with on_every_node
+                                    ///< the number of the one that it picks, or kNobody
+  std::vector<std::int32_t> gait;   ///< Gait
+  // With on_every_node, by the attractors' numbers: the nearest of those that pick it, and how far that is.
+  std::vector<std::int32_t> picker;
+  std::vector<double> picked2;
+};
+
+/// Where a node would go.
+struct Way {
+  std::int32_t node = 0;
+  std::uint32_t number = 0;           ///< which of its ways
+  sim::Vec3 direction{0.0};           ///< unit
+  std::int32_t attractor = kNobody;   ///< its number, if it goes for one alone
+  bool trunk = false;                 ///< towards a crown that is not in reach yet
+};
+
+Front frontOf(std::span<const sim::Vec3> attractors);
+
+/// Adds nodes, in their order, and lets the attractors meet them.
+void join(Front& front, std::span<const sim::Vec3> nodes, const FrontRules& rules);
+
+/// The ways of those of the nodes on which something acts, in their order; `active`, ascending, loses the
+/// others. Nodes that stall are dealt with.
+std::vector<Way> waysOf(Front& front, std::vector<std::int32_t>& active, const FrontRules& rules);
+
+/// The way of a plant that nothing was in reach of, from its newest node; none (node is kNobody) where an
+/// attractor is in reach now, none waits any more, or no step leads nearer.
+Way trunkWay(const Front& front, std::int32_t tip, const FrontRules& rules);
+
+/// Where a way ends that is gone in a direction of its own or another: a step farther, or with rules.onto on
+/// the attractor of its node that is nearest to there.
+sim::Vec3 endOfWay(const Front& front, const Way& way, sim::Vec3 direction, const FrontRules& rules);
+
+/// A node stands where this way ends: the attractor there is used up, if there is one. To be called before
+/// the node joins.
+void taken(Front& front, const Way& way, sim::Vec3 end, const FrontRules& rules);
+
+/// A node cannot grow any more: what it was pulled by waits for the next that comes within reach.
+void giveUp(Front& front, std::int32_t node, const FrontRules& rules);
+
+/// A node has not grown though it could: it will try the same again.
+void keepForLater(Front& front, std::int32_t node);
+
+/// How many attractors there are of each Fate.
+struct Fates {
+  std::size_t waiting = 0, reached = 0, given_up = 0, taken = 0;
+};
+Fates fatesOf(const Front& front);
+
+}  // namespace espalier::rules

@@ -1,0 +1,87 @@
+#include "tests/rules/front/definition.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "tests/rules/front/points.h"
+
+namespace espalier {
+namespace {
+
+using rules::Acts;
+using rules::FrontRules;
+using sim::Vec3;
+
+void expectTheDefinition(const std::vector<Vec3>& attractors, const std::vector<Vec3>& starts,
+                         const FrontRules& rules, int iterations, std::size_t least = 2) {
+  const rules::Colony fast = rules::colonize(attractors, starts, rules, iterations);
+  testing::Definition plain(attractors, starts, rules);
+  int done = 0;
+  while (done < iterations && plain.step()) ++done;
+  ASSERT_EQ(fast.position.size(), plain.nodes.size()) << "after " << fast.iterations << " and " << done;
+  for (std::size_t n = 0; n < plain.nodes.size(); ++n) {
+    ASSERT_EQ(fast.position[n], plain.nodes[n]) << "node " << n << " of " << plain.nodes.size();
+    ASSERT_EQ(fast.parent[n], plain.parent[n]) << "node " << n;
+  }
+  EXPECT_GE(plain.nodes.size(), least);
+  EXPECT_EQ(fast.fates.waiting,
+            static_cast<std::size_t>(std::count(plain.waits.begin(), plain.waits.end(), true)));
+}
+
+const Vec3 kCrown{0, 5, 0}, kHalf{3, 3, 3};
+
+TEST(FrontDefinition, IsMetNodeForNode) {
+  for (const int count : {1, 2, 3, 10, 60, 400}) {
+    for (std::uint64_t stream = 0; stream < 3; ++stream) {
+      SCOPED_TRACE(::testing::Message() << count << " attractors, stream " << stream);
+      expectTheDefinition(testing::inBox(stream, count, kCrown, kHalf), {{0, 0, 0}}, {0.2, 2.5, 0.3}, 300);
+    }
+  }
+}
+
+TEST(FrontDefinition, IsMetByTwoThousandAttractors) {
+  expectTheDefinition(testing::inBox(7, 2000, kCrown, kHalf), {{0, 1, 0}}, {0.2, 1.5, 0.25}, 200, 4000);
+}
+
+TEST(FrontDefinition, IsMetByTreesThatCompete) {
+  expectTheDefinition(testing::inBox(1, 500, kCrown, kHalf), {{-2, 0, 0}, {2, 0, 0}, {0, 9, 1}},
+                      {0.25, 1.5, 0.3}, 200, 500);
+}
+
+// Where a step is longer than twice the kill distance, attractors can be stepped over to and fro.
+TEST(FrontDefinition, IsMetWhereStepsAreTooLong) {
+  for (const double kill : {0.0, 0.05, 0.2})
+    expectTheDefinition(testing::inBox(2, 150, kCrown, kHalf), {{0, 0, 0}}, {0.6, 3.0, kill}, 400, 300);
+}
+
+TEST(FrontDefinition, IsMetInEachReading) {
+  const std::vector<Vec3> attractors = testing::inBox(3, 120, kCrown, kHalf);
+  for (const Acts acts : {Acts::on_nearest_node, Acts::on_every_node}) {
+    for (const bool onto : {false, true}) {
+      for (const bool repeated : {false, true}) {
+        if (acts == Acts::on_every_node && repeated && !onto) continue;  // too many: below
+        SCOPED_TRACE(::testing::Message() << "every " << (acts == Acts::on_every_node) << " onto " << onto
+                                          << " repeated " << repeated);
+        expectTheDefinition(attractors, {{0, 0, 0}, {1, 1, 0}}, {0.3, 2.0, 0.35, acts, onto, repeated}, 200, 90);
+      }
+    }
+  }
+  expectTheDefinition(testing::inBox(4, 8, kCrown, kHalf), {{0, 0, 0}},
+                      {0.5, 4.0, 0.5, Acts::on_every_node, false, true}, 25, 100);
+}
+
+// On a lattice many are equally near.
+TEST(FrontDefinition, IsMetWhereManyAreEquallyNear) {
+  std::vector<Vec3> lattice;
+  for (int x = -4; x <= 4; ++x) {
+    for (int y = 1; y <= 6; ++y) {
+      for (int z = -4; z <= 4; ++z) lattice.emplace_back(x, y, z);
+    }
+  }
+  for (const Acts acts : {Acts::on_nearest_node, Acts::on_every_node})
+    expectTheDefinition(lattice, {{0, 0, 0}, {0.5, 0, 0}}, {0.5, 2.5, 0.5, acts}, 100, 400);
+}
+
+}  // namespace
+}  // namespace espalier

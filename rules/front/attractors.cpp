@@ -25,6 +25,10 @@ std::size_t asIndex(std::int32_t i) {
   return static_cast<std::size_t>(i);
 }
 
+bool before(sim::Vec3 a, sim::Vec3 b) {
+  return a.x != b.x ? a.x < b.x : a.y != b.y ? a.y < b.y : a.z < b.z;
+}
+
 /// Every third bit, from bit 0 on.
 std::uint64_t spread(std::uint64_t v) {
   v = (v | v << 32) & 0x1f00000000ffffULL;
@@ -51,8 +55,10 @@ std::vector<Keyed> alongTheCurve(std::span<const sim::Vec3> places) {
                     spread(static_cast<std::uint64_t>(at.z)) << 2,
                 static_cast<std::int32_t>(i)};
   }
-  std::sort(keyed.begin(), keyed.end(), [](const Keyed& a, const Keyed& b) {
-    return a.morton != b.morton ? a.morton < b.morton : a.number < b.number;
+  std::sort(keyed.begin(), keyed.end(), [&](const Keyed& a, const Keyed& b) {
+    if (a.morton != b.morton) return a.morton < b.morton;
+    const sim::Vec3 at = places[asIndex(a.number)], other = places[asIndex(b.number)];
+    return at != other ? before(at, other) : a.number < b.number;
   });
   return keyed;
 }
@@ -315,19 +321,19 @@ void meet(Attractors& attractors, std::span<const sim::Vec3> nodes, std::int32_t
 
 namespace {
 
+/// What is sought: those of one node alone, if it is not kNobody, and not one that is left out.
+struct Sought {
+  std::int32_t of_node = kNobody, but = kNobody;
+};
 struct Nearest {
   double distance2;
   std::int32_t at = kNobody;
 };
 
-bool before(sim::Vec3 a, sim::Vec3 b) {
-  return a.x != b.x ? a.x < b.x : a.y != b.y ? a.y < b.y : a.z < b.z;
-}
-
-void seek(const Attractors& in, std::size_t node, sim::Vec3 to, std::int32_t of_node, Nearest& best) {
+void seek(const Attractors& in, std::size_t node, sim::Vec3 to, const Sought& sought, Nearest& best) {
   if (in.farthest2[node] < 0.0) return;
   for (std::int32_t i = in.first[node]; i < in.first[node] + in.waiting[node]; ++i) {
-    if (of_node != kNobody && in.nearest[asIndex(i)] != of_node) continue;
+    if (i == sought.but || (sought.of_node != kNobody && in.nearest[asIndex(i)] != sought.of_node)) continue;
     const double away2 = distance2(in.at(i), to);
     if (away2 < best.distance2 ||
         (away2 == best.distance2 && best.at != kNobody && before(in.at(i), in.at(best.at))))
@@ -341,7 +347,7 @@ void seek(const Attractors& in, std::size_t node, sim::Vec3 to, std::int32_t of_
   }
   std::sort(order.begin(), order.begin() + static_cast<std::ptrdiff_t>(count));
   for (std::size_t i = 0; i < count && order[i].first <= best.distance2; ++i)
-    seek(in, order[i].second, to, of_node, best);
+    seek(in, order[i].second, to, sought, best);
 }
 
 /// The child of a tree node that holds an attractor.
@@ -390,7 +396,13 @@ std::vector<std::int32_t> waitingFor(const Attractors& attractors, std::int32_t 
 
 std::int32_t nearestWaiting(const Attractors& attractors, sim::Vec3 to, double within, std::int32_t of_node) {
   Nearest best{within * within};
-  if (!attractors.first.empty()) seek(attractors, 0, to, of_node, best);
+  if (!attractors.first.empty()) seek(attractors, 0, to, {of_node, kNobody}, best);
+  return best.at;
+}
+
+std::int32_t nearestOther(const Attractors& attractors, std::int32_t at) {
+  Nearest best{kFar};
+  seek(attractors, 0, attractors.at(at), {kNobody, at}, best);
   return best.at;
 }
 

@@ -18,6 +18,8 @@ enum class Fate : std::int32_t {
 };
 
 inline constexpr std::int32_t kNobody = -1;
+/// The most attractors in a leaf of their tree.
+inline constexpr std::int32_t kMostInLeaf = 32;
 
 /// A squared distance whose bits do not change when axes are exchanged or turned round.
 double distance2(sim::Vec3 a, sim::Vec3 b);
@@ -75,6 +77,9 @@ void meet(Attractors& attractors, std::span<const sim::Vec3> nodes, std::int32_t
 /// Equally near ones by their places: the least x, then y, then z. Its index, or kNobody.
 std::int32_t nearestWaiting(const Attractors& attractors, sim::Vec3 to, double within,
                             std::int32_t of_node = kNobody);
+
+/// The attractor that is nearest to one of them, of all that wait. Indices; kNobody where there is but one.
+std::int32_t nearestOther(const Attractors& attractors, std::int32_t at);
 
 /// The attractors that wait for a node which stands at `at`, nearer to it than `within`, by their places: the
 /// least x first, then y, then z. Their indices.

@@ -21,15 +21,6 @@ void requireFinite(std::span<const sim::Vec3> places, const char* what) {
 
 }  // namespace
 
-void requireSound(const FrontRules& rules) {
-  const auto require = [](bool good, const char* what, double is, const char* expected) {
-    if (!good) throw sim::InputError(fmt::format("the {} is {}; expected {}", what, is, expected));
-  };
-  require(std::isfinite(rules.step) && rules.step > 0.0, "step", rules.step, "a number above 0");
-  require(rules.influence > 0.0, "influence radius", rules.influence, "a number above 0");
-  require(std::isfinite(rules.kill) && rules.kill >= 0.0, "kill distance", rules.kill, "a number from 0 on");
-}
-
 Colony colonize(std::span<const sim::Vec3> attractors, std::span<const sim::Vec3> starts,
                 const FrontRules& rules, int iterations) {
   requireSound(rules);
@@ -56,7 +47,7 @@ Colony colonize(std::span<const sim::Vec3> attractors, std::span<const sim::Vec3
     std::vector<sim::Vec3> ends;
     for (const Way& way : ways) ends.push_back(endOfWay(front, way, way.direction, rules));
     for (std::size_t i = 0; i < ways.size(); ++i) {
-      taken(front, ways[i], ends[i], rules);
+      if (!ways[i].trunk) taken(front, ways[i].node, ends[i], rules);
       const auto node = static_cast<std::int32_t>(colony.parent.size());
       colony.parent.push_back(ways[i].node);
       colony.born.push_back(colony.iterations);

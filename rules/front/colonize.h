@@ -24,9 +24,6 @@ struct Colony {
 Colony colonize(std::span<const sim::Vec3> attractors, std::span<const sim::Vec3> starts,
                 const FrontRules& rules, int iterations);
 
-/// Throws sim::InputError as colonize does.
-void requireSound(const FrontRules& rules);
-
 /// Why growth ended, in words.
 std::string endingOf(const Fates& fates, bool iterations_left);
 

@@ -1,9 +1,11 @@
 #include "rules/front/front.h"
 
+#include <fmt/format.h>
+
 #include <cmath>
 #include <limits>
 
-#include "sim/base/parallel.h"
+#include "sim/base/error.h"
 
 namespace espalier::rules {
 namespace {
@@ -196,9 +198,9 @@ sim::Vec3 endOfWay(const Front& front, const Way& way, sim::Vec3 direction, cons
   return front.attractors.at(at);
 }
 
-void taken(Front& front, const Way& way, sim::Vec3 at, const FrontRules& rules) {
-  if (!rules.onto || way.trunk) return;
-  const std::int32_t of_node = rules.acts == Acts::on_nearest_node ? way.node : kNobody;
+void taken(Front& front, std::int32_t from, sim::Vec3 at, const FrontRules& rules) {
+  if (!rules.onto) return;
+  const std::int32_t of_node = rules.acts == Acts::on_nearest_node ? from : kNobody;
   const std::int32_t attractor = nearestWaiting(front.attractors, at, kEverywhere, of_node);
   if (attractor != kNobody && front.attractors.at(attractor) == at)
     end(front.attractors, attractor, Fate::taken, front.nodes, front.pulls);
@@ -210,6 +212,22 @@ void giveUp(Front& front, std::int32_t node, const FrontRules& rules) {
 
 void keepForLater(Front& front, std::int32_t node) {
   setGait(front, asIndex(node), kNobody, Gait::none);
+}
+
+void requireNodes(const Front& front, std::span<const std::int32_t> numbers) {
+  for (const std::int32_t number : numbers) {
+    if (number < 0 || asIndex(number) >= front.nodes.size())
+      throw sim::BrokenContract("a front was asked for a node that it has not");
+  }
+}
+
+void requireSound(const FrontRules& rules) {
+  const auto require = [](bool good, const char* what, double is, const char* expected) {
+    if (!good) throw sim::InputError(fmt::format("the {} is {}; expected {}", what, is, expected));
+  };
+  require(std::isfinite(rules.step) && rules.step > 0.0, "step", rules.step, "a number above 0");
+  require(rules.influence > 0.0, "influence radius", rules.influence, "a number above 0");
+  require(std::isfinite(rules.kill) && rules.kill >= 0.0, "kill distance", rules.kill, "a number from 0 on");
 }
 
 Fates fatesOf(const Front& front) {

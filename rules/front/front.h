@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "rules/front/attractors.h"
+#include "rules/language/rule_set.h"
 
 /// The front of space colonization (Runions et al. 2007; Tanaka et al. 2022, section 3; ours where they leave
 /// it open). In each iteration every node that attractors act on sends a new one a step their way; then
@@ -17,14 +18,6 @@
 /// The trunk: a plant that no attractor has been in reach of yet grows straight up (or down) as long as that
 /// leads nearer to the nearest attractor, and else towards it.
 namespace espalier::rules {
-
-/// Who chooses whom.
-enum class Acts {
-  on_nearest_node,  ///< each attractor pulls the node nearest to it (Runions)
-  /// Each node picks the attractor that is nearest to it (Tanaka); of those that pick the same, the nearest
-  /// grows towards it, once.
-  on_every_node
-};
 
 struct FrontRules {
   double step = 1.0;       ///< D, above 0
@@ -80,15 +73,21 @@ Way trunkWay(const Front& front, std::int32_t tip, const FrontRules& rules);
 /// the attractor of its node that is nearest to there.
 sim::Vec3 endOfWay(const Front& front, const Way& way, sim::Vec3 direction, const FrontRules& rules);
 
-/// A node stands where this way ends: the attractor there is used up, if there is one. To be called before
-/// the node joins.
-void taken(Front& front, const Way& way, sim::Vec3 end, const FrontRules& rules);
+/// A node stands at the end of a way from another: with rules.onto the attractor there is used up. To be
+/// called before the new one joins.
+void taken(Front& front, std::int32_t from, sim::Vec3 end, const FrontRules& rules);
 
 /// A node cannot grow any more: what it was pulled by waits for the next that comes within reach.
 void giveUp(Front& front, std::int32_t node, const FrontRules& rules);
 
 /// A node has not grown though it could: it will try the same again.
 void keepForLater(Front& front, std::int32_t node);
+
+/// Throws BrokenContract for a number that no node has.
+void requireNodes(const Front& front, std::span<const std::int32_t> numbers);
+/// Throws sim::InputError for lengths that are no numbers, a step and an influence radius of 0 or less, and a
+/// kill distance below 0.
+void requireSound(const FrontRules& rules);
 
 /// How many attractors there are of each Fate.
 struct Fates {

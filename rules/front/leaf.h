@@ -3,12 +3,13 @@
 #include <cstdint>
 #include <span>
 
+#include "rules/front/attractors.h"
 #include "sim/base/vec.h"
 
 namespace espalier::rules {
 
 /// The most attractors that a leaf of their tree holds.
-inline constexpr std::size_t kLeaf = 32;
+inline constexpr std::size_t kLeaf = kMostInLeaf;
 
 /// Points, coordinate by coordinate.
 struct PointList {

@@ -5,20 +5,12 @@
 #include <cmath>
 #include <limits>
 
-#include "rules/growth/ways.h"
 #include "sim/sense/feelers.h"
 
 namespace espalier::rules {
 namespace {
 
 using sim::Outcome;
-
-/// What the rules say to a segment that has room.
-Outcome judged(const RuleSet& rules, double proximity_vx) {
-  if (proximity_vx > rules.require.proximity_max.number) return Outcome::too_far;
-  if (proximity_vx < rules.require.proximity_min.number) return Outcome::too_near;
-  return Outcome::grown;
-}
 
 /// Bits below a number of at most 64.
 std::uint64_t below(int number) {
@@ -53,13 +45,17 @@ int reachOf(const Ways& ways) {
 
 }  // namespace
 
+Outcome judged(const RuleSet& rules, double proximity_vx) {
+  if (proximity_vx > rules.require.proximity_max.number) return Outcome::too_far;
+  if (proximity_vx < rules.require.proximity_min.number) return Outcome::too_near;
+  return Outcome::grown;
+}
+
 std::optional<Candidate> bestTrial(const sim::SiteView& view, const RuleSet& rules,
-                                   const Surroundings& around, const Senses& senses,
-                                   const sim::RandomKey& key, unsigned set, sim::Proposal& proposal) {
-  const RandomTree& tree = rules.random_tree;
-  const sim::Passage passage = rules.require.clear ? sim::Passage::around : sim::Passage::through;
+                                   const Surroundings& around, const Ways& ways, const Trials& trials,
+                                   sim::Proposal& proposal) {
+  const sim::Passage passage = trials.passage;
   const int plant = sim::numberOf(view.world, view.plant);
-  const Ways ways = waysOf(rules, around, senses, key, set, view.world.frame().size);
   thread_local sim::Room room;  // it keeps its memory
   sim::roomAround(view.world, around.voxel, reachOf(ways), around.attachment, passage, plant, room);
   std::optional<Candidate> best;
@@ -69,12 +65,12 @@ std::optional<Candidate> bestTrial(const sim::SiteView& view, const RuleSet& rul
   sim::Offsets ends;
   sim::Felt felt;
   // Without a preference any good one will do.
-  const int enough = rules.prefer.has_proximity ? tree.trials_min : 1;
+  const int enough = trials.first + (rules.prefer.has_proximity ? trials.min : 1);
   // Where any good one will do, one of the first mostly does.
   constexpr int kFew = 16;
-  for (int first = 0; first < tree.trials_max && !(best && first >= enough);) {
+  for (int first = trials.first; first < trials.max && !(best && first >= enough);) {
     // Trials are made as if one by one: what is felt ahead of the one that ends them counts for nothing.
-    const int until = first >= enough ? tree.trials_max : std::max(enough, std::min(kFew, tree.trials_max));
+    const int until = first >= enough ? trials.max : std::max(enough, std::min(kFew, trials.max));
     const int ahead = std::min<int>(until - first, sim::Offsets::kMost);
     trialEnds(ways, static_cast<unsigned>(first), static_cast<std::size_t>(ahead), ends);
     sim::feel(view.world, room, around.at_vx, ends, static_cast<std::size_t>(ahead), felt);
@@ -93,7 +89,7 @@ std::optional<Candidate> bestTrial(const sim::SiteView& view, const RuleSet& rul
       if (score < best_score) {
         best_score = score;
         best = Candidate{sim::endOf(around.at_vx, ends, n), {}, {}, passage, proximity_vx};
-        best_trial = first + i;
+        best_trial = first + i - trials.first;
       }
     }
     countFailed(felt, count, proposal.trials);
@@ -105,6 +101,16 @@ std::optional<Candidate> bestTrial(const sim::SiteView& view, const RuleSet& rul
   sim::tileSegment(around.at_vx, best->to_vx, best->passes);
   sim::fit(view.world, best->passes, around.attachment, passage, plant, best->takes);
   return best;
+}
+
+std::optional<Candidate> bestStep(const sim::SiteView& view, const RuleSet& rules,
+                                  const Surroundings& around, const Senses& senses,
+                                  const sim::RandomKey& key, unsigned set, sim::Proposal& proposal) {
+  const RandomTree& tree = rules.random_tree;
+  return bestTrial(
+      view, rules, around, waysOf(rules, around, senses, key, set, view.world.frame().size),
+      {0, tree.trials_min, tree.trials_max, rules.require.clear ? sim::Passage::around : sim::Passage::through},
+      proposal);
 }
 
 }  // namespace espalier::rules

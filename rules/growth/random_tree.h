@@ -2,6 +2,7 @@
 #include <optional>
 
 #include "rules/growth/senses.h"
+#include "rules/growth/ways.h"
 #include "rules/language/rule_set.h"
 #include "sim/grow/process.h"
 
@@ -22,11 +23,28 @@ struct Candidate {
   double proximity_vx = 0.0;                    ///< mean distance from the scene along it
 };
 
+/// What the rules say to a segment that has room.
+sim::Outcome judged(const RuleSet& rules, double proximity_vx);
+
+/// How hard a site tries.
+struct Trials {
+  int first = 0;  ///< the first trial's number
+  int min = 1;    ///< before the best one is taken, where rules prefer one
+  int max = 1;    ///< before it gives up
+  sim::Passage passage = sim::Passage::around;
+};
+
 /// The best of a site's trials under one rule set, if there is a good one; counts them all in `proposal`, and
-/// records each once if the view says so. `set` numbers the rule sets that one site tries, from 0. Trials are
-/// felt along many at a time; they count as if they were made one by one.
+/// records each once if the view says so. Trials are felt along many at a time; they count as if they were
+/// made one by one.
 std::optional<Candidate> bestTrial(const sim::SiteView& view, const RuleSet& rules,
-                                   const Surroundings& around, const Senses& senses,
-                                   const sim::RandomKey& key, unsigned set, sim::Proposal& proposal);
+                                   const Surroundings& around, const Ways& ways, const Trials& trials,
+                                   sim::Proposal& proposal);
+
+/// Greene's walk: the same for a tip or a side under one rule set. `set` numbers the rule sets that one site
+/// tries, from 0.
+std::optional<Candidate> bestStep(const sim::SiteView& view, const RuleSet& rules,
+                                  const Surroundings& around, const Senses& senses,
+                                  const sim::RandomKey& key, unsigned set, sim::Proposal& proposal);
 
 }  // namespace espalier::rules

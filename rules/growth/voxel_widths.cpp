@@ -46,6 +46,10 @@ void convert(RuleSet& rules, double voxel_m) {
   for (Distance* distance : {&rules.bias.twist_radius, &rules.require.proximity_min,
                              &rules.require.proximity_max, &rules.prefer.proximity, &rules.stem_radius})
     convert(*distance, voxel_m);
+  for (std::optional<Distance>* distance :
+       {&rules.colonization.step, &rules.colonization.influence, &rules.colonization.kill}) {
+    if (*distance) convert(**distance, voxel_m);
+  }
   for (Element& element : rules.elements) {
     if (element.size_metres) convert(element.size, voxel_m);
     element.size_metres = false;

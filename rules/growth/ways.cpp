@@ -145,10 +145,12 @@ HWY_INLINE Direction bent(Direction direction, const Pull& pull, Numbers& number
 /// Of half the cone's angle. `narrow`: all trials are before those that wander farther and farther.
 HWY_INLINE F cosineOfWander(const Ways& ways, bool narrow, hn::Vec<Whole> trial, Numbers& numbers) {
   F wander = numbers.value(ways.wander_deg, TrialSlot::wander);
-  if (!narrow) {
+  if (narrow) {
+    if (ways.narrowly != 1.0f) wander = hn::Mul(set(ways.narrowly), wander);
+  } else {
     const F beyond = hn::ConvertTo(Floats(), hn::Sub(trial, hn::Set(Whole(), ways.narrow - 1)));
     const F share = hn::Div(beyond, set(static_cast<float>(std::max(1, ways.widest - ways.narrow))));
-    wander = hn::Mul(hn::Add(set(1.0f), hn::Max(set(0.0f), share)), wander);
+    wander = hn::Mul(hn::Add(set(ways.narrowly), hn::Max(set(0.0f), share)), wander);
   }
   return circle(hn::Mul(hn::Min(set(180.0f), wander), set(1.0f / 360))).cosine;
 }
@@ -234,6 +236,12 @@ Ways waysOf(const RuleSet& rules, const Surroundings& around, const Senses& sens
   }
   ways.widest = tree.trials_max;
   ways.length_vx = spreadOf(tree.length.value, senses.circumstance);
+  bendBy(rules, around, senses, world_size, ways);
+  return ways;
+}
+
+void bendBy(const RuleSet& rules, const Surroundings& around, const Senses& senses, sim::Voxel world_size,
+            Ways& ways) {
   const auto pull = [&](sim::Vec3 towards, const Value& weight, TrialSlot slot) {
     const Spread spread = spreadOf(weight, senses.circumstance);
     if (towards == sim::Vec3(0.0) || (spread.low == 0.0f && spread.span == 0.0f)) return;
@@ -246,7 +254,6 @@ Ways waysOf(const RuleSet& rules, const Surroundings& around, const Senses& sens
   pull(-around.away, rules.bias.toward, TrialSlot::toward);
   pull(senses.twist, rules.bias.twist, TrialSlot::twist);
   for (int axis = 0; axis < 3; ++axis) ways.flat[static_cast<std::size_t>(axis)] = world_size[axis] == 1;
-  return ways;
 }
 
 void trialEnds(const Ways& ways, unsigned first, std::size_t count, sim::Offsets& ends) {

@@ -48,8 +48,10 @@ struct Ways {
   sim::Vec3f axis{0, 1, 0};  ///< unit: the limb's way, or a seed's
   bool branch = false;       ///< leaves the axis at `side_angle_deg`, on a side by chance, before it wanders
   Spread side_angle_deg{}, wander_deg{};
-  /// Trials from `narrow` on wander farther and farther, up to twice the angle for trial `widest` - 1.
+  /// Trials below `narrow` wander up to `narrowly` times the angle; from there on farther and farther, up to
+  /// once the angle more for trial `widest` - 1.
   int narrow = 0, widest = 0;
+  float narrowly = 1.0f;
   std::array<Pull, 6> pulls;  ///< in this order; only those that do anything
   std::size_t pull_count = 0;
   Spread length_vx;
@@ -60,6 +62,10 @@ struct Ways {
 /// the rule sets that one site tries, from 0.
 Ways waysOf(const RuleSet& rules, const Surroundings& around, const Senses& senses, const sim::RandomKey& key,
             unsigned set, sim::Voxel world_size);
+
+/// What a rule set's biases bend all trials of a site by, and the axes along which nothing may move.
+void bendBy(const RuleSet& rules, const Surroundings& around, const Senses& senses, sim::Voxel world_size,
+            Ways& ways);
 
 /// Ends of the trials `first` .. `first` + count - 1, by their offsets from where the site is.
 void trialEnds(const Ways& ways, unsigned first, std::size_t count, sim::Offsets& ends);

@@ -51,6 +51,38 @@ std::shared_ptr<const Table> randomTreeKeys() {
       .shared();
 }
 
+std::shared_ptr<const Table> colonizationKeys() {
+  const auto derived = [](std::string meaning) {
+    return About{.unit = kVoxels,
+                 .limits = {0.0, 1e6, true},
+                 .meaning = std::move(meaning) +
+                            " Without it, it follows from how far the attractors are apart."};
+  };
+  return TableOf<Colonization>()
+      .text("attractors", &Colonization::attractors,
+            {.meaning = "Which of the scene's attractors it grows to; plants that name the same compete.",
+             .most = 100})
+      .distance("step", &Colonization::step, derived("How far a new node stands from the one it grew from."))
+      .distance("influence", &Colonization::influence,
+                derived("An attractor acts on nodes that are nearer than this."))
+      .distance("kill", &Colonization::kill, derived("An attractor ends when a node comes nearer than this."))
+      .choice<Acts>("acts", &Colonization::acts,
+                    {{"on_nearest_node", Acts::on_nearest_node}, {"on_every_node", Acts::on_every_node}},
+                    {.meaning = "on_nearest_node: each attractor pulls the node nearest to it; on_every_node: "
+                                "each node picks the attractor nearest to it."})
+      .flag("onto", &Colonization::onto,
+            {.meaning = "New nodes stand on attractors, which are used up, in place of a step farther."})
+      .flag("repeated", &Colonization::repeated,
+            {.meaning = "A node grows towards each attractor that acts on it, in place of once towards all."})
+      .number("avoid", &Colonization::avoid_deg,
+              {.unit = kDegrees,
+               .limits = kAngle,
+               .meaning = "How far a way turns aside, at most, where something stands in it."})
+      .whole("trials", &Colonization::trials,
+             {.unit = "trials", .limits = kTrials, .meaning = "Ways that are tried then, wider and wider."})
+      .shared();
+}
+
 std::shared_ptr<const Table> biasKeys() {
   const auto weight = [](std::string meaning, std::string greene = "") {
     return About{
@@ -233,10 +265,14 @@ Table makeTable() {
           {.meaning = "The kind of this file and, if wanted, the version of the language: rules or rules/1."})
       .text("name", &RuleSet::name, {.meaning = "A name for people."})
       .base({.meaning = "A rule file to build on: what it says holds wherever this file is silent."})
-      .choice<Propagate>("propagate", &RuleSet::propagate, {{"random_tree", Propagate::random_tree}},
-                         {.meaning = "The process that grows the plant."})
+      .choice<Propagate>(
+          "propagate", &RuleSet::propagate,
+          {{"random_tree", Propagate::random_tree}, {"colonization", Propagate::colonization}},
+          {.meaning = "The process that grows the plant."})
       .section("random_tree", &RuleSet::random_tree, randomTreeKeys(),
                {.meaning = "Each tip walks at random, and nodes branch when they come of age."})
+      .section("colonization", &RuleSet::colonization, colonizationKeys(),
+               {.meaning = "Space colonization: attractors pull nodes, and end where one comes near."})
       .section("bias", &RuleSet::bias, biasKeys(),
                {.meaning = "Bends every trial: 0 not at all, 1 all the way."})
       .section("require", &RuleSet::require, requireKeys(),

@@ -104,6 +104,16 @@ void checkElements(const RuleSet& rules, const Check::Given&, const Check::Compl
   }
 }
 
+void checkColonization(const RuleSet& rules, const Check::Given& given, const Check::Complain& complain) {
+  const Colonization& front = rules.colonization;
+  if (rules.propagate == Propagate::colonization && front.attractors.empty())
+    complain("colonization", "no attractors; expected the name of some of the scene's (attractors: NAME)");
+  if (front.kill && front.influence && front.kill->metres == front.influence->metres &&
+      front.kill->number >= front.influence->number)
+    complain("colonization.kill", "kill is not less than influence: every attractor would end before it acts");
+  static_cast<void>(given);
+}
+
 }  // namespace
 
 const std::vector<Check>& ruleChecks() {
@@ -126,6 +136,7 @@ const std::vector<Check>& ruleChecks() {
               }
             }),
       check({}, checkElements),
+      check({}, checkColonization),
   };
   return checks;
 }

@@ -50,6 +50,28 @@ struct RandomTree {
   int trials_max = 300;     ///< trials before the tip gives up
 };
 
+/// Who chooses whom, of attractors and nodes.
+enum class Acts {
+  on_nearest_node,  ///< each attractor pulls the node nearest to it (Runions et al. 2007)
+  /// Each node picks the attractor that is nearest to it (Tanaka et al. 2022); of those that pick the same,
+  /// the nearest grows towards it, once.
+  on_every_node
+};
+
+/// Space colonization: attractors pull what grows their way, and end where it comes near.
+struct Colonization {
+  std::string attractors;  ///< those of the scene that have this name
+  // Where they are not given, they follow from how far the attractors are apart (rules/front/lengths.h).
+  std::optional<Distance> step;       ///< of a new node from the one that it grew from
+  std::optional<Distance> influence;  ///< attractors act on nodes that are nearer than this
+  std::optional<Distance> kill;       ///< attractors end when a node is nearer than this
+  Acts acts = Acts::on_nearest_node;
+  bool onto = false;      ///< new nodes stand on attractors
+  bool repeated = false;  ///< a node is a start for each of its attractors
+  double avoid_deg = 80.0;  ///< how far a way may turn aside where something stands in it
+  int trials = 60;          ///< ways that are tried then
+};
+
 /// How the brightest part of the sky is found.
 enum class Brightest {
   moment,  ///< the weighted sum of the directions in sight
@@ -109,12 +131,13 @@ struct RegionRule {
   std::shared_ptr<const RuleSet> rules;  ///< null: the enclosing rule set
 };
 
-enum class Propagate { random_tree };
+enum class Propagate { random_tree, colonization };
 
 struct RuleSet {
   std::string name = "unnamed";
   Propagate propagate = Propagate::random_tree;
   RandomTree random_tree;
+  Colonization colonization;
   Bias bias;
   Require require;
   Prefer prefer;

@@ -30,4 +30,12 @@ inline bool contains(Voxel size, Voxel v) {
   return v.x >= 0 && v.y >= 0 && v.z >= 0 && v.x < size.x && v.y < size.y && v.z < size.z;
 }
 
+/// Whether a place lies in a world; one that is no number does not.
+inline bool holds(Voxel size, Vec3 place_vx) {
+  for (int axis = 0; axis < 3; ++axis) {
+    if (!(place_vx[axis] >= -0.5 && place_vx[axis] < size[axis] - 0.5)) return false;
+  }
+  return true;
+}
+
 }  // namespace espalier::sim

@@ -26,6 +26,11 @@ bool Claims::allow(std::span<const Voxel> voxels, Node node, Voxel start) const 
   });
 }
 
+bool Claims::allow(std::span<const Voxel> voxels, std::size_t plant) const {
+  return std::none_of(voxels.begin(), voxels.end(),
+                      [&](Voxel v) { return taken_.at(v) && owner_.at(packed(v)).first != plant; });
+}
+
 void Claims::take(std::span<const Voxel> voxels, Node node) {
   for (const Voxel v : voxels) {
     if (!contains(taken_.size(), v)) throw BrokenContract("a process proposed a voxel outside the world");

@@ -21,6 +21,8 @@ class Claims {
   /// Whether a segment that leaves `node` at `start` may have these voxels. A branch and its limb leave their
   /// node through the same voxels: beside it they do not hinder each other.
   bool allow(std::span<const Voxel> voxels, Node node, Voxel start) const;
+  /// Whether no other plant has claimed one of these.
+  bool allow(std::span<const Voxel> voxels, std::size_t plant) const;
   /// Throws BrokenContract for a voxel outside the world.
   void take(std::span<const Voxel> voxels, Node node);
   /// Leaves the voxels that nobody has claimed.

@@ -61,14 +61,6 @@ void requireSeeds(const World& world, const std::vector<Planting>& plantings) {
   throw BrokenContract(fmt::format("the growth process of '{}' {}", planting.name, what));
 }
 
-/// Whether a place lies in a world; one that is no number does not.
-bool holds(Voxel size, Vec3 place_vx) {
-  for (int axis = 0; axis < 3; ++axis) {
-    if (!(place_vx[axis] >= -0.5 && place_vx[axis] < size[axis] - 0.5)) return false;
-  }
-  return true;
-}
-
 void requireSites(const World& world, const Planting& planting, std::span<const Plant> plants,
                   const std::vector<Site>& sites) {
   const auto place = [](const Site& site) { return std::tie(site.plant, site.node, site.number); };
@@ -139,11 +131,12 @@ Growing::Growing(World& world, std::vector<Planting> plantings, GrowthSettings s
 namespace {
 
 /// Plants as seeds: a node each, and parts in the world.
-Growth seeded(World& world, const std::vector<Planting>& plantings, bool record) {
+Growth seeded(World& world, const std::vector<Planting>& plantings, const GrowthSettings& settings) {
   requireProcesses(plantings);
   requireSeeds(world, plantings);
   Growth growth;
-  growth.recorded = record;
+  growth.commons = settings.commons;
+  growth.recorded = settings.record_attempts;
   for (const Planting& planting : plantings) {
     growth.stands.push_back({growth.plants.size(), planting.seeds.size(), {}});
     for (std::size_t i = 0; i < planting.seeds.size(); ++i) {
@@ -169,7 +162,7 @@ Growth seeded(World& world, const std::vector<Planting>& plantings, bool record)
 }  // namespace
 
 Growing::Growing(World& world, std::vector<Planting> plantings, GrowthSettings settings)
-    : Growing(world, plantings, settings, seeded(world, plantings, settings.record_attempts)) {
+    : Growing(world, plantings, settings, seeded(world, plantings, settings)) {
   for (std::size_t i = 0; i < plantings_.size(); ++i)
     plantings_[i].process->begin(view(i), growth_.stands[i].memory, growth_.commons);
 }
@@ -264,8 +257,11 @@ bool Growing::hindered(const Asked& asked, std::uint32_t before) {
   const auto& segment = asked.proposal.segment;
   if (segment && !holds(world_.frame().size, segment->to_vx))
     broken(plantings_[asked.planting], "put a node outside the world");
-  if (!segment || segment->passage != Passage::around) return false;
-  if (!claims_->allow(segment->takes, {asked.plant, asked.site.node}, voxelAt(asked.site.at_vx))) return true;
+  if (!segment || segment->passage == Passage::through) return false;
+  if (segment->passage == Passage::past_own
+          ? !claims_->allow(segment->takes, asked.plant)
+          : !claims_->allow(segment->takes, {asked.plant, asked.site.node}, voxelAt(asked.site.at_vx)))
+    return true;
   const Limb limb{latticePoint(asked.site.at_vx), latticePoint(segment->to_vx)};
   pieces_->gather(boxOf(limb.from, limb.to), before, static_cast<int>(asked.plant), *nearby_);
   return nearby_->clash(limb);
@@ -281,7 +277,7 @@ void Growing::place(Asked& asked, std::uint32_t before, std::vector<TiledVoxel>&
   if (auto& segment = asked.proposal.segment) {
     if (segment->quantities.size() != plant.skeleton.columns.size())
       broken(planting, "gave a node other quantities than its plant has columns");
-    if (segment->passage == Passage::through) claims_->keepFree(segment->takes);
+    if (segment->passage != Passage::around) claims_->keepFree(segment->takes);
     claims_->take(segment->takes, from);
     occupyWith(edit, segment->takes,
                {plant.stem_part, plant.stem_colour,

@@ -162,9 +162,9 @@ class Process {
   /// What one of them would place. Random numbers must follow from the key alone. A segment's voxels are
   /// those that sim::fit gave, in the world as it is frozen. What stands is the process's own concern: it
   /// asks sim::fit, and view.pieces for what must be exact. What is accepted before it in the same iteration
-  /// is the house's: of pieces that go around, a segment is left out (and all of its proposal with it) where
-  /// it shares a voxel with a segment or pierces an element of another plant, an element where its polygons
-  /// cross another's or a segment pierces them.
+  /// is the house's: of pieces that do not go through, a segment is left out (and all of its proposal with it)
+  /// where it shares a voxel with a segment (of another plant, if it goes past its own) or pierces an element
+  /// of another plant, an element where its polygons cross another's or a segment pierces them.
   virtual Proposal propose(const SiteView& view, const Site& site, const RandomKey& key) const = 0;
   /// Whether a proposal may stand beside those of its planting that were accepted before it in the same
   /// iteration, `accepted`, when its segment is not hindered: for what the house does not know of.

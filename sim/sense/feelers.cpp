@@ -251,7 +251,7 @@ void roomAround(const World& world, Voxel at, int reach, std::span<const Voxel> 
   const std::size_t n = (std::size_t{1} << (3 * room.side_bits)) / 64;
   room.hinders.assign(n, 0);
   room.free.assign(n, 0);
-  const std::uint64_t hinders_too = passage == Passage::around ? ~std::uint64_t{0} : 0;
+  const std::uint64_t hinders_too = passage == Passage::through ? 0 : ~std::uint64_t{0};
   for (int dx = 0; dx < across; dx += 64) {
     const int x = room.low.x + dx;
     const std::uint64_t cube = bitsBetween(x, room.low.x, room.low.x + across);
@@ -265,7 +265,8 @@ void roomAround(const World& world, Voxel at, int reach, std::span<const Voxel> 
         if (in_y && z >= 0 && z < size.z) {
           std::uint64_t stands = bitsFrom(occupied.row(y, z), x) & in_x;
           const std::uint64_t elements = stands & ~bitsFrom(solid.row(y, z), x);
-          if (elements != 0) stands &= ~world.ofPlant({x, y, z}, elements, plant);
+          const std::uint64_t yields = passage == Passage::past_own ? stands : elements;
+          if (yields != 0) stands &= ~world.ofPlant({x, y, z}, yields, plant);
           hinders = (cube & ~in_x) | (stands & hinders_too);
           free = in_x & ~stands;
         }

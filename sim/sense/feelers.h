@@ -29,7 +29,7 @@ struct Room {
   int side_bits = 0;                   ///< its side is 1 << side_bits
   bool at_rim = false;                 ///< a part of it lies outside the world
   std::vector<std::uint64_t> hinders;  ///< what a segment may not cross, all that lies outside among it
-  std::vector<std::uint64_t> free;     ///< what it would take
+  std::vector<std::uint64_t> free;     ///< what it would take, or may pass as it is its own
 };
 
 /// Finds the room for a plant's segments that reach at most `reach` voxels far along any axis (0 .. 63). See

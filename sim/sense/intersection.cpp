@@ -5,16 +5,17 @@
 namespace espalier::sim {
 
 Fit fit(const World& world, std::span<const Voxel> piece, std::span<const Voxel> attachment, Passage passage,
-        int gives_way, std::vector<Voxel>& takes) {
+        int plant, std::vector<Voxel>& takes) {
   const BitVolume &occupied = world.occupied(), &solid = world.solid();
-  const auto gives = [&](Voxel v) { return !solid.at(v) && world.part(world.partAt(v)).plant == gives_way; };
+  const auto own = [&](Voxel v) { return world.part(world.partAt(v)).plant == plant; };
   takes.clear();
   takes.reserve(piece.size());
   for (const Voxel v : piece) {
     if (!contains(occupied.size(), v)) return Fit::outside;
-    if (!occupied.at(v) || gives(v)) {
+    if (!occupied.at(v) || (!solid.at(v) && own(v))) {
       takes.push_back(v);
-    } else if (passage == Passage::around &&
+    } else if (passage == Passage::past_own ? !own(v)
+                                            : passage == Passage::around &&
                std::find(attachment.begin(), attachment.end(), v) == attachment.end()) {
       return Fit::blocked;
     }

@@ -24,4 +24,11 @@ Vec3 awayFromScene(const World& world, Voxel v) {
   return length > 1e-6 ? gradient / length : Vec3(0.0);
 }
 
+double meanProximity(const World& world, std::span<const Voxel> voxels) {
+  const NearSteps near = world.nearSteps();
+  std::int32_t sum = 0;
+  for (const Voxel v : voxels) sum += near.at(v);
+  return static_cast<float>(sum) / static_cast<float>(static_cast<std::int32_t>(voxels.size()) * NearSteps::kInVoxel);
+}
+
 }  // namespace espalier::sim

@@ -41,7 +41,7 @@ TEST(FrontDefinition, IsMetNodeForNode) {
 }
 
 TEST(FrontDefinition, IsMetByTwoThousandAttractors) {
-  expectTheDefinition(testing::inBox(7, 2000, kCrown, kHalf), {{0, 1, 0}}, {0.2, 1.5, 0.25}, 200, 4000);
+  expectTheDefinition(testing::inBox(7, 2000, kCrown, kHalf), {{0, 1, 0}}, {0.2, 1.5, 0.25}, 200, 2500);
 }
 
 TEST(FrontDefinition, IsMetByTreesThatCompete) {

@@ -140,7 +140,7 @@ TEST_F(Levels, TheBestOfManyIsTheBestOfThemOneByOne) {
       sim::Proposal proposal;
       sim::OutcomeCounts plain_trials{};
       const auto plain = tests::plainBestTrial(view, rules, around, senses, key, 0, plain_trials);
-      const auto best = bestTrial(view, rules, around, senses, key, 0, proposal);
+      const auto best = bestStep(view, rules, around, senses, key, 0, proposal);
       ASSERT_EQ(proposal.trials, plain_trials) << level << ", round " << round;
       ASSERT_EQ(best.has_value(), plain.has_value()) << level << ", round " << round;
       if (!best) continue;

@@ -1,0 +1,75 @@
+#include "rules/growth/book_site.h"
+
+#include <algorithm>
+
+#include "rules/growth/elements.h"
+
+namespace espalier::rules {
+namespace {
+
+using sim::Outcome;
+
+/// Why a set does not grow here; grown if it does, and then the proposal says what.
+Outcome tryToGrow(const sim::SiteView& view, const RuleSet& rules, const sim::Site& site,
+                  const sim::RandomKey& key, unsigned set, const RuleBook& book, const Step& step,
+                  sim::Proposal& proposal) {
+  const Exposure seen = exposureOf(*view.light);
+  const Vigour light = vigourOf(seen, rules);
+  if (light.exposure < rules.require.exposure_min) return Outcome::too_dark;
+  if (light.exposure > rules.require.exposure_max) return Outcome::too_bright;
+  const double chance = sim::Slots(key, sim::Purpose::rate, set).uniform(0);
+  if (chance * std::max(1.0, rules.light.boost) >= light.vigour) return Outcome::resting;
+
+  const Surroundings around = lookAround(view, site);
+  const Senses senses = sense(view, around, light, rules);
+  std::optional<Candidate> best = step(rules, around, senses, set, proposal);
+  if (!best) return Outcome::no_trial;
+  proposal.elements =
+      proposeElements(view, rules, around, senses, best->to_vx, best->passes, book.firstShape(rules), key);
+  proposal.segment = {best->to_vx,
+                      std::move(best->takes),
+                      best->passage,
+                      // exposure, proximity_vx, sky_exposure, sun_exposure: in the order of their names
+                      {static_cast<float>(senses.exposure), static_cast<float>(best->proximity_vx),
+                       static_cast<float>(seen.sky), static_cast<float>(seen.sun)}};
+  return Outcome::grown;
+}
+
+}  // namespace
+
+sim::Proposal proposeByBook(const sim::SiteView& view, const sim::Site& site, const sim::RandomKey& key,
+                            const RuleBook& book, const Step& step) {
+  sim::Proposal proposal;
+  const sim::Voxel at = sim::voxelAt(site.at_vx);
+  const RuleSet* rules = book.first(view.world, at);
+  proposal.outcome = Outcome::forbidden;
+  for (unsigned set = 0; rules != nullptr; ++set, rules = book.next(*rules, view.world, at)) {
+    const Outcome outcome = tryToGrow(view, *rules, site, key, set, book, step, proposal);
+    // What is told of a site that did not grow is why its first set failed, unless a later one got as far as
+    // trials.
+    if (set == 0 || outcome == Outcome::no_trial || outcome == Outcome::grown || outcome == Outcome::resting)
+      proposal.outcome = outcome;
+    if (outcome == Outcome::grown || outcome == Outcome::resting) break;
+  }
+  return proposal;
+}
+
+sim::Plant seedlingOf(const RuleBook& book) {
+  sim::Plant plant;
+  plant.shapes = book.shapes();
+  plant.stem_colour = book.top().stem_colour;
+  plant.stem_radius_vx = book.top().stem_radius.number;
+  for (const char* name : {"exposure", "proximity_vx", "sky_exposure", "sun_exposure"})
+    plant.skeleton.columns[name];
+  return plant;
+}
+
+sim::Wants wantsOf(const RuleBook& book) {
+  sim::Wants wants{.light = true};
+  forEachSet(book.top(), [&](const RuleSet& set, const std::string&) {
+    wants.sky_table = wants.sky_table || set.bias.brightest == Brightest::table;
+  });
+  return wants;
+}
+
+}  // namespace espalier::rules

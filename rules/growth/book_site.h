@@ -1,0 +1,28 @@
+#pragma once
+#include <functional>
+#include <optional>
+
+#include "rules/growth/random_tree.h"
+#include "rules/growth/rule_book.h"
+
+/// How a site grows by a rule book: the part that all processes of the rule language share.
+namespace espalier::rules {
+
+/// Where one rule set leads a site, if anywhere: `set` numbers those that one site tries, from 0. What it tried
+/// is counted in the proposal.
+using Step = std::function<std::optional<Candidate>(const RuleSet& rules, const Surroundings& around,
+                                                    const Senses& senses, unsigned set,
+                                                    sim::Proposal& proposal)>;
+
+/// The site tries the rule set that holds where it is, then those that stand by for it, each with its own
+/// senses, regions and light, and grows by the first that succeeds; where that one would rather rest, it
+/// rests. The segment carries elements, and the
+/// quantities of seedlingOf's columns.
+sim::Proposal proposeByBook(const sim::SiteView& view, const sim::Site& site, const sim::RandomKey& key,
+                            const RuleBook& book, const Step& step);
+
+/// A plant without nodes, and what must be sensed for it.
+sim::Plant seedlingOf(const RuleBook& book);
+sim::Wants wantsOf(const RuleBook& book);
+
+}  // namespace espalier::rules

@@ -1,0 +1,221 @@
+#include "rules/growth/colonization.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <tuple>
+
+#include "rules/front/lengths.h"
+#include "rules/growth/book_site.h"
+#include "rules/growth/front_memory.h"
+#include "rules/growth/front_step.h"
+#include "sim/base/error.h"
+
+namespace espalier::rules {
+namespace {
+
+using sim::Outcome;
+
+constexpr const char* kLengths = "front_lengths_vx";  // step, influence, kill
+constexpr double kShortestStep_vx = 0.1, kLongestStep_vx = 60.0;
+
+class ColonizationProcess final : public sim::Process {
+ public:
+  explicit ColonizationProcess(RuleBook book)
+      : book_(std::move(book)), wants_(wantsOf(book_)), front_(book_.top().colonization) {}
+
+  sim::Wants wants() const override { return wants_; }
+  sim::Plant seedling() const override { return seedlingOf(book_); }
+
+  void begin(const sim::StandView& stand, sim::Columns& memory, sim::Commons& commons) const override;
+  std::vector<sim::Site> due(const sim::StandView& stand, sim::Columns& memory,
+                             sim::Commons& commons) const override;
+  sim::Proposal propose(const sim::SiteView& view, const sim::Site& site,
+                        const sim::RandomKey& key) const override;
+  void settle(const sim::StandView& stand, std::span<const sim::Verdict> verdicts, sim::Columns& memory,
+              sim::Commons& commons) const override;
+  std::size_t alive(const sim::Columns& memory, const sim::Commons&) const override {
+    return countFront(memory);
+  }
+
+ private:
+  sim::Columns& home(sim::Commons& commons) const;
+  FrontRules rulesIn(const sim::Columns& memory) const;
+  FrontLengths lengths(const Attractors& attractors) const;
+
+  RuleBook book_;
+  sim::Wants wants_;
+  Colonization front_;
+};
+
+sim::Columns& ColonizationProcess::home(sim::Commons& commons) const {
+  if (const auto at = commons.find(attractorsNamed(front_.attractors)); at != commons.end()) return at->second;
+  throw sim::InputError(fmt::format("rule set '{}': there are no attractors '{}'; expected some of that name",
+                                    book_.top().name, front_.attractors));
+}
+
+FrontRules ColonizationProcess::rulesIn(const sim::Columns& memory) const {
+  const auto& lengths = sim::column<double>(memory, kLengths);
+  if (lengths.size() != 3) throw sim::BrokenContract("a front without its lengths");
+  const FrontRules rules{lengths[0], lengths[1], lengths[2], front_.acts, front_.onto, front_.repeated};
+  requireSound(rules);
+  return rules;
+}
+
+FrontLengths ColonizationProcess::lengths(const Attractors& attractors) const {
+  FrontLengths lengths;
+  const bool all_given = front_.step && front_.influence && front_.kill;
+  if (!all_given) {
+    lengths = suitableLengths(spacingOf(attractors));
+    if (lengths.step == 0.0) {
+      throw sim::InputError(fmt::format(
+          "rule set '{}': its attractors '{}' are one, or lie in one place, so that no length follows from "
+          "how far they are apart; expected colonization.step, influence and kill",
+          book_.top().name, front_.attractors));
+    }
+  }
+  if (front_.step) lengths.step = front_.step->number;
+  if (front_.influence) lengths.influence = front_.influence->number;
+  if (front_.kill) lengths.kill = front_.kill->number;
+  if (lengths.step < kShortestStep_vx || lengths.step > kLongestStep_vx) {
+    throw sim::InputError(fmt::format(
+        "rule set '{}': colonization.step is {:.3g} voxel widths{}; expected {} to {}, by another step or "
+        "voxels of another size",
+        book_.top().name, lengths.step, front_.step ? "" : ", as its attractors lie", kShortestStep_vx,
+        kLongestStep_vx));
+  }
+  return lengths;
+}
+
+void ColonizationProcess::begin(const sim::StandView& stand, sim::Columns& memory,
+                                sim::Commons& commons) const {
+  sim::Columns& columns = home(commons);
+  if (!holdsFront(columns)) {
+    const auto& places = sim::column<sim::Vec3>(columns, kAttractorPlace);
+    Front fresh = frontOf(places);
+    LentFront lent(columns);
+    lent.front = std::move(fresh);
+  }
+  LentFront lent(columns);
+  const FrontLengths found = lengths(lent.front.attractors);
+  sim::column<double>(memory, kLengths) = {found.step, found.influence, found.kill};
+  FrontMemory own;
+  std::vector<sim::Vec3> starts;
+  for (std::size_t i = 0; i < stand.plants.size(); ++i) {
+    const auto number = static_cast<std::int32_t>(lent.front.nodes.size() + i);
+    own.active.push_back({number, static_cast<std::int32_t>(i), 0});
+    starts.push_back(stand.plants[i].skeleton.position_vx.front());
+  }
+  own.trunks = own.active;
+  join(lent.front, starts, rulesIn(memory));
+  keep(own, memory);
+}
+
+std::vector<sim::Site> ColonizationProcess::due(const sim::StandView& stand, sim::Columns& memory,
+                                                sim::Commons& commons) const {
+  LentFront lent(home(commons));
+  Front& front = lent.front;
+  const FrontRules rules = rulesIn(memory);
+  FrontMemory own = frontMemory(memory, stand);
+  own.errands.clear();
+  std::vector<std::int32_t> numbers;
+  for (const FrontNode& node : own.active) numbers.push_back(node.front);
+  requireNodes(front, numbers);
+  const std::vector<Way> ways = waysOf(front, numbers, rules);
+  std::size_t kept = 0;  // of those that are still active, and of their ways
+  auto way = ways.begin();
+  for (const FrontNode& node : std::vector<FrontNode>(own.active)) {
+    if (kept == numbers.size() || numbers[kept] != node.front) continue;
+    own.active[kept++] = node;
+    for (; way != ways.end() && way->node == node.front; ++way) {
+      const auto gait = static_cast<Gait>(front.gait[static_cast<std::size_t>(node.front)]);
+      own.errands.push_back({node, way->number, gait, false, way->direction,
+                             endOfWay(front, *way, way->direction, rules)});
+    }
+  }
+  own.active.resize(kept);
+  std::erase_if(own.trunks, [&](const FrontNode& tip) {
+    requireNodes(front, {&tip.front, 1});
+    const Way up = trunkWay(front, tip.front, rules);
+    if (up.node != kNobody)
+      own.errands.push_back(
+          {tip, 0, Gait::straight, true, up.direction, endOfWay(front, up, up.direction, rules)});
+    return up.node == kNobody;
+  });
+  const auto place = [](const Errand& e) { return std::tuple(e.from.plant, e.from.node, e.number); };
+  std::sort(own.errands.begin(), own.errands.end(),
+            [&](const Errand& a, const Errand& b) { return place(a) < place(b); });
+  keep(own, memory);
+  std::vector<sim::Site> sites;
+  for (const Errand& errand : own.errands) {
+    const sim::Skeleton& skeleton = stand.plants[static_cast<std::size_t>(errand.from.plant)].skeleton;
+    sites.push_back({errand.from.plant, errand.from.node, errand.number,
+                     skeleton.position_vx[static_cast<std::size_t>(errand.from.node)]});
+  }
+  return sites;
+}
+
+sim::Proposal ColonizationProcess::propose(const sim::SiteView& view, const sim::Site& site,
+                                           const sim::RandomKey& key) const {
+  const Errand errand = errandOf(view.memory, site);
+  sim::Proposal proposal =
+      proposeByBook(view, site, key, book_,
+                    [&](const RuleSet& rules, const Surroundings& around, const Senses& senses, unsigned set,
+                        sim::Proposal& counts) {
+                      return frontStep(view, rules, around, senses, errand, key, set, counts);
+                    });
+  proposal.retire = proposal.outcome != Outcome::resting;
+  return proposal;
+}
+
+/// Whether a node did not do what it could: it will be sent the same way again.
+bool waitsForNext(const sim::Verdict& verdict) {
+  return verdict.outcome == Outcome::resting || verdict.outcome == Outcome::claimed;
+}
+
+void ColonizationProcess::settle(const sim::StandView& stand, std::span<const sim::Verdict> verdicts,
+                                 sim::Columns& memory, sim::Commons& commons) const {
+  LentFront lent(home(commons));
+  Front& front = lent.front;
+  const FrontRules rules = rulesIn(memory);
+  FrontMemory own = frontMemory(memory, stand);
+  if (own.errands.size() != verdicts.size()) throw sim::BrokenContract("a front that was told of other sites");
+  own.trunks.clear();
+  std::vector<sim::Vec3> joined;
+  std::vector<FrontNode> idle;  // unless what they sent out drew something away
+  for (std::size_t i = 0; i < verdicts.size(); ++i) {
+    const sim::Verdict& verdict = verdicts[i];
+    const Errand& errand = own.errands[i];
+    if (verdict.node != sim::kNoNode) {
+      const sim::Vec3 at = stand.plants[static_cast<std::size_t>(errand.from.plant)]
+                               .skeleton.position_vx[static_cast<std::size_t>(verdict.node)];
+      if (!errand.trunk) taken(front, errand.from.front, at, rules);
+      const FrontNode fresh{static_cast<std::int32_t>(front.nodes.size() + joined.size()), errand.from.plant,
+                            verdict.node};
+      joined.push_back(at);
+      own.active.push_back(fresh);
+      if (errand.trunk) own.trunks.push_back(fresh);
+      if (!errand.trunk && errand.gait == Gait::straight && at != errand.end_vx) idle.push_back(errand.from);
+    } else if (waitsForNext(verdict)) {
+      if (errand.trunk) own.trunks.push_back(errand.from);
+      if (!errand.trunk) keepForLater(front, errand.from.front);
+    } else if (!errand.trunk && (errand.gait == Gait::straight || verdict.outcome != Outcome::no_trial)) {
+      giveUp(front, errand.from.front, rules);
+    }
+  }
+  join(front, joined, rules);
+  for (const FrontNode& node : idle) {
+    const auto n = static_cast<std::size_t>(node.front);
+    if (front.pulls.count[n] == front.tried[n]) giveUp(front, node.front, rules);
+  }
+  own.errands.clear();
+  keep(own, memory);
+}
+
+}  // namespace
+
+std::shared_ptr<const sim::Process> makeColonization(RuleBook book) {
+  return std::make_shared<ColonizationProcess>(std::move(book));
+}
+
+}  // namespace espalier::rules

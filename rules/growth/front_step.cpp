@@ -1,0 +1,61 @@
+#include "rules/growth/front_step.h"
+
+#include <cmath>
+
+#include "sim/sense/proximity.h"
+#include "sim/tile/tiling.h"
+
+namespace espalier::rules {
+namespace {
+
+using sim::Outcome;
+
+/// The errand's own way, to the bit.
+std::optional<Candidate> theWayItself(const sim::SiteView& view, const RuleSet& rules,
+                                      const Surroundings& around, const Errand& errand, sim::Passage passage,
+                                      sim::Proposal& proposal) {
+  Candidate candidate{errand.end_vx, {}, {}, passage, 0.0};
+  Outcome outcome = Outcome::out_of_world;
+  if (sim::holds(view.world.frame().size, errand.end_vx)) {
+    sim::tileSegment(around.at_vx, errand.end_vx, candidate.passes);
+    const sim::Fit fit = sim::fit(view.world, candidate.passes, around.attachment, passage,
+                                  sim::numberOf(view.world, view.plant), candidate.takes);
+    outcome = Outcome::blocked;
+    if (fit == sim::Fit::outside) outcome = Outcome::out_of_world;
+    if (fit == sim::Fit::clear) {
+      candidate.proximity_vx = sim::meanProximity(view.world, candidate.passes);
+      outcome = judged(rules, candidate.proximity_vx);
+    }
+  }
+  ++proposal.trials[static_cast<std::size_t>(outcome)];
+  if (view.record_attempts)
+    proposal.attempts.push_back({around.at_vx, errand.end_vx, outcome, outcome == Outcome::grown});
+  return outcome == Outcome::grown ? std::optional(std::move(candidate)) : std::nullopt;
+}
+
+}  // namespace
+
+std::optional<Candidate> frontStep(const sim::SiteView& view, const RuleSet& rules,
+                                   const Surroundings& around, const Senses& senses, const Errand& errand,
+                                   const sim::RandomKey& key, unsigned set, sim::Proposal& proposal) {
+  const Colonization& front = rules.colonization;
+  const sim::Passage passage = rules.require.clear ? sim::Passage::past_own : sim::Passage::through;
+  Ways ways;
+  ways.numbers = sim::philoxInput(key, sim::Purpose::trial, set);
+  ways.axis = sim::Vec3f(errand.direction);
+  ways.length_vx = {static_cast<float>(glm::length(errand.end_vx - around.at_vx)), 0.0f};
+  ways.wander_deg = {static_cast<float>(front.avoid_deg), 0.0f};
+  ways.narrowly = 0.0f;
+  ways.narrow = 1;
+  ways.widest = front.trials;
+  if (errand.gait == Gait::pulled) bendBy(rules, around, senses, view.world.frame().size, ways);
+  int first = 0;
+  if (ways.pull_count == 0) {
+    if (auto straight = theWayItself(view, rules, around, errand, passage, proposal)) return straight;
+    first = 1;
+  }
+  if (front.onto) return std::nullopt;
+  return bestTrial(view, rules, around, ways, {first, 1, front.trials, passage}, proposal);
+}
+
+}  // namespace espalier::rules

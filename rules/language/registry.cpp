@@ -68,8 +68,8 @@ std::shared_ptr<const Table> colonizationKeys() {
       .distance("kill", &Colonization::kill, derived("An attractor ends when a node comes nearer than this."))
       .choice<Acts>("acts", &Colonization::acts,
                     {{"on_nearest_node", Acts::on_nearest_node}, {"on_every_node", Acts::on_every_node}},
-                    {.meaning = "on_nearest_node: each attractor pulls the node nearest to it; on_every_node: "
-                                "each node picks the attractor nearest to it."})
+                    {.meaning = "Whether each attractor pulls the node nearest to it, or each node picks the "
+                                "attractor nearest to it."})
       .flag("onto", &Colonization::onto,
             {.meaning = "New nodes stand on attractors, which are used up, in place of a step farther."})
       .flag("repeated", &Colonization::repeated,

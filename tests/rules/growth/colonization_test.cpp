@@ -1,11 +1,14 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <functional>
 #include <map>
+#include <set>
 
 #include "rules/front/colonize.h"
 #include "rules/growth/front_memory.h"
 #include "rules/growth/make_process.h"
+#include "rules/language/registry.h"
 #include "sim/base/error.h"
 #include "sim/base/parallel.h"
 #include "sim/grow/grow.h"
@@ -248,6 +251,43 @@ TEST(Colonization, IsTheSameOnAnyNumberOfThreadsAndInSteps) {
     while (growing.step()) {
     }
     EXPECT_EQ(sim::stateHash(world, growing.growth()), hashes[0]) << "after " << before;
+  }
+}
+
+// Each key of the section changes what grows.
+TEST(Colonization, HasNoKeyWithoutEffect) {
+  const auto hash = [](const rules::Colonization& front) {
+    rules::RuleSet rules = tree();
+    rules.colonization = front;
+    sim::World world = open();
+    tests::addBox(world, "ceiling", {20, 28, 20}, {63, 30, 63});
+    world.setLayers(4);
+    sim::GrowthSettings s = settings(crown(300));
+    sim::column<Vec3>(s.commons[rules::attractorsNamed("other")], rules::kAttractorPlace) = crown(290);
+    return sim::stateHash(world, sim::grow(world, tests::planting(world, rules, {{40, 2, 40}}, "tree"), s));
+  };
+  using Change = std::function<void(rules::Colonization&)>;
+  const std::map<std::string, Change> changes = {
+      {"attractors", [](auto& c) { c.attractors = "other"; }},
+      {"step", [](auto& c) { c.step = {2.5}; }},
+      {"influence", [](auto& c) { c.influence = {8.0}; }},
+      {"kill", [](auto& c) { c.kill = {2.0}; }},
+      {"acts", [](auto& c) { c.acts = rules::Acts::on_every_node; }},
+      {"onto", [](auto& c) { c.onto = true; }},
+      {"repeated", [](auto& c) { c.repeated = true; }},
+      {"avoid", [](auto& c) { c.avoid_deg = 20.0; }},
+      {"trials", [](auto& c) { c.trials = 3; }},
+  };
+  const rules::Colonization plain = tree().colonization;
+  std::set<std::uint64_t> hashes{hash(plain)};
+  EXPECT_FALSE(hashes.insert(hash(plain)).second);
+  const rules::Key* const section = rules::find(rules::ruleTable(), "colonization");
+  ASSERT_NE(section, nullptr);
+  for (const rules::Key& key : section->child->keys) {
+    ASSERT_TRUE(changes.contains(key.name)) << key.name << " is new: say what it changes";
+    rules::Colonization changed = plain;
+    changes.at(key.name)(changed);
+    EXPECT_TRUE(hashes.insert(hash(changed)).second) << key.name;
   }
 }
 

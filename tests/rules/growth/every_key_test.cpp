@@ -73,11 +73,21 @@ const std::map<std::string, std::string> kWithoutEffect = {
     {"espalier", "the kind of the file"},
     {"name", "for people, and for what is said of mistakes"},
     {"base", "read with the file: growth sees what came of it"},
-    {"propagate", "has one choice yet"},
+    {"propagate", "one for all sets of a plant"},
     {"stem.colour", "a plant has one stem: that of the top rule set"},
     {"stem.radius", "the same"},
     {"otherwise", "has tests of its own below"},
     {"regions", "the same"},
+    // Of a front: tests/rules/growth/colonization_test.cpp says what they change.
+    {"colonization.attractors", "another process"},
+    {"colonization.step", "the same"},
+    {"colonization.influence", "the same"},
+    {"colonization.kill", "the same"},
+    {"colonization.acts", "the same"},
+    {"colonization.onto", "the same"},
+    {"colonization.repeated", "the same"},
+    {"colonization.avoid", "the same"},
+    {"colonization.trials", "the same"},
 };
 
 /// Sets a key of a rule set by its path, as the registry says; false if it had that value already.

@@ -13,7 +13,7 @@ using sim::Outcome;
 Outcome tryToGrow(const sim::SiteView& view, const RuleSet& rules, const sim::Site& site,
                   const sim::RandomKey& key, unsigned set, const RuleBook& book, const Step& step,
                   sim::Proposal& proposal) {
-  const Exposure seen = exposureOf(*view.light);
+  const Exposure seen = view.light != nullptr ? exposureOf(*view.light) : Exposure{1.0, 1.0};
   const Vigour light = vigourOf(seen, rules);
   if (light.exposure < rules.require.exposure_min) return Outcome::too_dark;
   if (light.exposure > rules.require.exposure_max) return Outcome::too_bright;
@@ -26,12 +26,14 @@ Outcome tryToGrow(const sim::SiteView& view, const RuleSet& rules, const sim::Si
   if (!best) return Outcome::no_trial;
   proposal.elements =
       proposeElements(view, rules, around, senses, best->to_vx, best->passes, book.firstShape(rules), key);
-  proposal.segment = {best->to_vx,
-                      std::move(best->takes),
-                      best->passage,
-                      // exposure, proximity_vx, sky_exposure, sun_exposure: in the order of their names
-                      {static_cast<float>(senses.exposure), static_cast<float>(best->proximity_vx),
-                       static_cast<float>(seen.sky), static_cast<float>(seen.sun)}};
+  proposal.segment = {best->to_vx, std::move(best->takes), best->passage, {}};
+  const auto proximity_vx = static_cast<float>(best->proximity_vx);
+  if (view.light == nullptr) {
+    proposal.segment->quantities = {proximity_vx};
+  } else {  // in the order of their names
+    proposal.segment->quantities = {static_cast<float>(senses.exposure), proximity_vx,
+                                    static_cast<float>(seen.sky), static_cast<float>(seen.sun)};
+  }
   return Outcome::grown;
 }
 
@@ -54,19 +56,40 @@ sim::Proposal proposeByBook(const sim::SiteView& view, const sim::Site& site, co
   return proposal;
 }
 
+namespace {
+
+bool followsExposure(const Value& value) {
+  return value.kind == Value::Kind::curve && value.over == Over::exposure;
+}
+
+/// Whether anything that a set says depends on light.
+bool asksForLight(const RuleSet& set) {
+  const Bias& bias = set.bias;
+  const Value none = 0.0;
+  return set.require.exposure_min > 0.0 || set.require.exposure_max < 1.0 || set.light.boost != 1.0 ||
+         !(bias.light == none) || !set.elements.empty() || followsExposure(bias.up) ||
+         followsExposure(bias.gravity) || followsExposure(bias.away) || followsExposure(bias.toward) ||
+         followsExposure(bias.twist);
+}
+
+}  // namespace
+
 sim::Plant seedlingOf(const RuleBook& book) {
   sim::Plant plant;
   plant.shapes = book.shapes();
   plant.stem_colour = book.top().stem_colour;
   plant.stem_radius_vx = book.top().stem_radius.number;
-  for (const char* name : {"exposure", "proximity_vx", "sky_exposure", "sun_exposure"})
-    plant.skeleton.columns[name];
+  plant.skeleton.columns["proximity_vx"];
+  if (!wantsOf(book).light) return plant;
+  for (const char* name : {"exposure", "sky_exposure", "sun_exposure"}) plant.skeleton.columns[name];
   return plant;
 }
 
 sim::Wants wantsOf(const RuleBook& book) {
-  sim::Wants wants{.light = true};
+  // A walk's report and colours show the light that it grew in; fronts grow a hundred times as fast without.
+  sim::Wants wants{.light = book.top().propagate == Propagate::random_tree};
   forEachSet(book.top(), [&](const RuleSet& set, const std::string&) {
+    wants.light = wants.light || asksForLight(set);
     wants.sky_table = wants.sky_table || set.bias.brightest == Brightest::table;
   });
   return wants;

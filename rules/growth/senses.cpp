@@ -68,8 +68,11 @@ Vigour vigourOf(const Exposure& seen, const RuleSet& rules) {
 Senses sense(const sim::SiteView& view, const Surroundings& around, const Vigour& vigour,
              const RuleSet& rules) {
   Senses senses;
-  senses.light = rules.bias.brightest == Brightest::table ? view.sky->brightest(around.voxel)
-                                                          : unitOrZero(view.light->sky.toward);
+  if (rules.bias.brightest == Brightest::table) {
+    senses.light = view.sky->brightest(around.voxel);
+  } else if (view.light != nullptr) {
+    senses.light = unitOrZero(view.light->sky.toward);
+  }
   senses.exposure = vigour.exposure;
   senses.vigour = vigour.vigour;
   if (highest(rules.bias.twist) != 0.0 || lowest(rules.bias.twist) != 0.0) {

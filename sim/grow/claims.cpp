@@ -13,38 +13,59 @@ std::uint64_t packed(Voxel v) {
          static_cast<std::uint64_t>(v.x);
 }
 
-Voxel unpacked(std::uint64_t k) {
-  constexpr std::uint64_t kMask = (1u << 21) - 1;
-  return {static_cast<int>(k & kMask), static_cast<int>(k >> 42), static_cast<int>((k >> 21) & kMask)};
+constexpr int kMarkBits = 20;  // 128 kB of marks
+
+std::size_t markOf(std::uint64_t packed) {
+  return (packed * 0x9e3779b97f4a7c15u) >> (64 - kMarkBits);
 }
 
 }  // namespace
 
+Claims::Claims(Voxel size) : size_(size), marks_((std::size_t{1} << kMarkBits) / 64) {}
+
+bool Claims::mayBeTaken(std::uint64_t packed) const {
+  const std::size_t mark = markOf(packed);
+  return (marks_[mark / 64] >> (mark % 64) & 1) != 0;
+}
+
+/// Null where nobody took it.
+const Claims::Node* Claims::takerOf(Voxel v) const {
+  const std::uint64_t key = packed(v);
+  if (!mayBeTaken(key)) return nullptr;
+  const auto at = owner_.find(key);
+  return at == owner_.end() ? nullptr : &at->second;
+}
+
 bool Claims::allow(std::span<const Voxel> voxels, Node node, Voxel start) const {
   return std::none_of(voxels.begin(), voxels.end(), [&](Voxel v) {
-    return taken_.at(v) && !(besides(v, start) && owner_.at(packed(v)) == node);
+    const Node* const taker = takerOf(v);
+    return taker != nullptr && !(besides(v, start) && *taker == node);
   });
 }
 
 bool Claims::allow(std::span<const Voxel> voxels, std::size_t plant) const {
-  return std::none_of(voxels.begin(), voxels.end(),
-                      [&](Voxel v) { return taken_.at(v) && owner_.at(packed(v)).first != plant; });
+  return std::none_of(voxels.begin(), voxels.end(), [&](Voxel v) {
+    const Node* const taker = takerOf(v);
+    return taker != nullptr && taker->first != plant;
+  });
 }
 
 void Claims::take(std::span<const Voxel> voxels, Node node) {
   for (const Voxel v : voxels) {
-    if (!contains(taken_.size(), v)) throw BrokenContract("a process proposed a voxel outside the world");
-    taken_.set(v);
-    owner_.emplace(packed(v), node);
+    if (!contains(size_, v)) throw BrokenContract("a process proposed a voxel outside the world");
+    const std::uint64_t key = packed(v);
+    const std::size_t mark = markOf(key);
+    marks_[mark / 64] |= std::uint64_t{1} << (mark % 64);
+    owner_.emplace(key, node);
   }
 }
 
 void Claims::keepFree(std::vector<Voxel>& voxels) const {
-  std::erase_if(voxels, [&](Voxel v) { return taken_.at(v); });
+  std::erase_if(voxels, [&](Voxel v) { return takerOf(v) != nullptr; });
 }
 
 void Claims::clear() {
-  for (const auto& [voxel, node] : owner_) taken_.clear(unpacked(voxel));
+  for (const auto& [key, node] : owner_) marks_[markOf(key) / 64] = 0;
   owner_.clear();
 }
 

@@ -5,7 +5,6 @@
 #include <utility>
 #include <vector>
 
-#include "sim/base/bits.h"
 #include "sim/grow/plant.h"
 
 namespace espalier::sim {
@@ -16,7 +15,7 @@ class Claims {
   /// A node of any plant.
   using Node = std::pair<std::size_t, NodeId>;
 
-  explicit Claims(Voxel size) : taken_(size) {}
+  explicit Claims(Voxel size);
 
   /// Whether a segment that leaves `node` at `start` may have these voxels. A branch and its limb leave their
   /// node through the same voxels: beside it they do not hinder each other.
@@ -30,7 +29,11 @@ class Claims {
   void clear();
 
  private:
-  BitVolume taken_;
+  bool mayBeTaken(std::uint64_t packed) const;
+  const Node* takerOf(Voxel v) const;
+
+  Voxel size_;
+  std::vector<std::uint64_t> marks_;                 // bits by a hash of the voxel: most are not taken
   std::unordered_map<std::uint64_t, Node> owner_;  // by packed voxel
 };
 

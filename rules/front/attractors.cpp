@@ -142,6 +142,7 @@ void exchange(Attractors& in, std::size_t a, std::size_t b) {
   std::swap(in.nearest[a], in.nearest[b]);
   std::swap(in.number[a], in.number[b]);
   std::swap(in.fate[a], in.fate[b]);
+  std::swap(in.let_go[a], in.let_go[b]);
   in.place[asIndex(in.number[a])] = static_cast<std::int32_t>(a);
   in.place[asIndex(in.number[b])] = static_cast<std::int32_t>(b);
 }
@@ -291,6 +292,7 @@ Attractors sortedAttractors(std::span<const sim::Vec3> places) {
   sorted.nearest2.assign(places.size(), kFar);
   sorted.nearest.assign(places.size(), kNobody);
   sorted.fate.assign(places.size(), static_cast<std::int32_t>(Fate::waiting));
+  sorted.let_go.assign(places.size(), 0);
   sorted.place.resize(places.size());
   for (std::int32_t i = 0; i < sorted.size(); ++i) sorted.place[asIndex(sorted.number[asIndex(i)])] = i;
   if (places.empty()) return sorted;
@@ -425,7 +427,15 @@ void end(Attractors& attractors, std::int32_t at, Fate fate, std::span<const sim
 
 void letGo(Attractors& attractors, std::int32_t node, std::span<const sim::Vec3> nodes, double within,
            Pulls& pulls) {
-  for (const std::int32_t i : waitingFor(attractors, node, nodes[asIndex(node)], within)) {
+  std::vector<std::int32_t> numbers;  // as they change places where one ends
+  for (const std::int32_t i : waitingFor(attractors, node, nodes[asIndex(node)], within))
+    numbers.push_back(attractors.number[asIndex(i)]);
+  for (const std::int32_t number : numbers) {
+    const std::int32_t i = attractors.place[asIndex(number)];
+    if (++attractors.let_go[asIndex(i)] == kMostLetGo) {
+      end(attractors, i, Fate::given_up, nodes, pulls);
+      continue;
+    }
     leave(node, attractors.at(i), nodes, pulls);
     attractors.nearest[asIndex(i)] = kNobody;
     attractors.nearest2[asIndex(i)] = kFar;

@@ -33,6 +33,7 @@ struct Attractors {
   std::vector<std::int32_t> nearest;  ///< that node, or kNobody
   std::vector<std::int32_t> number;   ///< as which it was given
   std::vector<std::int32_t> fate;     ///< Fate
+  std::vector<std::int32_t> let_go;   ///< how often a node let go of it
   std::vector<std::int32_t> place;    ///< by number: where it lies now; they move within their leaves
 
   // The tree, parents before their children.
@@ -88,6 +89,10 @@ std::vector<std::int32_t> waitingFor(const Attractors& attractors, std::int32_t 
 
 /// Ends an attractor, and its pull; `at` is its index, and after this another's.
 void end(Attractors& attractors, std::int32_t at, Fate fate, std::span<const sim::Vec3> nodes, Pulls& pulls);
+
+/// How often an attractor waits for another node before it is given up: where none can come to it, those that
+/// try would go on for ever.
+inline constexpr std::int32_t kMostLetGo = 4;
 
 /// A node lets go of all its attractors: they wait for the next that comes within reach.
 void letGo(Attractors& attractors, std::int32_t node, std::span<const sim::Vec3> nodes, double within,

@@ -171,6 +171,13 @@ TEST(Front, AnAttractorThatIsLetGoIsTakenByTheNextNode) {
   EXPECT_EQ(front.pulls.y[0], 0);
   rules::join(front, {{Vec3(0, 0, 0)}}, rules);  // farther than the first, but it comes
   EXPECT_EQ(front.pulls.count[1], 1);
+  // Where none can come to it, it is given up.
+  for (std::int32_t node = 1; node < rules::kMostLetGo; ++node) {
+    rules::giveUp(front, node, rules);
+    rules::join(front, kStart, rules);
+  }
+  EXPECT_EQ(rules::fatesOf(front).given_up, 1U);
+  EXPECT_EQ(front.pulls.count.back(), 0);
 }
 
 TEST(Front, RefusesWhatIsNoNumber) {

@@ -143,12 +143,14 @@ void exchange(Attractors& in, std::size_t a, std::size_t b) {
   std::swap(in.number[a], in.number[b]);
   std::swap(in.fate[a], in.fate[b]);
   std::swap(in.let_go[a], in.let_go[b]);
+  std::swap(in.ended[a], in.ended[b]);
   in.place[asIndex(in.number[a])] = static_cast<std::int32_t>(a);
   in.place[asIndex(in.number[b])] = static_cast<std::int32_t>(b);
 }
 
 /// One that waited no longer does: it changes its place with the last that does.
-void leaveLeaf(Attractors& in, std::size_t leaf, std::size_t at, Fate fate) {
+void leaveLeaf(Attractors& in, std::size_t leaf, std::size_t at, Fate fate, int iteration) {
+  in.ended[at] = iteration;
   in.fate[at] = static_cast<std::int32_t>(fate);
   exchange(in, at, asIndex(in.first[leaf] + --in.waiting[leaf]));
 }
@@ -213,6 +215,7 @@ struct Meeting {
   std::int32_t first_new;
   PointList points;  ///< the new ones
   double influence2, kill2;
+  int iteration;
   Pulls& pulls;
 
   void atLeaf(std::size_t node, std::span<const std::int64_t> which) const {
@@ -239,7 +242,7 @@ struct Meeting {
       in.nearest2[at] = leaf.nearest2[i];
       in.nearest[at] = now;
       if (ends) {
-        leaveLeaf(in, node, at, Fate::reached);
+        leaveLeaf(in, node, at, Fate::reached, iteration);
       } else {
         changes.note(now, place, 1);
       }
@@ -293,6 +296,7 @@ Attractors sortedAttractors(std::span<const sim::Vec3> places) {
   sorted.nearest.assign(places.size(), kNobody);
   sorted.fate.assign(places.size(), static_cast<std::int32_t>(Fate::waiting));
   sorted.let_go.assign(places.size(), 0);
+  sorted.ended.assign(places.size(), -1);
   sorted.place.resize(places.size());
   for (std::int32_t i = 0; i < sorted.size(); ++i) sorted.place[asIndex(sorted.number[asIndex(i)])] = i;
   if (places.empty()) return sorted;
@@ -317,6 +321,7 @@ void meet(Attractors& attractors, std::span<const sim::Vec3> nodes, std::int32_t
                         {x.data(), y.data(), z.data()},
                         reach.influence * reach.influence,
                         reach.kill * reach.kill,
+                        reach.iteration,
                         pulls};
   meeting.at(0, which.data(), fresh.size());
 }
@@ -418,22 +423,23 @@ void leave(std::int32_t node, sim::Vec3 attractor, std::span<const sim::Vec3> no
 
 }  // namespace
 
-void end(Attractors& attractors, std::int32_t at, Fate fate, std::span<const sim::Vec3> nodes, Pulls& pulls) {
+void end(Attractors& attractors, std::int32_t at, Fate fate, int iteration, std::span<const sim::Vec3> nodes,
+         Pulls& pulls) {
   const auto n = asIndex(at);
   if (const std::int32_t node = attractors.nearest[n]; node != kNobody)
     leave(node, attractors.at(at), nodes, pulls);
-  leaveLeaf(attractors, leafOf(attractors, at), n, fate);
+  leaveLeaf(attractors, leafOf(attractors, at), n, fate, iteration);
 }
 
-void letGo(Attractors& attractors, std::int32_t node, std::span<const sim::Vec3> nodes, double within,
+void letGo(Attractors& attractors, std::int32_t node, std::span<const sim::Vec3> nodes, Reach reach,
            Pulls& pulls) {
   std::vector<std::int32_t> numbers;  // as they change places where one ends
-  for (const std::int32_t i : waitingFor(attractors, node, nodes[asIndex(node)], within))
+  for (const std::int32_t i : waitingFor(attractors, node, nodes[asIndex(node)], reach.influence))
     numbers.push_back(attractors.number[asIndex(i)]);
   for (const std::int32_t number : numbers) {
     const std::int32_t i = attractors.place[asIndex(number)];
     if (++attractors.let_go[asIndex(i)] == kMostLetGo) {
-      end(attractors, i, Fate::given_up, nodes, pulls);
+      end(attractors, i, Fate::given_up, reach.iteration, nodes, pulls);
       continue;
     }
     leave(node, attractors.at(i), nodes, pulls);

@@ -34,6 +34,7 @@ struct Attractors {
   std::vector<std::int32_t> number;   ///< as which it was given
   std::vector<std::int32_t> fate;     ///< Fate
   std::vector<std::int32_t> let_go;   ///< how often a node let go of it
+  std::vector<std::int32_t> ended;    ///< Reach::iteration in which it stopped waiting; -1 while it waits
   std::vector<std::int32_t> place;    ///< by number: where it lies now; they move within their leaves
 
   // The tree, parents before their children.
@@ -56,6 +57,7 @@ Attractors sortedAttractors(std::span<const sim::Vec3> places);
 /// How the nodes that came last act: on attractors nearer than `influence`; those nearer than `kill` are reached.
 struct Reach {
   double influence = 0.0, kill = 0.0;
+  int iteration = 0;  ///< in which they grew
 };
 
 /// One unit of pull, in the whole numbers that pulls are summed in: so that a sum needs no order.
@@ -88,14 +90,15 @@ std::vector<std::int32_t> waitingFor(const Attractors& attractors, std::int32_t 
                                      double within);
 
 /// Ends an attractor, and its pull; `at` is its index, and after this another's.
-void end(Attractors& attractors, std::int32_t at, Fate fate, std::span<const sim::Vec3> nodes, Pulls& pulls);
+void end(Attractors& attractors, std::int32_t at, Fate fate, int iteration, std::span<const sim::Vec3> nodes,
+         Pulls& pulls);
 
 /// How often an attractor waits for another node before it is given up: where none can come to it, those that
 /// try would go on for ever.
 inline constexpr std::int32_t kMostLetGo = 4;
 
 /// A node lets go of all its attractors: they wait for the next that comes within reach.
-void letGo(Attractors& attractors, std::int32_t node, std::span<const sim::Vec3> nodes, double within,
+void letGo(Attractors& attractors, std::int32_t node, std::span<const sim::Vec3> nodes, Reach reach,
            Pulls& pulls);
 
 }  // namespace espalier::rules

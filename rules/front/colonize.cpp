@@ -22,7 +22,7 @@ void requireFinite(std::span<const sim::Vec3> places, const char* what) {
 }  // namespace
 
 Colony colonize(std::span<const sim::Vec3> attractors, std::span<const sim::Vec3> starts,
-                const FrontRules& rules, int iterations) {
+                FrontRules rules, int iterations) {
   requireSound(rules);
   requireFinite(attractors, "attractor");
   requireFinite(starts, "start");
@@ -36,6 +36,7 @@ Colony colonize(std::span<const sim::Vec3> attractors, std::span<const sim::Vec3
   std::iota(trunks.begin(), trunks.end(), 0);
   for (; colony.iterations < iterations; ++colony.iterations) {
     sim::throwIfStopped();
+    rules.iteration = colony.iterations;
     std::vector<Way> ways = waysOf(front, active, rules);
     const std::size_t pulled = ways.size();
     std::erase_if(trunks, [&](std::int32_t tip) {

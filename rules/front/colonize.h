@@ -22,7 +22,7 @@ struct Colony {
 /// any order of the attractors (but those in one place) and any number of threads. Throws sim::InputError for rules that are
 /// not positive or not numbers, for places that are not finite, and where there is no start or no attractor.
 Colony colonize(std::span<const sim::Vec3> attractors, std::span<const sim::Vec3> starts,
-                const FrontRules& rules, int iterations);
+                FrontRules rules, int iterations);
 
 /// Why growth ended, in words.
 std::string endingOf(const Fates& fates, bool iterations_left);

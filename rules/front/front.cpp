@@ -49,7 +49,7 @@ Way straightWay(Front& front, std::int32_t node, const FrontRules& rules) {
       const sim::Vec3 direction = from == to ? sim::Vec3(0, 1, 0) : unitTo(from, to);
       return {node, 0, direction, front.attractors.number[asIndex(at)]};
     }
-    end(front.attractors, at, Fate::given_up, front.nodes, front.pulls);
+    end(front.attractors, at, Fate::given_up, rules.iteration, front.nodes, front.pulls);
   }
   return {kNobody};
 }
@@ -61,7 +61,7 @@ Way wayOf(Front& front, std::int32_t node, const FrontRules& rules) {
   Gait gait = same ? Gait::straight : Gait::pulled;
   if (same && front.gait[n] == static_cast<std::int32_t>(Gait::straight)) {
     const std::int32_t at = nearestWaiting(front.attractors, front.nodes[n], kEverywhere, node);
-    end(front.attractors, at, Fate::given_up, front.nodes, front.pulls);
+    end(front.attractors, at, Fate::given_up, rules.iteration, front.nodes, front.pulls);
     gait = Gait::pulled;
   }
   Way way{node, 0, pulled(front, n)};
@@ -111,7 +111,7 @@ std::int32_t pickOf(Front& front, std::int32_t node, const FrontRules& rules) {
       }
       return static_cast<std::int32_t>(number);
     }
-    end(front.attractors, at, Fate::given_up, front.nodes, front.pulls);
+    end(front.attractors, at, Fate::given_up, rules.iteration, front.nodes, front.pulls);
   }
 }
 
@@ -157,7 +157,7 @@ void join(Front& front, std::span<const sim::Vec3> nodes, const FrontRules& rule
   front.tried.resize(count, kNobody);
   front.gait.resize(count, static_cast<std::int32_t>(Gait::none));
   const double influence = rules.acts == Acts::on_nearest_node ? rules.influence : 0.0;
-  meet(front.attractors, front.nodes, first, {influence, rules.kill}, front.pulls);
+  meet(front.attractors, front.nodes, first, {influence, rules.kill, rules.iteration}, front.pulls);
 }
 
 std::vector<Way> waysOf(Front& front, std::vector<std::int32_t>& active, const FrontRules& rules) {
@@ -203,11 +203,11 @@ void taken(Front& front, std::int32_t from, sim::Vec3 at, const FrontRules& rule
   const std::int32_t of_node = rules.acts == Acts::on_nearest_node ? from : kNobody;
   const std::int32_t attractor = nearestWaiting(front.attractors, at, kEverywhere, of_node);
   if (attractor != kNobody && front.attractors.at(attractor) == at)
-    end(front.attractors, attractor, Fate::taken, front.nodes, front.pulls);
+    end(front.attractors, attractor, Fate::taken, rules.iteration, front.nodes, front.pulls);
 }
 
 void giveUp(Front& front, std::int32_t node, const FrontRules& rules) {
-  letGo(front.attractors, node, front.nodes, rules.influence, front.pulls);
+  letGo(front.attractors, node, front.nodes, {rules.influence, rules.kill, rules.iteration}, front.pulls);
 }
 
 void keepForLater(Front& front, std::int32_t node) {

@@ -28,6 +28,7 @@ struct FrontRules {
   /// A node is a start again and again (Tanaka, figure 6): it grows towards each attractor that acts on it;
   /// with on_every_node, all that pick an attractor grow towards it, which is many.
   bool repeated = false;
+  int iteration = 0;  ///< for noting when attractors end
 };
 
 /// How a node grew when it last did.

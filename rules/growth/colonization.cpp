@@ -40,7 +40,7 @@ class ColonizationProcess final : public sim::Process {
 
  private:
   sim::Columns& home(sim::Commons& commons) const;
-  FrontRules rulesIn(const sim::Columns& memory) const;
+  FrontRules rulesIn(const sim::Columns& memory, int iteration) const;
   FrontLengths lengths(const Attractors& attractors) const;
 
   RuleBook book_;
@@ -54,10 +54,11 @@ sim::Columns& ColonizationProcess::home(sim::Commons& commons) const {
                                     book_.top().name, front_.attractors));
 }
 
-FrontRules ColonizationProcess::rulesIn(const sim::Columns& memory) const {
+FrontRules ColonizationProcess::rulesIn(const sim::Columns& memory, int iteration) const {
   const auto& lengths = sim::column<double>(memory, kLengths);
   if (lengths.size() != 3) throw sim::BrokenContract("a front without its lengths");
-  const FrontRules rules{lengths[0], lengths[1], lengths[2], front_.acts, front_.onto, front_.repeated};
+  const FrontRules rules{lengths[0], lengths[1], lengths[2], front_.acts, front_.onto, front_.repeated,
+                         iteration};
   requireSound(rules);
   return rules;
 }
@@ -107,7 +108,7 @@ void ColonizationProcess::begin(const sim::StandView& stand, sim::Columns& memor
     starts.push_back(stand.plants[i].skeleton.position_vx.front());
   }
   own.trunks = own.active;
-  join(lent.front, starts, rulesIn(memory));
+  join(lent.front, starts, rulesIn(memory, stand.iteration));
   keep(own, memory);
 }
 
@@ -115,7 +116,7 @@ std::vector<sim::Site> ColonizationProcess::due(const sim::StandView& stand, sim
                                                 sim::Commons& commons) const {
   LentFront lent(home(commons));
   Front& front = lent.front;
-  const FrontRules rules = rulesIn(memory);
+  const FrontRules rules = rulesIn(memory, stand.iteration);
   FrontMemory own = frontMemory(memory, stand);
   own.errands.clear();
   std::vector<std::int32_t> numbers;
@@ -177,7 +178,7 @@ void ColonizationProcess::settle(const sim::StandView& stand, std::span<const si
                                  sim::Columns& memory, sim::Commons& commons) const {
   LentFront lent(home(commons));
   Front& front = lent.front;
-  const FrontRules rules = rulesIn(memory);
+  const FrontRules rules = rulesIn(memory, stand.iteration);
   FrontMemory own = frontMemory(memory, stand);
   if (own.errands.size() != verdicts.size()) throw sim::BrokenContract("a front that was told of other sites");
   own.trunks.clear();

@@ -22,6 +22,7 @@ void forEachArray(Front_& front, Visit visit) {
   visit("front_number", a.number);
   visit("front_fate", a.fate);
   visit("front_let_go", a.let_go);
+  visit("front_ended", a.ended);
   visit("front_place", a.place);
   visit("tree_first", a.first);
   visit("tree_last", a.last);
@@ -52,7 +53,7 @@ void requireLengths(const Front& front) {
     return std::all_of(others.begin(), others.end(), [&](std::size_t other) { return other == size; });
   };
   require(same(a.x.size(), {a.y.size(), a.z.size(), a.nearest2.size(), a.nearest.size(), a.number.size(),
-                            a.fate.size(), a.let_go.size(), a.place.size()}),
+                            a.fate.size(), a.let_go.size(), a.ended.size(), a.place.size()}),
           "attractors whose columns differ in length");
   require(same(a.first.size(), {a.last.size(), a.waiting.size(), a.child.size(), a.children.size(),
                                 a.low.size(), a.high.size(), a.farthest2.size()}),

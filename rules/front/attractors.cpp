@@ -212,7 +212,6 @@ class Changes {
 struct Meeting {
   Attractors& in;
   std::span<const sim::Vec3> nodes;
-  std::int32_t first_new;
   PointList points;  ///< the new ones
   double influence2, kill2;
   int iteration;
@@ -230,7 +229,7 @@ struct Meeting {
     }
     for (std::size_t i = leaf.count; i < leaf.count + Leaf::kPadding; ++i)  // whole vectors are looked at
       leaf.x[i] = leaf.y[i] = leaf.z[i] = leaf.nearest2[i] = leaf.nearest[i] = leaf.new2[i] = 0.0;
-    comeBy(leaf, which, points, first_new, influence2);
+    comeBy(leaf, which, points, influence2);
     Changes changes(nodes);
     for (std::size_t i = leaf.count; i-- > 0;) {  // from behind, as those that end change places
       const std::size_t at = first + i;
@@ -307,23 +306,25 @@ Attractors sortedAttractors(std::span<const sim::Vec3> places) {
   return sorted;
 }
 
-void meet(Attractors& attractors, std::span<const sim::Vec3> nodes, std::int32_t first_new, Reach reach,
-          Pulls& pulls) {
-  const std::span<const sim::Vec3> fresh = nodes.subspan(asIndex(first_new));
+void meet(Attractors& attractors, std::span<const sim::Vec3> nodes, std::span<const std::int32_t> fresh,
+          Reach reach, Pulls& pulls) {
   if (attractors.first.empty() || fresh.empty()) return;
-  std::vector<double> x(fresh.size()), y(fresh.size()), z(fresh.size());
-  for (std::size_t i = 0; i < fresh.size(); ++i) x[i] = fresh[i].x, y[i] = fresh[i].y, z[i] = fresh[i].z;
-  std::vector<std::int64_t> which(fresh.size() * kRoom + Leaf::kPadding);
-  std::iota(which.begin(), which.begin() + static_cast<std::ptrdiff_t>(fresh.size()), 0);
+  const auto count = fresh.size();
+  std::vector<double> x(count), y(count), z(count);
+  for (std::size_t i = 0; i < count; ++i) {
+    const sim::Vec3 at = nodes[asIndex(fresh[i])];
+    x[i] = at.x, y[i] = at.y, z[i] = at.z;
+  }
+  std::vector<std::int64_t> which(count * kRoom + Leaf::kPadding);
+  std::iota(which.begin(), which.begin() + static_cast<std::ptrdiff_t>(count), 0);
   const Meeting meeting{attractors,
                         nodes,
-                        first_new,
-                        {x.data(), y.data(), z.data()},
+                        {x.data(), y.data(), z.data(), fresh.data()},
                         reach.influence * reach.influence,
                         reach.kill * reach.kill,
                         reach.iteration,
                         pulls};
-  meeting.at(0, which.data(), fresh.size());
+  meeting.at(0, which.data(), count);
 }
 
 namespace {

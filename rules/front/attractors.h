@@ -70,11 +70,11 @@ struct Pulls {
   std::vector<std::int32_t> count;
 };
 
-/// New nodes, from number `first_new` of `nodes` on, take over the attractors to which they are nearer than
-/// all before and than their reach; of equally near ones the lower number has it. Those within the kill
-/// distance end. Parallel inside.
-void meet(Attractors& attractors, std::span<const sim::Vec3> nodes, std::int32_t first_new, Reach reach,
-          Pulls& pulls);
+/// New nodes take over the attractors to which they are nearer than all before and than their reach; of equally
+/// near ones the first has it. Those within the kill distance end. `fresh`: their numbers, ascending. Parallel
+/// inside.
+void meet(Attractors& attractors, std::span<const sim::Vec3> nodes, std::span<const std::int32_t> fresh,
+          Reach reach, Pulls& pulls);
 
 /// The nearest attractor that waits, nearer than `within`; of those of one node alone, if it is not kNobody.
 /// Equally near ones by their places: the least x, then y, then z. Its index, or kNobody.

@@ -30,7 +30,9 @@ Colony colonize(std::span<const sim::Vec3> attractors, std::span<const sim::Vec3
   Colony colony;
   colony.parent.assign(starts.size(), kNobody);
   colony.born.assign(starts.size(), 0);
-  join(front, starts, rules);
+  std::vector<NewNode> joining;
+  for (const sim::Vec3& start : starts) joining.push_back({start});
+  join(front, joining, rules);
   std::vector<std::int32_t> active(starts.size()), trunks(starts.size());
   std::iota(active.begin(), active.end(), 0);
   std::iota(trunks.begin(), trunks.end(), 0);
@@ -45,17 +47,17 @@ Colony colonize(std::span<const sim::Vec3> attractors, std::span<const sim::Vec3
       return way.node == kNobody;
     });
     if (ways.empty()) break;
-    std::vector<sim::Vec3> ends;
-    for (const Way& way : ways) ends.push_back(endOfWay(front, way, way.direction, rules));
+    joining.clear();
+    for (const Way& way : ways) joining.push_back({endOfWay(front, way, way.direction, rules), way.node});
     for (std::size_t i = 0; i < ways.size(); ++i) {
-      if (!ways[i].trunk) taken(front, ways[i].node, ends[i], rules);
+      if (!ways[i].trunk) taken(front, ways[i].node, joining[i].at, rules);
       const auto node = static_cast<std::int32_t>(colony.parent.size());
       colony.parent.push_back(ways[i].node);
       colony.born.push_back(colony.iterations);
       active.push_back(node);
       if (i >= pulled) trunks[i - pulled] = node;
     }
-    join(front, ends, rules);
+    join(front, joining, rules);
   }
   colony.position = std::move(front.nodes);
   colony.fates = fatesOf(front);

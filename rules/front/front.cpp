@@ -116,11 +116,14 @@ std::int32_t pickOf(Front& front, std::int32_t node, const FrontRules& rules) {
 }
 
 /// The ways of nodes that pick an attractor each.
-void waysOfPickers(Front& front, std::vector<std::int32_t>& active, const FrontRules& rules,
+void waysOfPickers(Front& front, std::vector<std::int32_t>& active, const OrderRules& by_order,
                    std::vector<Way>& ways) {
+  const FrontRules& rules = by_order.trunk();
   front.picker.resize(asIndex(front.attractors.size()), kNobody);
   front.picked2.resize(asIndex(front.attractors.size()), kEverywhere);
-  std::erase_if(active, [&](std::int32_t node) { return pickOf(front, node, rules) == kNobody; });
+  std::erase_if(active, [&](std::int32_t node) {
+    return pickOf(front, node, by_order.at(nextOrder(front, node))) == kNobody;
+  });
   std::vector<bool> used(rules.onto ? asIndex(front.attractors.size()) : 0);
   for (const std::int32_t node : active) {
     const std::size_t n = asIndex(node), number = asIndex(front.tried[n]);
@@ -146,9 +149,41 @@ Front frontOf(std::span<const sim::Vec3> attractors) {
   return front;
 }
 
-void join(Front& front, std::span<const sim::Vec3> nodes, const FrontRules& rules) {
+namespace {
+
+/// Those of new nodes that reach as far as each other meet the attractors together.
+void meetByReach(Front& front, std::int32_t first, const OrderRules& rules) {
+  const auto reachOf = [&](std::int32_t order) {
+    const FrontRules& own = rules.at(order);
+    const double influence = rules.trunk().acts == Acts::on_nearest_node ? own.influence : 0.0;
+    return Reach{influence, own.kill, rules.trunk().iteration};
+  };
+  const auto same = [](const Reach& a, const Reach& b) {
+    return a.influence == b.influence && a.kill == b.kill;
+  };
+  std::vector<Reach> met;
+  for (std::int32_t order = 0; order <= kTwig; ++order) {
+    const Reach reach = reachOf(order);
+    if (std::any_of(met.begin(), met.end(), [&](const Reach& r) { return same(r, reach); })) continue;
+    met.push_back(reach);
+    std::vector<std::int32_t> fresh;
+    for (std::int32_t node = first; asIndex(node) < front.nodes.size(); ++node) {
+      if (same(reachOf(front.order[asIndex(node)]), reach)) fresh.push_back(node);
+    }
+    meet(front.attractors, front.nodes, fresh, reach, front.pulls);
+  }
+}
+
+}  // namespace
+
+void join(Front& front, std::span<const NewNode> nodes, const OrderRules& rules) {
   const auto first = static_cast<std::int32_t>(front.nodes.size());
-  front.nodes.insert(front.nodes.end(), nodes.begin(), nodes.end());
+  for (const NewNode& node : nodes) {
+    front.nodes.push_back(node.at);
+    front.order.push_back(node.from == kNobody ? 0 : nextOrder(front, node.from));
+    front.sent.push_back(0);
+    if (node.from != kNobody) ++front.sent[asIndex(node.from)];
+  }
   const std::size_t count = front.nodes.size();
   front.pulls.x.resize(count);
   front.pulls.y.resize(count);
@@ -156,28 +191,29 @@ void join(Front& front, std::span<const sim::Vec3> nodes, const FrontRules& rule
   front.pulls.count.resize(count);
   front.tried.resize(count, kNobody);
   front.gait.resize(count, static_cast<std::int32_t>(Gait::none));
-  const double influence = rules.acts == Acts::on_nearest_node ? rules.influence : 0.0;
-  meet(front.attractors, front.nodes, first, {influence, rules.kill, rules.iteration}, front.pulls);
+  meetByReach(front, first, rules);
 }
 
-std::vector<Way> waysOf(Front& front, std::vector<std::int32_t>& active, const FrontRules& rules) {
+std::vector<Way> waysOf(Front& front, std::vector<std::int32_t>& active, const OrderRules& rules) {
   std::vector<Way> ways;
-  if (rules.acts == Acts::on_every_node) {
+  if (rules.trunk().acts == Acts::on_every_node) {
     waysOfPickers(front, active, rules, ways);
     return ways;
   }
   std::erase_if(active, [&](std::int32_t node) { return front.pulls.count[asIndex(node)] == 0; });
   for (const std::int32_t node : active) {
-    if (rules.repeated) {
-      allWaysOf(front, node, rules, ways);
-    } else if (const Way way = wayOf(front, node, rules); way.node != kNobody) {
+    const FrontRules& own = rules.at(nextOrder(front, node));
+    if (rules.trunk().repeated) {
+      allWaysOf(front, node, own, ways);
+    } else if (const Way way = wayOf(front, node, own); way.node != kNobody) {
       ways.push_back(way);
     }
   }
   return ways;
 }
 
-Way trunkWay(const Front& front, std::int32_t tip, const FrontRules& rules) {
+Way trunkWay(const Front& front, std::int32_t tip, const OrderRules& by_order) {
+  const FrontRules& rules = by_order.trunk();
   const sim::Vec3 from = front.nodes[asIndex(tip)];
   const std::int32_t at = nearestWaiting(front.attractors, from, kEverywhere);
   if (at == kNobody) return {kNobody};
@@ -189,7 +225,8 @@ Way trunkWay(const Front& front, std::int32_t tip, const FrontRules& rules) {
   return {tip, 0, nearer ? upright : unitTo(from, to), kNobody, true};
 }
 
-sim::Vec3 endOfWay(const Front& front, const Way& way, sim::Vec3 direction, const FrontRules& rules) {
+sim::Vec3 endOfWay(const Front& front, const Way& way, sim::Vec3 direction, const OrderRules& by_order) {
+  const FrontRules& rules = by_order.at(nextOrder(front, way.node));
   const sim::Vec3 end = front.nodes[asIndex(way.node)] + rules.step * direction;
   if (!rules.onto || way.trunk) return end;
   const std::int32_t at = way.attractor != kNobody
@@ -198,7 +235,8 @@ sim::Vec3 endOfWay(const Front& front, const Way& way, sim::Vec3 direction, cons
   return front.attractors.at(at);
 }
 
-void taken(Front& front, std::int32_t from, sim::Vec3 at, const FrontRules& rules) {
+void taken(Front& front, std::int32_t from, sim::Vec3 at, const OrderRules& by_order) {
+  const FrontRules& rules = by_order.trunk();
   if (!rules.onto) return;
   const std::int32_t of_node = rules.acts == Acts::on_nearest_node ? from : kNobody;
   const std::int32_t attractor = nearestWaiting(front.attractors, at, kEverywhere, of_node);
@@ -206,7 +244,8 @@ void taken(Front& front, std::int32_t from, sim::Vec3 at, const FrontRules& rule
     end(front.attractors, attractor, Fate::taken, rules.iteration, front.nodes, front.pulls);
 }
 
-void giveUp(Front& front, std::int32_t node, const FrontRules& rules) {
+void giveUp(Front& front, std::int32_t node, const OrderRules& by_order) {
+  const FrontRules& rules = by_order.at(front.order[asIndex(node)]);
   letGo(front.attractors, node, front.nodes, {rules.influence, rules.kill, rules.iteration}, front.pulls);
 }
 

@@ -1,4 +1,6 @@
 #pragma once
+#include <algorithm>
+#include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -31,6 +33,21 @@ struct FrontRules {
   int iteration = 0;  ///< for noting when attractors end
 };
 
+/// A segment's order: 0 where it goes on from the start, and one more than its limb's where it leaves a node
+/// from which another went on before. Rules are told apart for trunk, branches and twigs.
+inline constexpr std::int32_t kTwig = 2;
+
+/// Rules by order; `acts`, `onto` and `repeated` are the trunk's.
+struct OrderRules {
+  std::array<FrontRules, kTwig + 1> of_order;
+
+  OrderRules(const FrontRules& all) : of_order{all, all, all} {}  // NOLINT: one for all is the plain case
+  const FrontRules& trunk() const { return of_order[0]; }
+  const FrontRules& at(std::int32_t order) const {
+    return of_order[static_cast<std::size_t>(std::min(order, kTwig))];
+  }
+};
+
 /// How a node grew when it last did.
 enum class Gait : std::int32_t { none, pulled, straight };
 
@@ -43,6 +60,8 @@ struct Front {
   std::vector<std::int32_t> tried;  ///< how many attractors pulled it when it last grew; with on_every_node
                                     ///< the number of the one that it picks, or kNobody
   std::vector<std::int32_t> gait;   ///< Gait
+  std::vector<std::int32_t> order;  ///< of the segment that ends in it
+  std::vector<std::int32_t> sent;   ///< how many nodes it has sent out
   // With on_every_node, by the attractors' numbers: the nearest of those that pick it, and how far that is.
   std::vector<std::int32_t> picker;
   std::vector<double> picked2;
@@ -59,27 +78,37 @@ struct Way {
 
 Front frontOf(std::span<const sim::Vec3> attractors);
 
+struct NewNode {
+  sim::Vec3 at{0.0};
+  std::int32_t from = kNobody;  ///< kNobody: a start
+};
 /// Adds nodes, in their order, and lets the attractors meet them.
-void join(Front& front, std::span<const sim::Vec3> nodes, const FrontRules& rules);
+void join(Front& front, std::span<const NewNode> nodes, const OrderRules& rules);
+
+/// Of what would grow from a node next.
+inline std::int32_t nextOrder(const Front& front, std::int32_t node) {
+  const auto n = static_cast<std::size_t>(node);
+  return front.order[n] + (front.sent[n] > 0 ? 1 : 0);
+}
 
 /// The ways of those of the nodes on which something acts, in their order; `active`, ascending, loses the
 /// others. Nodes that stall are dealt with.
-std::vector<Way> waysOf(Front& front, std::vector<std::int32_t>& active, const FrontRules& rules);
+std::vector<Way> waysOf(Front& front, std::vector<std::int32_t>& active, const OrderRules& rules);
 
 /// The way of a plant that nothing was in reach of, from its newest node; none (node is kNobody) where an
 /// attractor is in reach now, none waits any more, or no step leads nearer.
-Way trunkWay(const Front& front, std::int32_t tip, const FrontRules& rules);
+Way trunkWay(const Front& front, std::int32_t tip, const OrderRules& rules);
 
 /// Where a way ends that is gone in a direction of its own or another: a step farther, or with rules.onto on
 /// the attractor of its node that is nearest to there.
-sim::Vec3 endOfWay(const Front& front, const Way& way, sim::Vec3 direction, const FrontRules& rules);
+sim::Vec3 endOfWay(const Front& front, const Way& way, sim::Vec3 direction, const OrderRules& rules);
 
 /// A node stands at the end of a way from another: with rules.onto the attractor there is used up. To be
 /// called before the new one joins.
-void taken(Front& front, std::int32_t from, sim::Vec3 end, const FrontRules& rules);
+void taken(Front& front, std::int32_t from, sim::Vec3 end, const OrderRules& rules);
 
 /// A node cannot grow any more: what it was pulled by waits for the next that comes within reach.
-void giveUp(Front& front, std::int32_t node, const FrontRules& rules);
+void giveUp(Front& front, std::int32_t node, const OrderRules& rules);
 
 /// A node has not grown though it could: it will try the same again.
 void keepForLater(Front& front, std::int32_t node);

@@ -26,8 +26,7 @@ HWY_INLINE D sumOf(D a, D b, D c) {
   return hn::Add(hn::Add(least, middle), most);
 }
 
-void ComeBy(Leaf& leaf, std::span<const std::int64_t> which, PointList points, std::int32_t first_new,
-            double influence2) {
+void ComeBy(Leaf& leaf, std::span<const std::int64_t> which, PointList points, double influence2) {
   const Doubles d;
   const D reach = hn::Set(d, influence2);
   for (std::size_t i = 0; i < leaf.count; i += hn::Lanes(d)) {
@@ -40,7 +39,7 @@ void ComeBy(Leaf& leaf, std::span<const std::int64_t> which, PointList points, s
                             squareOf(hn::Sub(z, hn::Set(d, points.z[node]))));
       const auto nearer = hn::Lt(away2, hn::Min(nearest2, reach));
       nearest2 = hn::IfThenElse(nearer, away2, nearest2);
-      nearest = hn::IfThenElse(nearer, hn::Set(d, static_cast<double>(first_new + node)), nearest);
+      nearest = hn::IfThenElse(nearer, hn::Set(d, static_cast<double>(points.number[node])), nearest);
       new2 = hn::Min(new2, away2);
     }
     hn::Store(nearest2, d, leaf.nearest2 + i);
@@ -84,9 +83,8 @@ namespace espalier::rules {
 HWY_EXPORT(ComeBy);
 HWY_EXPORT(NearBox);
 
-void comeBy(Leaf& leaf, std::span<const std::int64_t> which, PointList points, std::int32_t first_new,
-            double influence2) {
-  HWY_DYNAMIC_DISPATCH(ComeBy)(leaf, which, points, first_new, influence2);
+void comeBy(Leaf& leaf, std::span<const std::int64_t> which, PointList points, double influence2) {
+  HWY_DYNAMIC_DISPATCH(ComeBy)(leaf, which, points, influence2);
 }
 
 std::size_t nearBox(PointList points, std::int64_t* which, std::size_t count, sim::Vec3 low, sim::Vec3 high,

@@ -11,9 +11,10 @@ namespace espalier::rules {
 /// The most attractors that a leaf of their tree holds.
 inline constexpr std::size_t kLeaf = kMostInLeaf;
 
-/// Points, coordinate by coordinate.
+/// Nodes, coordinate by coordinate, and their numbers.
 struct PointList {
   const double *x, *y, *z;
+  const std::int32_t* number;
 };
 
 /// A leaf's attractors while new nodes come by; what lies behind `count` up to a whole vector is not looked at.
@@ -28,9 +29,8 @@ struct Leaf {
 
 /// Lets new nodes come by in their order, `which` of them: an attractor goes over to one to which it is nearer
 /// than to its own, and nearer than the square root of `influence2`. In SIMD lanes; the same bits as
-/// distance2. `first_new` is the number of node 0 of the points.
-void comeBy(Leaf& leaf, std::span<const std::int64_t> which, PointList points, std::int32_t first_new,
-            double influence2);
+/// distance2.
+void comeBy(Leaf& leaf, std::span<const std::int64_t> which, PointList points, double influence2);
 
 /// Those of the points `which` whose squared distance from a box is less than `within2`, in their order,
 /// appended to them: `which` has room for as many again and a whole vector. How many they are. For pruning: a

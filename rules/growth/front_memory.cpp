@@ -39,6 +39,8 @@ void forEachArray(Front_& front, Visit visit) {
   visit("node_pulled_by", front.pulls.count);
   visit("node_tried", front.tried);
   visit("node_gait", front.gait);
+  visit("node_order", front.order);
+  visit("node_sent", front.sent);
   visit("pick_node", front.picker);
   visit("pick_nearest2", front.picked2);
 }
@@ -59,7 +61,8 @@ void requireLengths(const Front& front) {
                                 a.low.size(), a.high.size(), a.farthest2.size()}),
           "a tree whose columns differ in length");
   require(same(front.nodes.size(), {front.pulls.x.size(), front.pulls.y.size(), front.pulls.z.size(),
-                                    front.pulls.count.size(), front.tried.size(), front.gait.size()}),
+                                    front.pulls.count.size(), front.tried.size(), front.gait.size(), front.order.size(),
+                                    front.sent.size()}),
           "nodes whose columns differ in length");
   require(front.picker.size() == front.picked2.size() &&
               (front.picker.empty() || front.picker.size() == a.x.size()),
@@ -119,6 +122,7 @@ void requireSoundNumbers(const Front& front) {
   }
   require(pulled == front.pulls.count, "nodes that others pull than say so");
   for (const std::int32_t gait : front.gait) require(between(gait, 0, 3), "a node of no known gait");
+  for (const std::int32_t order : front.order) require(between(order, 0, front.nodes.size()), "a node of no order");
   for (const std::int32_t node : front.picker)
     require(between(node, kNobody, front.nodes.size()), "a pick of a node that is not there");
   if (!front.picker.empty()) {

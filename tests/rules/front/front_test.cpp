@@ -164,17 +164,17 @@ TEST(Front, AnAttractorThatIsLetGoIsTakenByTheNextNode) {
   const std::vector<Vec3> attractors{{0, 1, 0}};
   rules::Front front = rules::frontOf(attractors);
   const FrontRules rules{0.5, 2.0, 0.1};
-  rules::join(front, kStart, rules);
+  rules::join(front, {{rules::NewNode{kStart[0]}}}, rules);
   ASSERT_EQ(front.pulls.count[0], 1);
   rules::giveUp(front, 0, rules);
   EXPECT_EQ(front.pulls.count[0], 0);
   EXPECT_EQ(front.pulls.y[0], 0);
-  rules::join(front, {{Vec3(0, 0, 0)}}, rules);  // farther than the first, but it comes
+  rules::join(front, {{rules::NewNode{Vec3(0, 0, 0)}}}, rules);  // farther than the first, but it comes
   EXPECT_EQ(front.pulls.count[1], 1);
   // Where none can come to it, it is given up.
   for (std::int32_t node = 1; node < rules::kMostLetGo; ++node) {
     rules::giveUp(front, node, rules);
-    rules::join(front, kStart, rules);
+    rules::join(front, {{rules::NewNode{kStart[0]}}}, rules);
   }
   EXPECT_EQ(rules::fatesOf(front).given_up, 1U);
   EXPECT_EQ(front.pulls.count.back(), 0);

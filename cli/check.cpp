@@ -19,13 +19,11 @@ namespace espalier::cli {
 namespace {
 
 /// Says what a scene's job will take: to grow its plants, or else to find its light.
-int foretell(const std::string& file, const scenes::RunOptions& options) {
-  const auto scene = scenes::readScene(file);
-  if (!scene) return sayProblems(scene.problems());
+int foretell(const scenes::Scene& scene, const scenes::RunOptions& options) {
   try {
-    const scenes::Foretold foretold = scene->plants.empty() ? scenes::foretellExpose(*scene, options)
-                                                            : scenes::foretellRun(*scene, options);
-    print(fmt::format("{}: {}\n", file, scenes::toText(foretold)));
+    const scenes::Foretold foretold =
+        scene.plants.empty() ? scenes::foretellExpose(scene, options) : scenes::foretellRun(scene, options);
+    print(fmt::format("{}: {}\n", scene.file.string(), scenes::toText(foretold)));
   } catch (const scenes::MeshMissing& missing) {
     saySkipped(missing);
   } catch (const sim::InputError& error) {
@@ -50,9 +48,9 @@ void addCheck(CLI::App& app, int& exit_status) {
     options.on_warning = [](const std::string& text) { say(text); };
     for (const std::string& file : *files) {
       const int status = doing(file, "checking", [&] {
-        const auto problems = scenes::checkFile(file);
-        if (!problems.empty()) return sayProblems(problems);
-        return scenes::isScene(file) ? foretell(file, options) : 0;
+        const auto read = scenes::readRulesOrScene(file);
+        if (!read) return sayProblems(read.problems());
+        return *read ? foretell(**read, options) : 0;
       });
       if (status != 0) exit_status = status;
     }

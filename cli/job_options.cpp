@@ -1,9 +1,11 @@
 #include "cli/job_options.h"
 
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
+#include <chrono>
 
 #include "cli/commands.h"
 #include "cli/doing.h"
@@ -19,6 +21,8 @@ namespace espalier::cli {
 
 namespace {
 
+using Clock = std::chrono::steady_clock;
+
 int run(const JobOptions& options, const JobWork& work) {
   const Interrupt interrupt;
   auto scene = scenes::readScene(options.scene);
@@ -30,16 +34,16 @@ int run(const JobOptions& options, const JobWork& work) {
   run.stop = interrupt.token();
   JobOutcome outcome;
   try {
-    Progress progress(options.quiet || options.json);
+    Progress progress(options.quiet || options.json, ::isatty(STDERR_FILENO) == 1);
     if (!options.quiet && !options.json)
       run.on_foretold = [&](const scenes::Foretold& foretold) {
-        progress.foretold(scenes::toText(foretold));
+        progress.foretold(scenes::toText(foretold), Clock::now());
       };
     run.on_stage = [&](const std::string& name) {
       nowDoing(options.scene, name);
-      progress.stage(name);
+      progress.stage(name, Clock::now());
     };
-    run.on_growth = [&](const sim::GrowthProgress& growth) { progress.growth(growth); };
+    run.on_growth = [&](const sim::GrowthProgress& growth) { progress.growth(growth, Clock::now()); };
     run.on_warning = [&](const std::string& text) {
       if (!options.quiet) progress.warning(text);
     };

@@ -3,6 +3,7 @@
 #include <set>
 
 #include "rules/growth/elements.h"
+#include "rules/language/key.h"
 
 namespace espalier::rules {
 namespace {
@@ -22,19 +23,10 @@ void visitFrom(const RuleSet& rules, const std::string& path, std::set<const Rul
   if (rules.otherwise) visitFrom(*rules.otherwise, prefix + "otherwise", met, visit);
 }
 
-/// A region's rule set may have something to say of regions itself.
 const RuleSet* holding(const RuleSet& rules, const sim::World& world, sim::Voxel v) {
   if (rules.regions.empty() && !rules.others) return &rules;
   const auto nearness = world.nearnessAt(v);
-  if (!nearness) return &rules;
-  const std::string& region = world.part(nearness->part).region;
-  const RuleSet* set = &rules;
-  while (const RegionRule* rule = ruleFor(*set, region)) {
-    if (rule->forbidden) return nullptr;
-    if (!rule->rules) break;
-    set = rule->rules.get();
-  }
-  return set;
+  return nearness ? setNear(rules, world.part(nearness->part).region) : &rules;
 }
 
 }  // namespace
@@ -42,6 +34,21 @@ const RuleSet* holding(const RuleSet& rules, const sim::World& world, sim::Voxel
 void forEachSet(const RuleSet& rules, const Visit& visit) {
   std::set<const RuleSet*> met;
   visitFrom(rules, "", met, visit);
+}
+
+const RuleSet* setNear(const RuleSet& rules, const std::string& region, std::string* path) {
+  const RuleSet* set = &rules;
+  if (path) path->clear();
+  while (const RegionRule* rule = ruleFor(*set, region)) {
+    if (path) {
+      *path += path->empty() ? "regions." : ".regions.";
+      *path += set->regions.contains(region) ? region : kOthers;
+    }
+    if (rule->forbidden) return nullptr;
+    if (!rule->rules) break;
+    set = rule->rules.get();
+  }
+  return set;
 }
 
 RuleBook::RuleBook(std::shared_ptr<const RuleSet> rules) : rules_(std::move(rules)) {

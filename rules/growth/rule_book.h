@@ -17,6 +17,11 @@ namespace espalier::rules {
 void forEachSet(const RuleSet& rules,
                 const std::function<void(const RuleSet& set, const std::string& path)>& visit);
 
+/// The set that holds near a region; null where nothing may grow. A region's rule set may have something to
+/// say of regions itself, and so on. `path` becomes that of the last rule that was followed, such as
+/// "regions.brick.regions.others"; empty where there was none.
+const RuleSet* setNear(const RuleSet& rules, const std::string& region, std::string* path = nullptr);
+
 /// A rule set with all that it may lead to: the sets of regions, and those that are tried where one fails. A
 /// process asks it which set holds where, and knows nothing of how sets refer to each other.
 class RuleBook {

@@ -25,10 +25,6 @@ std::string nameOf(const RuleSet& rules, const std::string& path) {
   return fmt::format("rule set '{}'{}", rules.name, path.empty() ? "" : ", " + path);
 }
 
-double widths(const Distance& distance, double voxel_m) {
-  return distance.metres ? distance.number / voxel_m : distance.number;
-}
-
 void convert(Distance& distance, double voxel_m) {
   distance = {widths(distance, voxel_m)};
 }
@@ -169,6 +165,10 @@ class Converter {
 };
 
 }  // namespace
+
+double widths(const Distance& distance, double voxel_m) {
+  return distance.metres ? distance.number / voxel_m : distance.number;
+}
 
 std::shared_ptr<const RuleSet> inVoxelWidths(const std::shared_ptr<const RuleSet>& rules, double voxel_m) {
   return Converter(voxel_m).convert(rules, "");

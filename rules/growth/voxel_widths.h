@@ -9,6 +9,9 @@
 /// metres meets the voxel size. What grows sees voxel widths alone.
 namespace espalier::rules {
 
+/// A distance of a rule file in voxel widths.
+double widths(const Distance& distance, double voxel_m);
+
 /// A rule set and all that it may lead to with every length in voxel widths; a set that stands in several
 /// places stays one. Throws sim::InputError for one that cannot work with such voxels, with the path that
 /// leads to it ("otherwise.regions.brick"): a segment must be 0.1 to 60 voxel widths long, a twist look no

@@ -319,13 +319,14 @@ Report renderScene(Scene scene, const std::filesystem::path& from, const RunOpti
   const sim::Growth growth = takeUp(std::move(*state), from, scene, site, prepared.plantings, Same::plants);
   report.growth = growthReport(scene, site.world, bare, growth, prepared.seed_lights);
   report.occupied_voxels = site.world.occupied().count();
-  if (options.on_foretold) {
-    report.run.foretold =
-        foretellPictures(site, prepared.plantings, grownIn(growth.plants), picturesOf(scene), stages.began());
-    options.on_foretold(*report.run.foretold);
-  }
-  const sim::Lighting light =
-      stages.run("lighting", [&] { return lightFor(scene, site, drawsVines(scene.images), nullptr); });
+  const sim::Lighting light = stages.run("lighting", [&] {
+    if (options.on_foretold) {
+      report.run.foretold = foretellPictures(site, prepared.plantings, grownIn(growth.plants),
+                                             picturesOf(scene), stages.began());
+      options.on_foretold(*report.run.foretold);
+    }
+    return lightFor(scene, site, drawsVines(scene.images), nullptr);
+  });
   report.light = light.about;
   const auto models = stages.run("modelling", [&] { return modelPlants(site.world.frame(), growth.plants); });
   std::vector<OutputFile> files = stages.run("drawing", [&] {

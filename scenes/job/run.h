@@ -14,7 +14,7 @@ struct RunOptions {
   bool pictures = true;            ///< draw the scene's images
   bool strict = false;  ///< warnings are errors; of one that comes after growth once all is written
   std::stop_token stop;
-  std::function<void(const Foretold&)> on_foretold;        ///< once, as soon as it can be told
+  std::function<void(const Foretold&)> on_foretold;        ///< once, in the first stage that it tells of
   std::function<void(const std::string& stage)> on_stage;  ///< as each begins
   std::function<void(const sim::GrowthProgress&)> on_growth;
   std::function<void(const std::string& warning)> on_warning;  ///< once each, before anything grows

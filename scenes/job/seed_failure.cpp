@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "rules/growth/rule_book.h"
+#include "rules/growth/voxel_widths.h"
 #include "sim/base/parallel.h"
 #include "sim/sense/nearest_voxel.h"
 
@@ -37,19 +38,12 @@ Outcome reasonOf(const sim::Tally& tally) {
 
 /// The key that forbids growth near a region; empty where none does.
 std::string forbiddingKey(const RuleSet& rules, const std::string& region) {
-  const RuleSet* set = &rules;
   std::string path;
-  while (const rules::RegionRule* rule = rules::ruleFor(*set, region)) {
-    path += (path.empty() ? "regions." : ".regions.") + (set->regions.contains(region) ? region : "others");
-    if (rule->forbidden) return path;
-    if (!rule->rules) break;
-    set = rule->rules.get();
-  }
-  return {};
+  return rules::setNear(rules, region, &path) == nullptr ? path : "";
 }
 
 RuleLength lengthOf(const rules::Distance& written, double voxel_m) {
-  return {written.metres ? written.number / voxel_m : written.number, written.metres};
+  return {rules::widths(written, voxel_m), written.metres};
 }
 
 SeedFailure::Set setOf(const RuleSet& rules, std::string path, rules::Exposure light, double voxel_m) {

@@ -103,25 +103,31 @@ std::optional<FileKind> headerOf(const YamlNode& root, Problems& problems) {
   return kind == "rules" ? FileKind::rules : FileKind::scene;
 }
 
-std::shared_ptr<const YamlNode> readDocument(const std::string& path, const Place& asker,
-                                             std::optional<FileKind> expected, Problems& problems,
-                                             std::uint64_t* hash) {
-  const auto text = readText(path, asker, problems, hash);
-  if (!text) return nullptr;
+Document readDocument(const std::string& path, const Place& asker, std::optional<FileKind> expected,
+                      Problems& problems) {
+  std::uint64_t hash = 0;
+  const auto text = readText(path, asker, problems, &hash);
+  if (!text) return {};
   const auto look = lookAt(*text);
   const auto root = look.ours ? parseYaml(*text, path, problems) : nullptr;
-  if (look.ours && !root) return nullptr;
+  if (look.ours && !root) return {};
   if (!root || !root->entry(kHeader)) {
     refuseAsForeign(path, asker, look.line, problems);
-    return nullptr;
+    return {};
   }
   // A damaged header is no reason not to read on.
   const auto kind = headerOf(*root, problems);
-  if (!kind || !expected || *kind == *expected) return root;
+  if (!kind || !expected || *kind == *expected) return {root, hash};
   problems.add(root->entry("espalier")->value.place,
                *kind == FileKind::scene ? "this is a scene file; expected a rule file (espalier: rules)"
                                         : "this is a rule file; expected a scene file (espalier: scene)");
-  return nullptr;
+  return {};
+}
+
+Document readDocument(const std::filesystem::path& path, std::optional<FileKind> expected,
+                      Problems& problems) {
+  return readDocument(path.string(), {std::make_shared<const std::string>(path.string()), 0, 0}, expected,
+                      problems);
 }
 
 }  // namespace espalier::scenes

@@ -14,12 +14,20 @@ namespace espalier::scenes {
 /// What a file's first key says of it.
 enum class FileKind { rules, scene };
 
-/// A file's root mapping, with a header, or null. `asker` is the place that names the file; the file itself
-/// where nothing does. Of a file without a header no word is repeated: it is not ours. Without `expected` any
-/// kind will do. `hash` is of all the file's bytes.
-std::shared_ptr<const YamlNode> readDocument(const std::string& path, const Place& asker,
-                                             std::optional<FileKind> expected, Problems& problems,
-                                             std::uint64_t* hash = nullptr);
+/// A file as it was when it was read.
+struct Document {
+  std::shared_ptr<const YamlNode>
+      root{};              ///< a mapping with a header; null where there is none to go on with
+  std::uint64_t hash = 0;  ///< of all the file's bytes
+};
+
+/// Reads a file. `asker` is the place that names it; the file itself where nothing does. Of a file without a
+/// header no word is repeated: it is not ours. Without `expected` any kind will do.
+Document readDocument(const std::string& path, const Place& asker, std::optional<FileKind> expected,
+                      Problems& problems);
+/// The same for a file that nothing names but who asks.
+Document readDocument(const std::filesystem::path& path, std::optional<FileKind> expected,
+                      Problems& problems);
 
 /// The kind that a root's header, which must be there, names, or nothing after a problem was reported.
 std::optional<FileKind> headerOf(const YamlNode& root, Problems& problems);

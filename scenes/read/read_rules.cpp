@@ -1,13 +1,14 @@
 #include "scenes/read/read_rules.h"
 
+#include "scenes/read/document.h"
 #include "scenes/read/rule_loader.h"
 
 namespace espalier::scenes {
 
 Result<std::shared_ptr<const rules::RuleSet>> readRules(const std::filesystem::path& path) {
   Problems problems;
-  RuleLoader loader(problems);
-  auto rules = loader.file(path, {std::make_shared<const std::string>(path.string()), 0, 0});
+  const Document document = readDocument(path, FileKind::rules, problems);
+  auto rules = document.root ? RuleLoader(problems).file(path, document) : nullptr;
   if (!problems.empty()) return problems.sorted();
   return rules;
 }

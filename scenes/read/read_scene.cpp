@@ -8,7 +8,6 @@
 
 #include "scenes/clean_text.h"
 #include "scenes/read/document.h"
-#include "scenes/read/read_rules.h"
 #include "scenes/read/read_table.h"
 #include "scenes/read/registry.h"
 #include "scenes/read/rule_loader.h"
@@ -58,7 +57,8 @@ void findMeshes(Scene& scene, const YamlNode& root, const rules::Check::Complain
   }
 }
 
-Scene readRoot(const YamlNode& root, const fs::path& path, std::uint64_t hash, Problems& problems) {
+Scene sceneOf(const Document& document, const fs::path& path, Problems& problems) {
+  const YamlNode& root = *document.root;
   static const auto paths = pathsOf(sceneTable());
   Scene scene;
   scene.file = path;
@@ -81,7 +81,7 @@ Scene readRoot(const YamlNode& root, const fs::path& path, std::uint64_t hash, P
       {{}, [&](const void*, const auto&, const auto& complain) { findMeshes(scene, root, complain); }});
   fillNames(scene);
   scene.region_mentions = loader.mentions();
-  scene.read_files.push_back({cleanText(path.filename().string()), "scene", hash});
+  scene.read_files.push_back({cleanText(path.filename().string()), "scene", document.hash});
   scene.read_paths.push_back(path);
   for (const auto& read : loader.readFiles()) {
     scene.read_files.push_back({toldFrom(path, read.path, read.from_root), "rules", read.hash});
@@ -103,38 +103,22 @@ Scene readRoot(const YamlNode& root, const fs::path& path, std::uint64_t hash, P
 
 Result<Scene> readScene(const fs::path& path) {
   Problems problems;
-  const Place asker{std::make_shared<const std::string>(path.string()), 0, 0};
-  std::uint64_t hash = 0;
-  const auto root = readDocument(path.string(), asker, FileKind::scene, problems, &hash);
-  if (!root) return problems.sorted();
-  auto scene = readRoot(*root, path, hash, problems);
+  const Document document = readDocument(path, FileKind::scene, problems);
+  if (!document.root) return problems.sorted();
+  auto scene = sceneOf(document, path, problems);
   if (!problems.empty()) return problems.sorted();
   return scene;
 }
 
-namespace {
-
-/// By its first key; nothing where there are problems.
-std::optional<FileKind> kindOf(const fs::path& path, Problems& problems) {
-  const Place asker{std::make_shared<const std::string>(path.string()), 0, 0};
-  const auto root = readDocument(path.string(), asker, std::nullopt, problems);
-  if (!root) return std::nullopt;
-  return headerOf(*root, problems);
-}
-
-}  // namespace
-
-std::vector<Problem> checkFile(const fs::path& path) {
+Result<std::optional<Scene>> readRulesOrScene(const fs::path& path) {
   Problems problems;
-  const auto kind = kindOf(path, problems);
-  if (kind == FileKind::rules) return readRules(path).problems();
-  if (kind == FileKind::scene) return readScene(path).problems();
-  return problems.sorted();
-}
-
-bool isScene(const fs::path& path) {
-  Problems problems;
-  return kindOf(path, problems) == FileKind::scene;
+  const Document document = readDocument(path, std::nullopt, problems);
+  const auto kind = document.root ? headerOf(*document.root, problems) : std::nullopt;
+  std::optional<Scene> scene;
+  if (kind == FileKind::scene) scene = sceneOf(document, path, problems);
+  if (kind == FileKind::rules) RuleLoader(problems).file(path, document);
+  if (!problems.empty()) return problems.sorted();
+  return scene;
 }
 
 }  // namespace espalier::scenes

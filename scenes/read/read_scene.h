@@ -1,6 +1,6 @@
 #pragma once
 #include <filesystem>
-#include <vector>
+#include <optional>
 
 #include "scenes/problem.h"
 #include "scenes/scene.h"
@@ -12,10 +12,8 @@ namespace espalier::scenes {
 /// out are filled in.
 Result<Scene> readScene(const std::filesystem::path& path);
 
-/// Every problem of a rule or scene file and of the files that it names; its first key says which it is.
-std::vector<Problem> checkFile(const std::filesystem::path& path);
-
-/// Whether a file's first key says that it is a scene.
-bool isScene(const std::filesystem::path& path);
+/// Reads a rule or scene file, whichever its first key says that it is, and the files that it names, each
+/// once: a scene, nothing for rules, or every problem in all of those files.
+Result<std::optional<Scene>> readRulesOrScene(const std::filesystem::path& path);
 
 }  // namespace espalier::scenes

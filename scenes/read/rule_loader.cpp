@@ -26,11 +26,16 @@ const YamlNode* lastGiven(const std::vector<const YamlNode*>& layers, std::strin
   return nullptr;
 }
 
+std::string canonicalOf(const fs::path& path) {
+  std::error_code error;
+  const fs::path canonical = fs::weakly_canonical(path, error);
+  return error ? path.string() : canonical.string();
+}
+
 }  // namespace
 
-RulesPointer RuleLoader::file(const fs::path& path, const Place& asker) {
-  const File* file = load(path, asker);
-  return file ? file->rules : nullptr;
+RulesPointer RuleLoader::file(const fs::path& path, const Document& document) {
+  return countOne(document.root->place) ? take(path, document, false).rules : nullptr;
 }
 
 RulesPointer RuleLoader::reference(const YamlNode& node, const std::string& path, const RuleSet& enclosing) {
@@ -51,10 +56,8 @@ const RuleLoader::File* RuleLoader::load(const YamlNode& node) {
 }
 
 const RuleLoader::File* RuleLoader::load(const fs::path& path, const Place& asker, bool from_root) {
-  std::error_code error;
   const auto shown = path.string();
-  auto canonical = fs::weakly_canonical(path, error).string();
-  if (error) canonical = shown;
+  const auto canonical = canonicalOf(path);
   const auto same = [&](const auto& file) { return file.first == canonical; };
   if (const auto start = std::find_if(open_.begin(), open_.end(), same); start != open_.end()) {
     std::string chain;
@@ -67,23 +70,27 @@ const RuleLoader::File* RuleLoader::load(const fs::path& path, const Place& aske
   }
   if (const auto known = files_.find(canonical); known != files_.end()) return &known->second;
   if (!countOne(asker)) return nullptr;
-  std::uint64_t hash = 0;
-  auto root = readDocument(shown, asker, FileKind::rules, problems_, &hash);
-  if (!root) return nullptr;
+  const Document document = readDocument(shown, asker, FileKind::rules, problems_);
+  if (!document.root) return nullptr;
   from_root = from_root || std::any_of(read_files_.begin(), read_files_.end(), [&](const ReadFile& read) {
                 return read.from_root && read.path == *asker.path;
               });
-  read_files_.push_back({path, from_root, hash});
+  return &take(path, document, from_root);
+}
+
+const RuleLoader::File& RuleLoader::take(const fs::path& path, const Document& document, bool from_root) {
+  read_files_.push_back({path, from_root, document.hash});
+  const auto canonical = canonicalOf(path);
   auto& file = files_[canonical];
-  file.root = std::move(root);
-  open_.emplace_back(canonical, shown);
+  file.root = document.root;
+  open_.emplace_back(canonical, path.string());
   if (const auto* base = file.root->entry("base"); base && base->value.kind == YamlNode::Kind::scalar) {
     if (const auto* under = load(base->value)) file.layers = under->layers;
   }
   file.layers.push_back(file.root.get());
   file.rules = build(file.layers, RuleSet{});
   open_.pop_back();
-  return &file;
+  return file;
 }
 
 RulesPointer RuleLoader::inPlace(const YamlNode& map, const RuleSet& enclosing) {

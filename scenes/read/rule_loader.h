@@ -11,6 +11,7 @@
 
 #include "rules/language/rule_set.h"
 #include "scenes/problem.h"
+#include "scenes/read/document.h"
 #include "scenes/scene.h"
 #include "scenes/yaml/yaml_tree.h"
 
@@ -22,8 +23,8 @@ class RuleLoader {
  public:
   explicit RuleLoader(Problems& problems) : problems_(problems) {}
 
-  /// `asker` is the place that names the file.
-  std::shared_ptr<const rules::RuleSet> file(const std::filesystem::path& path, const Place& asker);
+  /// Of a file that has been read: the first of a run.
+  std::shared_ptr<const rules::RuleSet> file(const std::filesystem::path& path, const Document& document);
   /// A value of Kind::rules: a path beside the file of the node, or a mapping of rule keys. The mapping's
   /// keys change `enclosing`.
   std::shared_ptr<const rules::RuleSet> reference(const YamlNode& node, const std::string& path,
@@ -51,6 +52,7 @@ class RuleLoader {
   /// `from_root`: the path is written from the machine's root.
   const File* load(const std::filesystem::path& path, const Place& asker, bool from_root = false);
   const File* load(const YamlNode& node);
+  const File& take(const std::filesystem::path& path, const Document& document, bool from_root);
   std::shared_ptr<const rules::RuleSet> inPlace(const YamlNode& map, const rules::RuleSet& enclosing);
   std::shared_ptr<const rules::RuleSet> build(const Layers& layers, rules::RuleSet rules);
   void addRegions(const Layers& layers, rules::RuleSet& rules);

@@ -49,6 +49,26 @@ TEST_F(Foretold, TheFirstLineOfAJobIs) {
   EXPECT_GT(told, held / 1.5);
 }
 
+TEST_F(Foretold, AfterItStandOnlyStagesThatStillCome) {
+  using Stages = std::vector<std::string>;
+  const auto after = [&](const std::string& arguments) {
+    const Ran ran = said(arguments);
+    EXPECT_EQ(ran.status, 0) << ran.output;
+    std::istringstream lines(ran.output);
+    Stages stages;
+    for (std::string line; std::getline(lines, line);) {
+      if (line.find(' ') == line.npos) stages.push_back(line);
+    }
+    return stages;
+  };
+  EXPECT_EQ(after("grow " + path("scene.yaml") + " -o " + path("out")),
+            (Stages{"growing", "lighting", "modelling", "drawing", "writing"}));
+  EXPECT_EQ(after("expose " + path("scene.yaml") + " -o " + path("light")),
+            (Stages{"lighting", "certifying", "counting", "drawing", "writing"}));
+  EXPECT_EQ(after("render " + path("scene.yaml") + " --from " + path("out")),
+            (Stages{"lighting", "modelling", "drawing", "writing"}));
+}
+
 TEST_F(Foretold, NobodyIsToldWhoDoesNotListen) {
   for (const char* quiet : {"--quiet", "--json"}) {
     const Ran ran = said("grow " + path("scene.yaml") + " -o " + path("out") + " " + quiet);

@@ -1,22 +1,16 @@
-// The program as a user runs it: what it writes, what it says, and how it ends.
+// The program as a user runs it: what it writes, and from what.
 #include <gtest/gtest.h>
 
 #include <OpenImageIO/imageio.h>
-#include <sys/wait.h>
-#include <unistd.h>
-#include <csignal>
 #include <filesystem>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <set>
 #include <string>
-#include <thread>
 #include <tuple>
 
-#include "scenes/read/read_scene.h"
-#include "scenes/show/picture_memory.h"
 #include "sim/base/hasher.h"
-#include "sim/base/parallel.h"
+#include "sim/base/provenance.h"
 #include "tests/cli/plot.h"
 
 namespace espalier {
@@ -73,7 +67,8 @@ TEST_F(Plot, EveryByteIsTheSameOnOneTwoAndFiveThreads) {
   other.erase("run");
   EXPECT_NE(first, other);
   const auto others = files(scratch_.path("other"));
-  for (const char* name : {"plant.glb", "world.vdb", "growth.state", "vines.png", "sky_exposure.png", "sky_exposure.exr"})
+  for (const char* name :
+       {"plant.glb", "world.vdb", "growth.state", "vines.png", "sky_exposure.png", "sky_exposure.exr"})
     EXPECT_FALSE(one.at(name) == others.at(name)) << name;
 }
 
@@ -137,41 +132,6 @@ TEST_F(Plot, EveryFileSaysFromWhatItWasMadeAndNotWhere) {
   EXPECT_EQ(a.dump().find(root), std::string::npos);
 }
 
-TEST_F(Plot, PicturesThatTakeTooMuchMemoryAreRefusedBeforeAnythingIsTiled) {
-  std::string scene = tests::kPlotScene;
-  scene.replace(scene.find("width: 160, height: 120"), 23, "width: 16000, height: 16000");
-  scratch_.write("scene.yaml", scene);
-  scratch_.write("plot.obj", "f 1 2 3\n");  // tiling would begin with a complaint about it
-  for (const char* command : {"grow", "expose"}) {
-    const auto ran =
-        tests::run("ulimit -v 8000000; " + std::string(ESPALIER_PROGRAM) + " " + command + " " +
-                   scratch_.path("scene.yaml").string() + " -o " + scratch_.path("out").string());
-    EXPECT_EQ(ran.status, 2);
-    EXPECT_NE(ran.output.find("scene.yaml:16:1: "), std::string::npos) << ran.output;
-    EXPECT_NE(ran.output.find("5.7 GB are free for it here; expected at most "), std::string::npos)
-        << ran.output;
-    EXPECT_EQ(ran.output.find("plot.obj"), std::string::npos) << ran.output;
-    EXPECT_FALSE(fs::exists(scratch_.path("out")));
-  }
-}
-
-TEST_F(Plot, PicturesTakeNoMoreMemoryThanIsCounted) {
-  std::string scene = tests::kPlotScene;
-  scene.replace(scene.find("width: 160, height: 120"), 23, "width: 1600, height: 1200");
-  scratch_.write("scene.yaml", scene);
-  ASSERT_EQ(grow("--threads 2", "with").status, 0);
-  ASSERT_EQ(grow("--threads 2 --no-pictures", "without").status, 0);
-  const auto peak = [&](const char* folder) {
-    return report(folder)["run"]["peak_memory_bytes"].get<double>();
-  };
-  const auto read = scenes::readScene(scratch_.path("scene.yaml"));
-  ASSERT_TRUE(read);
-  double counted = 0.0;
-  sim::onThreads(2, [&] { counted = scenes::pictureBytes(scenes::picturesOf(*read), 1.0); });
-  EXPECT_LT(peak("with") - peak("without"), counted);
-  EXPECT_GT(peak("with") - peak("without"), 0.25 * counted);
-}
-
 TEST_F(Plot, PicturesDoNotChangeWhatGrows) {
   ASSERT_EQ(grow("", "with").status, 0);
   ASSERT_EQ(grow("--no-pictures", "without").status, 0);
@@ -205,183 +165,6 @@ TEST_F(Plot, JsonPrintsTheReportAndNothingElse) {
 
 TEST_F(Plot, QuietSaysNothing) {
   EXPECT_EQ(grow("--quiet --no-pictures").output, "");
-}
-
-TEST_F(Plot, BadInputIsNamedWithItsPlaceAndNothingIsWritten) {
-  std::string scene = tests::kPlotScene;
-  scene.replace(scene.find("iterations: 14"), 14, "iteratons: 14");
-  scene.replace(scene.find("voxel: 5 cm"), 11, "voxel: -5 cm");
-  scratch_.write("scene.yaml", scene);
-  const auto ran = grow();
-  EXPECT_EQ(ran.status, 2);
-  EXPECT_NE(ran.output.find("scene.yaml:6:"), std::string::npos) << ran.output;
-  EXPECT_NE(ran.output.find("scene.yaml:14:1:"), std::string::npos) << ran.output;
-  EXPECT_NE(ran.output.find("did you mean 'iterations'"), std::string::npos) << ran.output;
-  EXPECT_FALSE(fs::exists(scratch_.path("out")));
-}
-
-TEST_F(Plot, WhatOnlyShowsInTheWorldIsNamedToo) {
-  const auto with = [&](const std::string& from, const std::string& to) {
-    std::string scene = tests::kPlotScene;
-    scene.replace(scene.find(from), from.size(), to);
-    scratch_.write("scene.yaml", scene);
-    const auto ran = grow();
-    EXPECT_EQ(ran.status, 2) << to;
-    EXPECT_NE(ran.output.find("scene.yaml"), std::string::npos) << ran.output;
-    EXPECT_FALSE(fs::exists(scratch_.path("out")));
-    return ran.output;
-  };
-  EXPECT_NE(with("[-0.4, 0.1, 0.1]", "[-0.4, 0.5, 0.0]").find("(wall)"), std::string::npos);
-  EXPECT_NE(with("plot.obj", "missing.obj").find("missing.obj"), std::string::npos);
-  const std::string large = with("voxel: 5 cm", "voxel: 0.02 mm");
-  EXPECT_NE(large.find("voxel"), std::string::npos) << large;
-}
-
-TEST_F(Plot, ARegionThatTheSceneLacksIsAWarningAndWithStrictAnError) {
-  scratch_.write("vine.yaml",
-                 tests::fileText(scratch_.path("vine.yaml")) + "\nregions: {wal: forbid, wall: {}}\n");
-  const auto warned = grow("--no-pictures");
-  EXPECT_EQ(warned.status, 0) << warned.output;
-  const auto at = warned.output.find(
-      ": warning: no mesh of the scene has a region 'wal'; expected one of ground, "
-      "wall; did you mean 'wall'?\n");
-  ASSERT_NE(at, std::string::npos) << warned.output;
-  EXPECT_LT(at, warned.output.find("growing")) << "told before anything grows";
-  EXPECT_EQ(warned.output.find("warning", at + 10), std::string::npos) << "told once";
-  const auto told = report()["warnings"];
-  ASSERT_EQ(told.size(), 1u);
-  EXPECT_TRUE(told[0].get<std::string>().starts_with("vine.yaml:")) << told[0];
-  const auto strict = grow("--no-pictures --strict", "strict");
-  EXPECT_EQ(strict.status, 2);
-  EXPECT_NE(strict.output.find(":11: no mesh of the scene has a region 'wal'"), std::string::npos)
-      << strict.output;
-  EXPECT_FALSE(fs::exists(scratch_.path("strict")));
-  EXPECT_EQ(grow("--no-pictures --quiet", "quiet").output, "");
-  EXPECT_EQ(report("quiet")["warnings"], told);
-}
-
-TEST_F(Plot, AStemThatHasNoEffectIsAWarningWithItsPlace) {
-  const std::string vine = tests::fileText(scratch_.path("vine.yaml"));
-  scratch_.write("vine.yaml",
-                 vine + "\notherwise:\n  stem: {radius: 0.2}\nregions: {wall: {stem: {radius: 0.3}}}\n");
-  const auto ran = grow("--no-pictures", "told");
-  EXPECT_EQ(ran.status, 0);
-  EXPECT_NE(ran.output.find(":3: warning: otherwise.stem has no effect"), std::string::npos) << ran.output;
-  EXPECT_NE(ran.output.find("warning: regions.wall.stem has no effect"), std::string::npos) << ran.output;
-  EXPECT_EQ(report("told")["warnings"].size(), 2u);
-  EXPECT_EQ(grow("--no-pictures --strict", "strict").status, 2);
-}
-
-TEST_F(Plot, AWarningInTheReportIsTheSameHoweverTheFilesAreNamed) {
-  scratch_.write("vine.yaml", tests::fileText(scratch_.path("vine.yaml")) + "\nregions: {wal: forbid}\n");
-  const std::string folder = scratch_.path("").string();
-  for (const std::string& rules :
-       {std::string("vine.yaml"), folder + "vine.yaml",
-        "../" + scratch_.path("").parent_path().filename().string() + "/vine.yaml"}) {
-    std::string scene = tests::kPlotScene;
-    scratch_.write("scene.yaml", scene.replace(scene.find("vine.yaml"), 9, rules));
-    for (const std::string& started : {std::string("/"), folder}) {
-      const std::string named = started == "/" ? folder + "scene.yaml" : "scene.yaml";
-      const auto ran = tests::run("cd " + started + " && " + ESPALIER_PROGRAM + " grow " + named + " -o " +
-                                  folder + "out --no-pictures --quiet");
-      ASSERT_EQ(ran.status, 0) << ran.output;
-      EXPECT_TRUE(report()["warnings"][0].get<std::string>().starts_with("vine.yaml:"))
-          << report()["warnings"] << " of " << rules << " from " << started;
-    }
-  }
-}
-
-TEST_F(Plot, StrictMindsNothingWhereAllIsWell) {
-  const auto ran = grow("--no-pictures --strict");
-  EXPECT_EQ(ran.status, 0) << ran.output;
-  EXPECT_EQ(report()["warnings"], json::array());
-}
-
-TEST_F(Plot, AFullDiskIsAnErrorAndLeavesNoHalfFiles) {
-  ASSERT_EQ(grow("--no-pictures").status, 0);
-  const auto before = files(scratch_.path("out"));
-  const auto ran = tests::run("ulimit -f 20; " + std::string(ESPALIER_PROGRAM) + " grow " +
-                              scratch_.path("scene.yaml").string() + " --seed 9 --no-pictures -o " +
-                              scratch_.path("out").string());
-  EXPECT_EQ(ran.status, 2) << ran.output;
-  EXPECT_NE(ran.output.find("cannot write"), std::string::npos) << ran.output;
-  const auto kept = tests::run(
-      "ulimit -f 20; " + std::string(ESPALIER_PROGRAM) + " grow " + scratch_.path("scene.yaml").string() +
-      " --seed 9 --no-pictures --quiet --save-every 1 -o " + scratch_.path("out").string());
-  EXPECT_EQ(kept.status, 2);
-  EXPECT_EQ(kept.output.find((scratch_.path("out") / "growth.state").string()), 0u) << kept.output;
-  EXPECT_EQ(files(scratch_.path("out")).at("world.vdb"), before.at("world.vdb"));
-  EXPECT_EQ(files(scratch_.path("out")).size(), before.size());
-}
-
-/// Starts the program, and sends it a signal after a while.
-int growAndSignal(const std::string& scene, const std::string& folder, int signal, int after_ms) {
-  const pid_t child = ::fork();
-  if (child == 0) {
-    ::execl(ESPALIER_PROGRAM, ESPALIER_PROGRAM, "grow", scene.c_str(), "-o", folder.c_str(), "--quiet",
-            nullptr);
-    ::_exit(127);
-  }
-  std::this_thread::sleep_for(std::chrono::milliseconds(after_ms));
-  ::kill(child, signal);
-  int status = 0;
-  ::waitpid(child, &status, 0);
-  return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
-}
-
-TEST_F(Plot, KilledAtAnyMomentNoFileIsHalf) {
-  ASSERT_EQ(grow("", "whole").status, 0);
-  auto whole = files(scratch_.path("whole"));
-  const auto out = scratch_.path("out");
-  for (int after_ms = 40; after_ms < 1000; after_ms += 120) {
-    growAndSignal(scratch_.path("scene.yaml"), out, SIGKILL, after_ms);
-    if (!fs::exists(out)) continue;
-    for (const auto& [name, bytes] : files(out)) {
-      if (name.starts_with(".espalier-part-") || name == "report.json") continue;
-      EXPECT_TRUE(bytes == whole[name]) << name << " after " << after_ms << " ms";
-    }
-  }
-  ASSERT_EQ(grow().status, 0);
-  for (const auto& [name, bytes] : files(out)) EXPECT_FALSE(name.starts_with(".espalier-part-")) << name;
-}
-
-TEST_F(Plot, CtrlCEndsCleanly) {
-  std::string scene = tests::kPlotScene;
-  scene.replace(scene.find("iterations: 14"), 14, "iterations: 100000");
-  scene.replace(scene.find("voxel: 5 cm"), 11, "voxel: 1 cm");
-  scratch_.write("scene.yaml", scene);
-  EXPECT_EQ(growAndSignal(scratch_.path("scene.yaml"), scratch_.path("out"), SIGINT, 600), 130);
-  EXPECT_FALSE(fs::exists(scratch_.path("out")));
-}
-
-TEST(CommandLine, HelpVersionAndMistakes) {
-  EXPECT_EQ(tests::espalier("--help").status, 0);
-  EXPECT_NE(tests::espalier("--help").output.find("grow"), std::string::npos);
-  EXPECT_EQ(tests::espalier("--version").status, 0);
-  EXPECT_EQ(tests::espalier("").status, 2);
-  EXPECT_EQ(tests::espalier("grow").status, 2);
-  EXPECT_EQ(tests::espalier("plant x").status, 2);
-  EXPECT_EQ(tests::espalier("grow no-such-scene.yaml").status, 2);
-}
-
-TEST(CommandLine, CheckNamesEveryErrorOfEveryFile) {
-  const tests::Scratch scratch;
-  const auto a = scratch.write("a.yaml", "espalier: rules\nnam: x\nlight: {boost: -1}\n");
-  const auto b = scratch.write("b.yaml", "espalier: scene\nmeshes: 3\n");
-  const auto ran = tests::espalier("check " + a.string() + " " + b.string());
-  EXPECT_EQ(ran.status, 2);
-  for (const char* part : {"a.yaml:2:1:", "did you mean 'name'", "a.yaml:3:", "b.yaml:2:"}) {
-    EXPECT_NE(ran.output.find(part), std::string::npos) << part << " in\n" << ran.output;
-  }
-}
-
-TEST(CommandLine, SchemasAreJson) {
-  for (const char* kind : {"rules", "scene"}) {
-    const auto ran = tests::espalier(std::string("schema ") + kind);
-    EXPECT_EQ(ran.status, 0);
-    EXPECT_EQ(json::parse(ran.output)["$schema"], "https://json-schema.org/draft/2020-12/schema");
-  }
-  EXPECT_NE(tests::espalier("schema plants").status, 0);
 }
 
 }  // namespace

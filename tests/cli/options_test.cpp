@@ -20,9 +20,10 @@ class Options : public tests::Plot {
   }
   /// What is said of a line in a scene file, after the key's name.
   std::string saidOf(const std::string& line) const {
-    const auto problems = scenes::checkFile(scratch_.write(
+    const auto file = scratch_.write(
         "key.yaml",
-        "espalier: scene\nworld: {resolution: 9, bounds: {min: [0, 0, 0], max: [1, 1, 1]}}\n" + line + "\n"));
+        "espalier: scene\nworld: {resolution: 9, bounds: {min: [0, 0, 0], max: [1, 1, 1]}}\n" + line + "\n");
+    const auto problems = scenes::readRulesOrScene(file).problems();
     EXPECT_EQ(problems.size(), 1u) << line;
     return problems.empty() ? "" : problems.front().text.substr(problems.front().text.find(' ')) + "\n";
   }

@@ -317,7 +317,7 @@ std::string RandomFiles::repaired() {
   std::string left;
   for (int round = 0; round < kMostRounds; ++round) {
     for (File& file : files_) std::ofstream(folder_ / file.name) << write(file.root);
-    const auto problems = scenes::checkFile(folder_ / files_.back().name);
+    const auto problems = scenes::readRulesOrScene(folder_ / files_.back().name).problems();
     if (problems.empty()) return "";
     left = scenes::format(problems);
     // From the end of each file, so that the lines before stay where they are.

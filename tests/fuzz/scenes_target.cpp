@@ -50,7 +50,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const auto scene = scenes::readScene(path);
   if (scene) {
     fuzz::prepare(*scene);
-    fuzz::require(scenes::checkFile(path).empty(), "a scene that reads and does not pass its check");
+    fuzz::require(scenes::readRulesOrScene(path).problems().empty(),
+                  "a scene that reads and does not pass its check");
   } else {
     fuzz::require(!scene.problems().empty(), "a refusal without a word");
     scenes::format(scene.problems());

@@ -87,6 +87,15 @@ TEST(RuleBook, ARegionsSetMayHaveRegionsToo) {
   const RuleBook book(top);
   EXPECT_EQ(tried(book, world, kAtBrick), (Names{"inner", "secondary brick"}));
   EXPECT_EQ(tried(book, world, kAtSoil), (Names{}));
+  std::string path = "of another region";
+  EXPECT_EQ(setNear(*top, "brick", &path), inner.get());
+  EXPECT_EQ(path, "regions.others.regions.brick");
+  EXPECT_EQ(setNear(*top, "soil", &path), nullptr);
+  EXPECT_EQ(path, "regions.others.regions.soil");
+  EXPECT_EQ(setNear(*top, "roof", &path), outer.get());
+  EXPECT_EQ(path, "regions.others");
+  EXPECT_EQ(setNear(*named("plain"), "roof", &path)->name, "plain");
+  EXPECT_EQ(path, "");
 }
 
 TEST(RuleBook, VisitsEachSetOnceByItsPath) {

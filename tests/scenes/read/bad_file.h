@@ -29,7 +29,7 @@ inline void expectMessages(const BadFile& bad, const std::string& name, const st
   scratch.write("scene.yaml", "espalier: scene\nworld: {voxel: 1, bounds: {min: [0,0,0], max: [1,1,1]}}\n");
   scratch.write("a.obj", "");
   scratch.write("sub/a.obj", "");
-  const auto problems = scenes::checkFile(scratch.write(name, text));
+  const auto problems = scenes::readRulesOrScene(scratch.write(name, text)).problems();
   const auto shown = scratch.shown(problems);
   ASSERT_EQ(problems.size(), bad.messages.size()) << shown;
   for (std::size_t i = 0; i < problems.size(); ++i) {

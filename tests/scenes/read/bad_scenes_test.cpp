@@ -277,7 +277,7 @@ INSTANTIATE_TEST_SUITE_P(Corpus, BadScenes, testing::ValuesIn(kBadScenes), tests
 TEST(BadHeaders, AreRefused) {
   const tests::Scratch scratch;
   const auto shown = [&](const std::string& text) {
-    return scratch.shown(checkFile(scratch.write("f.yaml", text)));
+    return scratch.shown(readRulesOrScene(scratch.write("f.yaml", text)).problems());
   };
   const std::string none =
       "f.yaml:1:1: the file does not say what it is; expected 'espalier: rules' or 'espalier: scene' first";
@@ -332,9 +332,9 @@ TEST(ForeignFiles, AreNotRepeatedAndWhoAsksForThemIsNamed) {
       for (const char* word : {"secret", "SECRET", "root:", "0x", "U+00"})
         EXPECT_EQ(shown.find(word), shown.npos) << shown << "\nof\n" << text;
     };
-    expectSilence(scratch.shown(checkFile(foreign)), "foreign:1:1: the file");
+    expectSilence(scratch.shown(readRulesOrScene(foreign).problems()), "foreign:1:1: the file");
     const auto asked = [&](const std::string& name, const std::string& file_text) {
-      return scratch.shown(checkFile(scratch.write(name, file_text)));
+      return scratch.shown(readRulesOrScene(scratch.write(name, file_text)).problems());
     };
     expectSilence(asked("r.yaml", "espalier: rules\nbase: foreign\n"), "r.yaml:2:7: foreign: the file");
     expectSilence(asked("r.yaml", "espalier: rules\notherwise: " + foreign + "\n"),
@@ -356,7 +356,8 @@ TEST(ForeignFiles, MayHaveNamesOfAnyLength) {
        {"base: " + name, "otherwise: " + name, "regions: {wall: ./" + name + "}",
         "regions: {" + name + ": {lenght: 1}}", "regions: {" + name + ": {length: 1000000 km}}", name + ": 1",
         "propagate: " + name, "length: " + name}) {
-    const auto problems = checkFile(scratch.write("r.yaml", "espalier: rules\n" + rules + "\n"));
+    const auto problems =
+        readRulesOrScene(scratch.write("r.yaml", "espalier: rules\n" + rules + "\n")).problems();
     ASSERT_FALSE(problems.empty()) << rules.substr(0, 20);
     for (const auto& problem : problems) {
       const auto line = scratch.shown({problem});

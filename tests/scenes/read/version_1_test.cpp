@@ -33,8 +33,7 @@ std::vector<fs::path> filesOfVersion1() {
 
 std::shared_ptr<const YamlNode> rootOf(const fs::path& file) {
   Problems problems;
-  return readDocument(file.string(), {std::make_shared<const std::string>(file.string()), 0, 0}, std::nullopt,
-                      problems);
+  return readDocument(file, std::nullopt, problems).root;
 }
 
 FileKind kindOf(const YamlNode& root) {

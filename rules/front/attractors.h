@@ -81,6 +81,9 @@ void meet(Attractors& attractors, std::span<const sim::Vec3> nodes, std::span<co
 std::int32_t nearestWaiting(const Attractors& attractors, sim::Vec3 to, double within,
                             std::int32_t of_node = kNobody);
 
+/// The nearest attractor, whatever became of it; equally near ones as above. kNobody where there is none.
+std::int32_t nearestOfAll(const Attractors& attractors, sim::Vec3 to);
+
 /// The attractor that is nearest to one of them, of all that wait. Indices; kNobody where there is but one.
 std::int32_t nearestOther(const Attractors& attractors, std::int32_t at);
 

@@ -11,8 +11,8 @@ using sim::Outcome;
 
 /// Why a set does not grow here; grown if it does, and then the proposal says what.
 Outcome tryToGrow(const sim::SiteView& view, const RuleSet& rules, const sim::Site& site,
-                  const sim::RandomKey& key, unsigned set, const RuleBook& book, const Step& step,
-                  sim::Proposal& proposal) {
+                  const sim::RandomKey& key, unsigned set, const RuleBook& book, int order,
+                  const Step& step, sim::Proposal& proposal) {
   const Exposure seen = view.light != nullptr ? exposureOf(*view.light) : Exposure{1.0, 1.0};
   const Vigour light = vigourOf(seen, rules);
   if (light.exposure < rules.require.exposure_min) return Outcome::too_dark;
@@ -27,12 +27,14 @@ Outcome tryToGrow(const sim::SiteView& view, const RuleSet& rules, const sim::Si
   proposal.elements =
       proposeElements(view, rules, around, senses, best->to_vx, best->passes, book.firstShape(rules), key);
   proposal.segment = {best->to_vx, std::move(best->takes), best->passage, {}};
-  const auto proximity_vx = static_cast<float>(best->proximity_vx);
-  if (view.light == nullptr) {
-    proposal.segment->quantities = {proximity_vx};
-  } else {  // in the order of their names
-    proposal.segment->quantities = {static_cast<float>(senses.exposure), proximity_vx,
-                                    static_cast<float>(seen.sky), static_cast<float>(seen.sun)};
+  // exposure, order, proximity_vx, sky_exposure, sun_exposure: in the order of their names.
+  std::vector<float>& quantities = proposal.segment->quantities;
+  if (view.light != nullptr) quantities.push_back(static_cast<float>(senses.exposure));
+  if (book.hasOrders()) quantities.push_back(static_cast<float>(order));
+  quantities.push_back(static_cast<float>(best->proximity_vx));
+  if (view.light != nullptr) {
+    quantities.push_back(static_cast<float>(seen.sky));
+    quantities.push_back(static_cast<float>(seen.sun));
   }
   return Outcome::grown;
 }
@@ -40,13 +42,13 @@ Outcome tryToGrow(const sim::SiteView& view, const RuleSet& rules, const sim::Si
 }  // namespace
 
 sim::Proposal proposeByBook(const sim::SiteView& view, const sim::Site& site, const sim::RandomKey& key,
-                            const RuleBook& book, const Step& step) {
+                            const RuleBook& book, int order, const Step& step) {
   sim::Proposal proposal;
   const sim::Voxel at = sim::voxelAt(site.at_vx);
-  const RuleSet* rules = book.first(view.world, at);
+  const RuleSet* rules = book.first(view.world, at, order);
   proposal.outcome = Outcome::forbidden;
   for (unsigned set = 0; rules != nullptr; ++set, rules = book.next(*rules, view.world, at)) {
-    const Outcome outcome = tryToGrow(view, *rules, site, key, set, book, step, proposal);
+    const Outcome outcome = tryToGrow(view, *rules, site, key, set, book, order, step, proposal);
     // What is told of a site that did not grow is why its first set failed, unless a later one got as far as
     // trials.
     if (set == 0 || outcome == Outcome::no_trial || outcome == Outcome::grown || outcome == Outcome::resting)
@@ -74,12 +76,18 @@ bool asksForLight(const RuleSet& set) {
 
 }  // namespace
 
+int orderOf(const sim::Plant& plant, sim::NodeId node) {
+  const std::vector<float>* const order = sim::find(plant.skeleton, "order");
+  return order == nullptr ? 0 : static_cast<int>((*order)[static_cast<std::size_t>(node)]);
+}
+
 sim::Plant seedlingOf(const RuleBook& book) {
   sim::Plant plant;
   plant.shapes = book.shapes();
   plant.stem_colour = book.top().stem_colour;
   plant.stem_radius_vx = book.top().stem_radius.number;
   plant.skeleton.columns["proximity_vx"];
+  if (book.hasOrders()) plant.skeleton.columns["order"];
   if (!wantsOf(book).light) return plant;
   for (const char* name : {"exposure", "sky_exposure", "sun_exposure"}) plant.skeleton.columns[name];
   return plant;

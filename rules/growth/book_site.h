@@ -18,8 +18,12 @@ using Step = std::function<std::optional<Candidate>(const RuleSet& rules, const 
 /// senses, regions and light, and grows by the first that succeeds; where that one would rather rest, it
 /// rests. The segment carries elements, and the
 /// quantities of seedlingOf's columns.
+/// `order`: of the segment that would grow; where the book tells orders apart it is a quantity too.
 sim::Proposal proposeByBook(const sim::SiteView& view, const sim::Site& site, const sim::RandomKey& key,
-                            const RuleBook& book, const Step& step);
+                            const RuleBook& book, int order, const Step& step);
+
+/// The order of a node, if its plant tells orders apart; else 0.
+int orderOf(const sim::Plant& plant, sim::NodeId node);
 
 /// A plant without nodes, and what must be sensed for it.
 sim::Plant seedlingOf(const RuleBook& book);

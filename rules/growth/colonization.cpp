@@ -7,8 +7,10 @@
 
 #include "rules/front/lengths.h"
 #include "rules/growth/book_site.h"
+#include "rules/growth/front_bend.h"
 #include "rules/growth/front_memory.h"
 #include "rules/growth/front_step.h"
+#include "rules/growth/shared_guide.h"
 #include "sim/base/error.h"
 
 namespace espalier::rules {
@@ -16,7 +18,8 @@ namespace {
 
 using sim::Outcome;
 
-constexpr const char* kLengths = "front_lengths_vx";  // step, influence, kill
+constexpr const char* kLengths = "front_lengths_vx";  // step, influence, kill; of each order
+constexpr const char* kFarthest = "front_farthest_vx";  // attractor of each plant, if a field wants to know
 constexpr double kShortestStep_vx = 0.1, kLongestStep_vx = 60.0;
 
 class ColonizationProcess final : public sim::Process {
@@ -40,8 +43,9 @@ class ColonizationProcess final : public sim::Process {
 
  private:
   sim::Columns& home(sim::Commons& commons) const;
-  FrontRules rulesIn(const sim::Columns& memory, int iteration) const;
-  FrontLengths lengths(const Attractors& attractors) const;
+  OrderRules rulesIn(const sim::Columns& memory, int iteration) const;
+  FrontLengths lengths(const Attractors& attractors, int order) const;
+  Guidance guidance(const sim::Columns& memory, const sim::Commons& commons) const;
 
   RuleBook book_;
   sim::Wants wants_;
@@ -54,38 +58,58 @@ sim::Columns& ColonizationProcess::home(sim::Commons& commons) const {
                                     book_.top().name, front_.attractors));
 }
 
-FrontRules ColonizationProcess::rulesIn(const sim::Columns& memory, int iteration) const {
+OrderRules ColonizationProcess::rulesIn(const sim::Columns& memory, int iteration) const {
   const auto& lengths = sim::column<double>(memory, kLengths);
-  if (lengths.size() != 3) throw sim::BrokenContract("a front without its lengths");
-  const FrontRules rules{lengths[0], lengths[1], lengths[2], front_.acts, front_.onto, front_.repeated,
-                         iteration};
-  requireSound(rules);
+  if (lengths.size() != 3 * (kTwig + 1)) throw sim::BrokenContract("a front without its lengths");
+  OrderRules rules{FrontRules{}};
+  for (std::size_t order = 0; order <= kTwig; ++order) {
+    rules.of_order[order] = {lengths[3 * order], lengths[3 * order + 1], lengths[3 * order + 2],
+                             front_.acts,        front_.onto,            front_.repeated,
+                             iteration};
+    requireSound(rules.of_order[order]);
+  }
   return rules;
 }
 
-FrontLengths ColonizationProcess::lengths(const Attractors& attractors) const {
+FrontLengths ColonizationProcess::lengths(const Attractors& attractors, int order) const {
+  const RuleSet& set = book_.ofOrder(order);
+  const Colonization& given = set.colonization;
   FrontLengths lengths;
-  const bool all_given = front_.step && front_.influence && front_.kill;
-  if (!all_given) {
+  if (!given.step || !given.influence || !given.kill) {
     lengths = suitableLengths(spacingOf(attractors));
     if (lengths.step == 0.0) {
       throw sim::InputError(fmt::format(
           "rule set '{}': its attractors '{}' are one, or lie in one place, so that no length follows from "
           "how far they are apart; expected colonization.step, influence and kill",
-          book_.top().name, front_.attractors));
+          set.name, front_.attractors));
     }
   }
-  if (front_.step) lengths.step = front_.step->number;
-  if (front_.influence) lengths.influence = front_.influence->number;
-  if (front_.kill) lengths.kill = front_.kill->number;
+  if (given.step) lengths.step = given.step->number;
+  if (given.influence) lengths.influence = given.influence->number;
+  if (given.kill) lengths.kill = given.kill->number;
   if (lengths.step < kShortestStep_vx || lengths.step > kLongestStep_vx) {
     throw sim::InputError(fmt::format(
         "rule set '{}': colonization.step is {:.3g} voxel widths{}; expected {} to {}, by another step or "
         "voxels of another size",
-        book_.top().name, lengths.step, front_.step ? "" : ", as its attractors lie", kShortestStep_vx,
+        set.name, lengths.step, given.step ? "" : ", as its attractors lie", kShortestStep_vx,
         kLongestStep_vx));
   }
   return lengths;
+}
+
+Guidance ColonizationProcess::guidance(const sim::Columns& memory, const sim::Commons& commons) const {
+  Guidance guidance;
+  for (const std::string& name : front_.fields) {
+    const auto at = commons.find(fieldNamed(name));
+    if (at == commons.end()) {
+      throw sim::InputError(fmt::format("rule set '{}': there is no field '{}'; expected one of that name",
+                                        book_.top().name, name));
+    }
+    guidance.guides.push_back(guideIn(at->second));
+  }
+  guidance.farthest_vx = sim::column<double>(memory, kFarthest);
+  guidance.normals = &sim::column<sim::Vec3>(commons.at(attractorsNamed(front_.attractors)), "normal");
+  return guidance;
 }
 
 void ColonizationProcess::begin(const sim::StandView& stand, sim::Columns& memory,
@@ -98,17 +122,26 @@ void ColonizationProcess::begin(const sim::StandView& stand, sim::Columns& memor
     lent.front = std::move(fresh);
   }
   LentFront lent(columns);
-  const FrontLengths found = lengths(lent.front.attractors);
-  sim::column<double>(memory, kLengths) = {found.step, found.influence, found.kill};
+  auto& all = sim::column<double>(memory, kLengths);
+  for (int order = 0; order <= kTwig; ++order) {
+    const FrontLengths found = lengths(lent.front.attractors, order);
+    all.insert(all.end(), {found.step, found.influence, found.kill});
+  }
   FrontMemory own;
+  std::vector<NewNode> joining;
   std::vector<sim::Vec3> starts;
   for (std::size_t i = 0; i < stand.plants.size(); ++i) {
     const auto number = static_cast<std::int32_t>(lent.front.nodes.size() + i);
     own.active.push_back({number, static_cast<std::int32_t>(i), 0});
     starts.push_back(stand.plants[i].skeleton.position_vx.front());
+    joining.push_back({starts.back()});
   }
   own.trunks = own.active;
-  join(lent.front, starts, rulesIn(memory, stand.iteration));
+  if (!front_.fields.empty()) {
+    sim::column<double>(memory, kFarthest) = farthestOf(lent.front.attractors, starts);
+    guidance(memory, commons);  // says at once what is not there
+  }
+  join(lent.front, joining, rulesIn(memory, stand.iteration));
   keep(own, memory);
 }
 
@@ -116,12 +149,15 @@ std::vector<sim::Site> ColonizationProcess::due(const sim::StandView& stand, sim
                                                 sim::Commons& commons) const {
   LentFront lent(home(commons));
   Front& front = lent.front;
-  const FrontRules rules = rulesIn(memory, stand.iteration);
+  const OrderRules rules = rulesIn(memory, stand.iteration);
   FrontMemory own = frontMemory(memory, stand);
   own.errands.clear();
   std::vector<std::int32_t> numbers;
+  for (const FrontNode& node : own.active) requireNodes(front, {&node.front, 1});
+  std::erase_if(own.active, [&](const FrontNode& node) {
+    return !mayBranch(stand, book_, node, front.order[static_cast<std::size_t>(node.front)]);
+  });
   for (const FrontNode& node : own.active) numbers.push_back(node.front);
-  requireNodes(front, numbers);
   const std::vector<Way> ways = waysOf(front, numbers, rules);
   std::size_t kept = 0;  // of those that are still active, and of their ways
   auto way = ways.begin();
@@ -143,6 +179,7 @@ std::vector<sim::Site> ColonizationProcess::due(const sim::StandView& stand, sim
           {tip, 0, Gait::straight, true, up.direction, endOfWay(front, up, up.direction, rules)});
     return up.node == kNobody;
   });
+  bend(own.errands, front, stand, book_, guidance(memory, commons));
   const auto place = [](const Errand& e) { return std::tuple(e.from.plant, e.from.node, e.number); };
   std::sort(own.errands.begin(), own.errands.end(),
             [&](const Errand& a, const Errand& b) { return place(a) < place(b); });
@@ -159,8 +196,10 @@ std::vector<sim::Site> ColonizationProcess::due(const sim::StandView& stand, sim
 sim::Proposal ColonizationProcess::propose(const sim::SiteView& view, const sim::Site& site,
                                            const sim::RandomKey& key) const {
   const Errand errand = errandOf(view.memory, site);
+  bool limb_goes_on = true;
+  view.kin.forEachChild(site.node, [&](sim::NodeId) { limb_goes_on = false; });
   sim::Proposal proposal =
-      proposeByBook(view, site, key, book_,
+      proposeByBook(view, site, key, book_, orderOf(view.plant, site.node) + (limb_goes_on ? 0 : 1),
                     [&](const RuleSet& rules, const Surroundings& around, const Senses& senses, unsigned set,
                         sim::Proposal& counts) {
                       return frontStep(view, rules, around, senses, errand, key, set, counts);
@@ -178,11 +217,11 @@ void ColonizationProcess::settle(const sim::StandView& stand, std::span<const si
                                  sim::Columns& memory, sim::Commons& commons) const {
   LentFront lent(home(commons));
   Front& front = lent.front;
-  const FrontRules rules = rulesIn(memory, stand.iteration);
+  const OrderRules rules = rulesIn(memory, stand.iteration);
   FrontMemory own = frontMemory(memory, stand);
   if (own.errands.size() != verdicts.size()) throw sim::BrokenContract("a front that was told of other sites");
   own.trunks.clear();
-  std::vector<sim::Vec3> joined;
+  std::vector<NewNode> joined;
   std::vector<FrontNode> idle;  // unless what they sent out drew something away
   for (std::size_t i = 0; i < verdicts.size(); ++i) {
     const sim::Verdict& verdict = verdicts[i];
@@ -193,7 +232,7 @@ void ColonizationProcess::settle(const sim::StandView& stand, std::span<const si
       if (!errand.trunk) taken(front, errand.from.front, at, rules);
       const FrontNode fresh{static_cast<std::int32_t>(front.nodes.size() + joined.size()), errand.from.plant,
                             verdict.node};
-      joined.push_back(at);
+      joined.push_back({at, errand.from.front});
       own.active.push_back(fresh);
       if (errand.trunk) own.trunks.push_back(fresh);
       if (!errand.trunk && errand.gait == Gait::straight && at != errand.end_vx) idle.push_back(errand.from);

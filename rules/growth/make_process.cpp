@@ -52,7 +52,7 @@ class WalkProcess final : public sim::Process {
                         const sim::RandomKey& key) const override {
     const RandomTree* grew_by = nullptr;
     sim::Proposal proposal =
-        proposeByBook(view, site, key, book_,
+        proposeByBook(view, site, key, book_, orderOf(view.plant, site.node) + (site.number == 0 ? 0 : 1),
                       [&](const RuleSet& rules, const Surroundings& around, const Senses& senses,
                           unsigned set, sim::Proposal& counts) {
                         grew_by = &rules.random_tree;

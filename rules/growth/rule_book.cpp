@@ -20,6 +20,8 @@ void visitFrom(const RuleSet& rules, const std::string& path, std::set<const Rul
   }
   if (rules.others && rules.others->rules)
     visitFrom(*rules.others->rules, prefix + "regions.others", met, visit);
+  if (rules.branches) visitFrom(*rules.branches, prefix + "branches", met, visit);
+  if (rules.twigs) visitFrom(*rules.twigs, prefix + "twigs", met, visit);
   if (rules.otherwise) visitFrom(*rules.otherwise, prefix + "otherwise", met, visit);
 }
 
@@ -58,8 +60,13 @@ RuleBook::RuleBook(std::shared_ptr<const RuleSet> rules) : rules_(std::move(rule
   });
 }
 
-const RuleSet* RuleBook::first(const sim::World& world, sim::Voxel v) const {
-  return holding(*rules_, world, v);
+const RuleSet& RuleBook::ofOrder(int order) const {
+  if (order >= 2 && rules_->twigs) return *rules_->twigs;
+  return order >= 1 && rules_->branches ? *rules_->branches : *rules_;
+}
+
+const RuleSet* RuleBook::first(const sim::World& world, sim::Voxel v, int order) const {
+  return holding(ofOrder(order), world, v);
 }
 
 const RuleSet* RuleBook::next(const RuleSet& failed, const sim::World& world, sim::Voxel v) const {

@@ -28,9 +28,13 @@ class RuleBook {
  public:
   explicit RuleBook(std::shared_ptr<const RuleSet> rules);
 
-  /// The set that a site in this voxel tries first: the nearest region's, or the book's own where it says
-  /// nothing of that one; null where nothing may grow.
-  const RuleSet* first(const sim::World& world, sim::Voxel v) const;
+  /// The set of limbs of an order: 0 the trunk, 1 its branches, 2 and more twigs.
+  const RuleSet& ofOrder(int order) const;
+  /// Whether limbs are told apart by their orders.
+  bool hasOrders() const { return rules_->branches || rules_->twigs; }
+  /// The set that a site in this voxel tries first: of what has an order, the nearest region's, or that order's
+  /// own where it says nothing of that one; null where nothing may grow.
+  const RuleSet* first(const sim::World& world, sim::Voxel v, int order = 0) const;
   /// The set to try where this one has failed; null where there is none, or nothing may grow.
   const RuleSet* next(const RuleSet& failed, const sim::World& world, sim::Voxel v) const;
 

@@ -40,7 +40,8 @@ void convert(RuleSet& rules, double voxel_m) {
   if (length.metres) convert(length.value, voxel_m);
   length.metres = false;
   for (Distance* distance : {&rules.bias.twist_radius, &rules.require.proximity_min,
-                             &rules.require.proximity_max, &rules.prefer.proximity, &rules.stem_radius})
+                             &rules.require.proximity_max, &rules.prefer.proximity, &rules.stem_radius,
+                             &rules.colonization.branching.above})
     convert(*distance, voxel_m);
   for (std::optional<Distance>* distance :
        {&rules.colonization.step, &rules.colonization.influence, &rules.colonization.kill}) {
@@ -154,6 +155,8 @@ class Converter {
     }
     if (copy.others && copy.others->rules)
       copy.others->rules = convert(copy.others->rules, prefix + "regions.others");
+    if (copy.branches) copy.branches = convert(copy.branches, prefix + "branches");
+    if (copy.twigs) copy.twigs = convert(copy.twigs, prefix + "twigs");
     if (copy.otherwise) copy.otherwise = convert(copy.otherwise, prefix + "otherwise");
     return known_[rules.get()] = std::make_shared<const RuleSet>(std::move(copy));
   }

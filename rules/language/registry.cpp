@@ -51,6 +51,27 @@ std::shared_ptr<const Table> randomTreeKeys() {
       .shared();
 }
 
+std::shared_ptr<const Table> branchingKeys() {
+  const auto angle =
+      TableOf<Branching>()
+          .number("min", &Branching::angle_min_deg,
+                  {.unit = kDegrees, .limits = kAngle, .meaning = "Least angle between a branch and its limb."})
+          .number("max", &Branching::angle_max_deg,
+                  {.unit = kDegrees,
+                   .limits = {0.0, 180.0, true},
+                   .meaning = "Greatest angle between a segment and the one before it, of branches too."})
+          .shared();
+  return TableOf<Branching>()
+      .section("angle", std::identity{}, angle, {.meaning = "Between segments that follow each other."})
+      .distance("above", &Branching::above,
+                {.unit = kVoxels,
+                 .limits = {0.0, 1e6},
+                 .meaning = "Nothing branches nearer to the height of the plant's start than this."})
+      .whole("most", &Branching::most,
+             {.unit = "branches", .limits = {0.0, 1000.0}, .meaning = "Most branches from one node."})
+      .shared();
+}
+
 std::shared_ptr<const Table> colonizationKeys() {
   const auto derived = [](std::string meaning) {
     return About{.unit = kVoxels,
@@ -80,6 +101,10 @@ std::shared_ptr<const Table> colonizationKeys() {
                .meaning = "How far a way turns aside, at most, where something stands in it."})
       .whole("trials", &Colonization::trials,
              {.unit = "trials", .limits = kTrials, .meaning = "Ways that are tried then, wider and wider."})
+      .section("branching", &Colonization::branching, branchingKeys(),
+               {.meaning = "Where limbs leave each other, and at which angles."})
+      .names("fields", &Colonization::fields,
+             {.meaning = "Guide fields of the scene that bend its ways, by name.", .most = 16})
       .shared();
 }
 
@@ -287,6 +312,22 @@ Table makeTable() {
           {.meaning =
                "Geometry that is placed on new segments, such as leaves; a list replaces that of the base.",
            .most = 64})
+      .custom(
+          "branches", Kind::rules,
+          [](RuleSet& r, const Datum& d) { r.branches = std::get<RuleReference>(d).rules; },
+          [](const RuleSet& r) {
+            return r.branches ? Datum{RuleReference{{}, r.branches}} : Datum{};
+          },
+          {.meaning = "The rule set of limbs that leave the first one, the trunk; keys written in place change "
+                      "this rule set."})
+      .custom(
+          "twigs", Kind::rules,
+          [](RuleSet& r, const Datum& d) { r.twigs = std::get<RuleReference>(d).rules; },
+          [](const RuleSet& r) {
+            return r.twigs ? Datum{RuleReference{{}, r.twigs}} : Datum{};
+          },
+          {.meaning = "The rule set of limbs that leave branches, and of all beyond; keys written in place "
+                      "change that of branches."})
       .custom(
           "otherwise", Kind::rules,
           [](RuleSet& r, const Datum& d) { r.otherwise = std::get<RuleReference>(d).rules; },

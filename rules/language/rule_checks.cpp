@@ -129,6 +129,10 @@ const std::vector<Check>& ruleChecks() {
           "require.exposure.min", "require.exposure.max",
           [](auto& r) { return Distance{r.require.exposure_min}; },
           [](auto& r) { return Distance{r.require.exposure_max}; }, false),
+      ordered(
+          "colonization.branching.angle.min", "colonization.branching.angle.max",
+          [](auto& r) { return Distance{r.colonization.branching.angle_min_deg}; },
+          [](auto& r) { return Distance{r.colonization.branching.angle_max_deg}; }, true),
       check({"light.blend"},
             [](auto& rules, auto&, auto& complain) {
               if (rules.light.sun + rules.light.sky <= 0.0) {

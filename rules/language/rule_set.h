@@ -58,6 +58,14 @@ enum class Acts {
   on_every_node
 };
 
+/// How limbs of colonization leave each other.
+struct Branching {
+  double angle_min_deg = 0.0;    ///< between a branch and its limb
+  double angle_max_deg = 180.0;  ///< between a segment and the one before it, branches too
+  Distance above{0.0};           ///< limbs branch from so far above (or below) their plant's start on
+  int most = 1000;               ///< branches from one node
+};
+
 /// Space colonization: attractors pull what grows their way, and end where it comes near.
 struct Colonization {
   std::string attractors;  ///< those of the scene that have this name
@@ -70,6 +78,8 @@ struct Colonization {
   bool repeated = false;  ///< a node is a start for each of its attractors
   double avoid_deg = 80.0;  ///< how far a way may turn aside where something stands in it
   int trials = 60;          ///< ways that are tried then
+  Branching branching;
+  std::vector<std::string> fields;  ///< guide fields of the scene that bend it
 };
 
 /// How the brightest part of the sky is found.
@@ -147,6 +157,8 @@ struct RuleSet {
   std::vector<Element> elements;
   std::map<std::string, RegionRule, std::less<>> regions;  ///< by region name
   std::optional<RegionRule> others;                        ///< of every region that is not named
+  std::shared_ptr<const RuleSet> branches;  ///< of limbs that leave the trunk; null: this set
+  std::shared_ptr<const RuleSet> twigs;     ///< of limbs that leave those, and so on; null: as branches
   std::shared_ptr<const RuleSet> otherwise;  ///< tried where this one fails (Greene's secondary set)
 };
 

@@ -122,6 +122,12 @@ RulesPointer RuleLoader::build(const Layers& layers, RuleSet rules) {
     rules.otherwise = within(*otherwise, "otherwise", rules);
   }
   addRegions(layers, rules);
+  // Branches and twigs keep to the same regions, and fail over as the trunk does.
+  const RuleSet trunk = rules;
+  if (const auto* branches = lastGiven(layers, "branches"))
+    rules.branches = within(*branches, "branches", trunk);
+  if (const auto* twigs = lastGiven(layers, "twigs"))
+    rules.twigs = within(*twigs, "twigs", rules.branches ? *rules.branches : trunk);
   rules::finish(rules);
   return std::make_shared<const RuleSet>(std::move(rules));
 }

@@ -9,7 +9,7 @@
 
 /// The front as rules/front/front.h defines it, written from those words alone: everything is looked for among
 /// all, again in each iteration. Slow, and short.
-namespace espalier::testing {
+namespace espalier::tests {
 
 struct Definition {
   using Vec3 = sim::Vec3;
@@ -210,4 +210,4 @@ struct Definition {
   }
 };
 
-}  // namespace espalier::testing
+}  // namespace espalier::tests

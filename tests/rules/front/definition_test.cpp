@@ -16,7 +16,7 @@ using sim::Vec3;
 void expectTheDefinition(const std::vector<Vec3>& attractors, const std::vector<Vec3>& starts,
                          const FrontRules& rules, int iterations, std::size_t least = 2) {
   const rules::Colony fast = rules::colonize(attractors, starts, rules, iterations);
-  testing::Definition plain(attractors, starts, rules);
+  tests::Definition plain(attractors, starts, rules);
   int done = 0;
   while (done < iterations && plain.step()) ++done;
   ASSERT_EQ(fast.position.size(), plain.nodes.size()) << "after " << fast.iterations << " and " << done;
@@ -35,28 +35,28 @@ TEST(FrontDefinition, IsMetNodeForNode) {
   for (const int count : {1, 2, 3, 10, 60, 400}) {
     for (std::uint64_t stream = 0; stream < 3; ++stream) {
       SCOPED_TRACE(::testing::Message() << count << " attractors, stream " << stream);
-      expectTheDefinition(testing::inBox(stream, count, kCrown, kHalf), {{0, 0, 0}}, {0.2, 2.5, 0.3}, 300);
+      expectTheDefinition(tests::inBox(stream, count, kCrown, kHalf), {{0, 0, 0}}, {0.2, 2.5, 0.3}, 300);
     }
   }
 }
 
 TEST(FrontDefinition, IsMetByTwoThousandAttractors) {
-  expectTheDefinition(testing::inBox(7, 2000, kCrown, kHalf), {{0, 1, 0}}, {0.2, 1.5, 0.25}, 200, 2500);
+  expectTheDefinition(tests::inBox(7, 2000, kCrown, kHalf), {{0, 1, 0}}, {0.2, 1.5, 0.25}, 200, 2500);
 }
 
 TEST(FrontDefinition, IsMetByTreesThatCompete) {
-  expectTheDefinition(testing::inBox(1, 500, kCrown, kHalf), {{-2, 0, 0}, {2, 0, 0}, {0, 9, 1}},
+  expectTheDefinition(tests::inBox(1, 500, kCrown, kHalf), {{-2, 0, 0}, {2, 0, 0}, {0, 9, 1}},
                       {0.25, 1.5, 0.3}, 200, 500);
 }
 
 // Where a step is longer than twice the kill distance, attractors can be stepped over to and fro.
 TEST(FrontDefinition, IsMetWhereStepsAreTooLong) {
   for (const double kill : {0.0, 0.05, 0.2})
-    expectTheDefinition(testing::inBox(2, 150, kCrown, kHalf), {{0, 0, 0}}, {0.6, 3.0, kill}, 400, 300);
+    expectTheDefinition(tests::inBox(2, 150, kCrown, kHalf), {{0, 0, 0}}, {0.6, 3.0, kill}, 400, 300);
 }
 
 TEST(FrontDefinition, IsMetInEachReading) {
-  const std::vector<Vec3> attractors = testing::inBox(3, 120, kCrown, kHalf);
+  const std::vector<Vec3> attractors = tests::inBox(3, 120, kCrown, kHalf);
   for (const Acts acts : {Acts::on_nearest_node, Acts::on_every_node}) {
     for (const bool onto : {false, true}) {
       for (const bool repeated : {false, true}) {
@@ -67,7 +67,7 @@ TEST(FrontDefinition, IsMetInEachReading) {
       }
     }
   }
-  expectTheDefinition(testing::inBox(4, 8, kCrown, kHalf), {{0, 0, 0}},
+  expectTheDefinition(tests::inBox(4, 8, kCrown, kHalf), {{0, 0, 0}},
                       {0.5, 4.0, 0.5, Acts::on_every_node, false, true}, 25, 100);
 }
 

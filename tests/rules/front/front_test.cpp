@@ -22,7 +22,7 @@ using sim::Vec3;
 const FrontRules kRules{0.1, 1.0, 0.15};
 
 std::vector<Vec3> crown(int count) {
-  return testing::inBox(11, count, {0, 3, 0}, {2, 2, 2});
+  return tests::inBox(11, count, {0, 3, 0}, {2, 2, 2});
 }
 const std::vector<Vec3> kStart{{0, 0.5, 0}};
 
@@ -125,13 +125,13 @@ TEST(Front, EndsWhateverTheRules) {
     sim::Draws draws({stream}, sim::Purpose::custom);
     const FrontRules rules{draws.uniform(0.05, 1.5), draws.uniform(0.1, 5.0), draws.uniform(0.0, 1.0)};
     const Colony colony =
-        colonize(testing::inBox(stream, 200, {0, 3, 0}, {2, 2, 2}), kStart, rules, 100'000);
+        colonize(tests::inBox(stream, 200, {0, 3, 0}, {2, 2, 2}), kStart, rules, 100'000);
     EXPECT_LT(colony.iterations, 2000) << rules.step << " " << rules.influence << " " << rules.kill;
   }
 }
 
 TEST(Front, GrowsATrunkUntilTheCrownIsInReach) {
-  const std::vector<Vec3> high = testing::inBox(5, 100, {0, 20, 0}, {2, 2, 2});
+  const std::vector<Vec3> high = tests::inBox(5, 100, {0, 20, 0}, {2, 2, 2});
   const Colony colony = colonize(high, {{{0, 0, 0}}}, {0.5, 1.5, 0.6}, 1000);
   EXPECT_GT(colony.fates.reached, 50U);
   for (std::size_t n = 1; n < 20; ++n) {
@@ -141,7 +141,7 @@ TEST(Front, GrowsATrunkUntilTheCrownIsInReach) {
   // Beside it, it turns to it; below ground, down.
   const Colony beside = colonize(high, {{{30, 20, 0}}}, {0.5, 1.5, 0.6}, 1000);
   EXPECT_GT(beside.fates.reached, 50U);
-  const Colony below = colonize(testing::inBox(5, 100, {0, -20, 0}, {2, 2, 2}), {{{0, 0, 0}}},
+  const Colony below = colonize(tests::inBox(5, 100, {0, -20, 0}, {2, 2, 2}), {{{0, 0, 0}}},
                                 {0.5, 1.5, 0.6}, 1000);
   EXPECT_EQ(below.position[5], Vec3(0, -2.5, 0));
 }

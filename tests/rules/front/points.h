@@ -4,7 +4,7 @@
 
 #include "sim/base/random.h"
 
-namespace espalier::testing {
+namespace espalier::tests {
 
 /// Even in a box about a middle, half as long along each side.
 inline std::vector<sim::Vec3> inBox(std::uint64_t stream, int count, sim::Vec3 middle, sim::Vec3 half) {
@@ -17,4 +17,4 @@ inline std::vector<sim::Vec3> inBox(std::uint64_t stream, int count, sim::Vec3 m
   return points;
 }
 
-}  // namespace espalier::testing
+}  // namespace espalier::tests

@@ -1,6 +1,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <functional>
 #include <map>
 #include <set>
@@ -8,6 +10,7 @@
 #include "rules/front/colonize.h"
 #include "rules/growth/front_memory.h"
 #include "rules/growth/make_process.h"
+#include "rules/growth/shared_guide.h"
 #include "rules/language/registry.h"
 #include "sim/base/error.h"
 #include "sim/base/parallel.h"
@@ -34,6 +37,14 @@ rules::RuleSet tree() {
   return rules;
 }
 
+rules::RuleSet leafyTree() {
+  rules::RuleSet rules = tree();
+  rules.bias.light = 0.1;
+  rules.light = {0.5, 0.5, 1.6};
+  rules.elements = tests::lively().elements;
+  return rules;
+}
+
 const sim::Voxel kSize{64, 64, 64};
 
 sim::World open() {
@@ -43,7 +54,7 @@ sim::World open() {
 }
 
 std::vector<Vec3> crown(int count) {
-  return testing::inBox(21, count, {32, 42, 32}, {20, 18, 20});
+  return tests::inBox(21, count, {32, 42, 32}, {20, 18, 20});
 }
 
 sim::GrowthSettings settings(const std::vector<Vec3>& attractors, int iterations = 200) {
@@ -201,19 +212,11 @@ TEST(Colonization, TreesCompeteForTheSameAttractors) {
   }
 }
 
-rules::RuleSet leafyTree() {
-  rules::RuleSet rules = tree();
-  rules.bias.light = 0.1;
-  rules.light = {0.5, 0.5, 1.6};
-  rules.elements = tests::lively().elements;
-  return rules;
-}
-
 sim::GrowthSettings gardenSettings(int iterations) {
   sim::GrowthSettings s = settings({});
   s.iterations = iterations;
   sim::column<Vec3>(s.commons[rules::attractorsNamed("crown")], rules::kAttractorPlace) =
-      testing::inBox(4, 300, {24, 30, 30}, {14, 14, 9});
+      tests::inBox(4, 300, {24, 30, 30}, {14, 14, 9});
   return s;
 }
 
@@ -263,6 +266,9 @@ TEST(Colonization, HasNoKeyWithoutEffect) {
     tests::addBox(world, "ceiling", {20, 28, 20}, {63, 30, 63});
     world.setLayers(4);
     sim::GrowthSettings s = settings(crown(300));
+    rules::Guide whorl;
+    whorl.angle_deg = 200.0;
+    s.commons[rules::fieldNamed("whorl")] = rules::columnsOf(whorl);
     sim::column<Vec3>(s.commons[rules::attractorsNamed("other")], rules::kAttractorPlace) = crown(290);
     return sim::stateHash(world, sim::grow(world, tests::planting(world, rules, {{40, 2, 40}}, "tree"), s));
   };
@@ -277,18 +283,118 @@ TEST(Colonization, HasNoKeyWithoutEffect) {
       {"repeated", [](auto& c) { c.repeated = true; }},
       {"avoid", [](auto& c) { c.avoid_deg = 20.0; }},
       {"trials", [](auto& c) { c.trials = 3; }},
+      {"branching.angle.min", [](auto& c) { c.branching.angle_min_deg = 40.0; }},
+      {"branching.angle.max", [](auto& c) { c.branching.angle_max_deg = 30.0; }},
+      {"branching.above", [](auto& c) { c.branching.above = {40.0}; }},
+      {"branching.most", [](auto& c) { c.branching.most = 0; }},
+      {"fields", [](auto& c) { c.fields = {"whorl"}; }},
   };
   const rules::Colonization plain = tree().colonization;
   std::set<std::uint64_t> hashes{hash(plain)};
   EXPECT_FALSE(hashes.insert(hash(plain)).second);
-  const rules::Key* const section = rules::find(rules::ruleTable(), "colonization");
-  ASSERT_NE(section, nullptr);
-  for (const rules::Key& key : section->child->keys) {
-    ASSERT_TRUE(changes.contains(key.name)) << key.name << " is new: say what it changes";
-    rules::Colonization changed = plain;
-    changes.at(key.name)(changed);
-    EXPECT_TRUE(hashes.insert(hash(changed)).second) << key.name;
+  const std::function<void(const rules::Table&, const std::string&)> visit = [&](const rules::Table& table,
+                                                                                const std::string& prefix) {
+    for (const rules::Key& key : table.keys) {
+      const std::string path = prefix + key.name;
+      if (key.child) {
+        visit(*key.child, path + ".");
+        continue;
+      }
+      ASSERT_TRUE(changes.contains(path)) << path << " is new: say what it changes";
+      rules::Colonization changed = plain;
+      changes.at(path)(changed);
+      EXPECT_TRUE(hashes.insert(hash(changed)).second) << path;
+    }
+  };
+  visit(*rules::find(rules::ruleTable(), "colonization")->child, "");
+}
+
+/// Angles in degrees between each segment and the one before it, of those that go on and of those that branch.
+struct Turns {
+  std::vector<double> on, branch;
+};
+Turns turnsOf(const sim::Skeleton& skeleton) {
+  Turns turns;
+  std::vector<bool> sent(skeleton.parent.size());
+  for (std::size_t n = 1; n < sent.size(); ++n) {
+    const auto p = static_cast<std::size_t>(skeleton.parent[n]);
+    const bool branches = sent[p];
+    sent[p] = true;
+    if (skeleton.parent[p] == sim::kNoNode) continue;
+    const Vec3 before = skeleton.position_vx[p] - skeleton.position_vx[static_cast<std::size_t>(skeleton.parent[p])];
+    const Vec3 now = skeleton.position_vx[n] - skeleton.position_vx[p];
+    const double cosine = glm::dot(before, now) / glm::length(before) / glm::length(now);
+    (branches ? turns.branch : turns.on).push_back(std::acos(std::clamp(cosine, -1.0, 1.0)) * 180.0 / 3.14159265358979);
   }
+  return turns;
+}
+
+TEST(Colonization, KeepsToItsBranchingAngles) {
+  rules::RuleSet rules = tree();
+  rules.colonization.branching.angle_min_deg = 35.0;
+  rules.colonization.branching.angle_max_deg = 70.0;
+  sim::World world = open();
+  const sim::Growth growth = grown(world, rules, {{32, 2, 32}}, crown(600));
+  const Turns turns = turnsOf(growth.plants[0].skeleton);
+  ASSERT_GT(turns.branch.size(), 40U);
+  EXPECT_GT(*std::min_element(turns.branch.begin(), turns.branch.end()), 35.0 - 1e-6);
+  EXPECT_LT(*std::max_element(turns.branch.begin(), turns.branch.end()), 70.0 + 1e-6);
+  EXPECT_LT(*std::max_element(turns.on.begin(), turns.on.end()), 70.0 + 1e-6);
+  sim::World other = open();
+  const Turns plain = turnsOf(grown(other, tree(), {{32, 2, 32}}, crown(600)).plants[0].skeleton);
+  EXPECT_LT(*std::min_element(plain.branch.begin(), plain.branch.end()), 34.0);
+  EXPECT_GT(*std::max_element(plain.branch.begin(), plain.branch.end()), 75.0);
+}
+
+TEST(Colonization, BranchesWhereItMay) {
+  rules::RuleSet rules = tree();
+  rules.colonization.branching.above = {20.0};
+  rules.colonization.branching.most = 1;
+  sim::World world = open();
+  const sim::Growth growth = grown(world, rules, {{32, 2, 32}}, crown(600));
+  const sim::Skeleton& skeleton = growth.plants[0].skeleton;
+  std::vector<int> sent(skeleton.parent.size());
+  for (std::size_t n = 1; n < sent.size(); ++n) ++sent[static_cast<std::size_t>(skeleton.parent[n])];
+  std::size_t forks = 0;
+  for (std::size_t n = 0; n < sent.size(); ++n) {
+    if (skeleton.position_vx[n].y < 22.0) {
+      EXPECT_LE(sent[n], 1);
+    }
+    EXPECT_LE(sent[n], 2);
+    forks += sent[n] > 1 ? 1 : 0;
+  }
+  EXPECT_GT(forks, 20U);
+}
+
+TEST(Colonization, TellsTrunkBranchesAndTwigsApart) {
+  rules::RuleSet rules = tree(), branches = tree(), twigs = leafyTree();
+  branches.colonization.step = {1.5};
+  twigs.colonization.step = {1.0};
+  twigs.bias = {};
+  rules.branches = std::make_shared<rules::RuleSet>(branches);
+  rules.twigs = std::make_shared<rules::RuleSet>(twigs);
+  sim::World world = open();
+  const sim::Growth growth = grown(world, rules, {{32, 2, 32}}, crown(300));
+  const sim::Plant& plant = growth.plants[0];
+  const std::vector<float>& order = *sim::find(plant.skeleton, "order");
+  std::array<int, 3> count{};
+  std::vector<bool> sent(order.size());
+  for (std::size_t n = 1; n < order.size(); ++n) {
+    const auto p = static_cast<std::size_t>(plant.skeleton.parent[n]);
+    EXPECT_EQ(order[n], order[p] + (sent[p] ? 1.0f : 0.0f));
+    sent[p] = true;
+    const double step = glm::distance(plant.skeleton.position_vx[n], plant.skeleton.position_vx[p]);
+    const double expected[] = {2.0, 1.5, 1.0};
+    const auto o = static_cast<std::size_t>(std::min(2.0f, order[n]));
+    EXPECT_NEAR(step, expected[o], 1e-3);
+    ++count[o];
+  }
+  EXPECT_GT(count[0], 5);
+  EXPECT_GT(count[1], 20);
+  EXPECT_GT(count[2], 50);
+  EXPECT_GT(plant.elements.size(), 20U);
+  for (const sim::PlacedElement& leaf : plant.elements)
+    EXPECT_GE(order[static_cast<std::size_t>(leaf.node)], 2.0f);
 }
 
 TEST(Colonization, SaysWhatKeepsItFromBeginning) {

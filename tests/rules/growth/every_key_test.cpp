@@ -88,6 +88,13 @@ const std::map<std::string, std::string> kWithoutEffect = {
     {"colonization.repeated", "the same"},
     {"colonization.avoid", "the same"},
     {"colonization.trials", "the same"},
+    {"colonization.branching.angle.min", "the same"},
+    {"colonization.branching.angle.max", "the same"},
+    {"colonization.branching.above", "the same"},
+    {"colonization.branching.most", "the same"},
+    {"colonization.fields", "the same"},
+    {"branches", "limbs' orders have a test there"},
+    {"twigs", "the same"},
 };
 
 /// Sets a key of a rule set by its path, as the registry says; false if it had that value already.

@@ -31,6 +31,8 @@ class ColonizationProcess final : public sim::Process {
   sim::Plant seedling() const override { return seedlingOf(book_); }
 
   void begin(const sim::StandView& stand, sim::Columns& memory, sim::Commons& commons) const override;
+  void resume(const sim::StandView& stand, const sim::Columns& memory,
+              const sim::Commons& commons) const override;
   std::vector<sim::Site> due(const sim::StandView& stand, sim::Columns& memory,
                              sim::Commons& commons) const override;
   sim::Proposal propose(const sim::SiteView& view, const sim::Site& site,
@@ -66,7 +68,11 @@ OrderRules ColonizationProcess::rulesIn(const sim::Columns& memory, int iteratio
     rules.of_order[order] = {lengths[3 * order], lengths[3 * order + 1], lengths[3 * order + 2],
                              front_.acts,        front_.onto,            front_.repeated,
                              iteration};
-    requireSound(rules.of_order[order]);
+    try {
+      requireSound(rules.of_order[order]);
+    } catch (const sim::InputError& error) {  // they were sound when they were found
+      throw sim::BrokenContract(error.what());
+    }
   }
   return rules;
 }
@@ -87,6 +93,7 @@ FrontLengths ColonizationProcess::lengths(const Attractors& attractors, int orde
   if (given.step) lengths.step = given.step->number;
   if (given.influence) lengths.influence = given.influence->number;
   if (given.kill) lengths.kill = given.kill->number;
+  requireSound(FrontRules{lengths.step, lengths.influence, lengths.kill});
   if (lengths.step < kShortestStep_vx || lengths.step > kLongestStep_vx) {
     throw sim::InputError(fmt::format(
         "rule set '{}': colonization.step is {:.3g} voxel widths{}; expected {} to {}, by another step or "
@@ -143,6 +150,18 @@ void ColonizationProcess::begin(const sim::StandView& stand, sim::Columns& memor
   }
   join(lent.front, joining, rulesIn(memory, stand.iteration));
   keep(own, memory);
+}
+
+void ColonizationProcess::resume(const sim::StandView& stand, const sim::Columns& memory,
+                                 const sim::Commons& commons) const {
+  const auto at = commons.find(attractorsNamed(front_.attractors));
+  if (at == commons.end()) throw sim::BrokenContract("a front without its attractors");
+  requireSoundFront(at->second);
+  rulesIn(memory, stand.iteration);
+  frontMemory(memory, stand);
+  if (!front_.fields.empty() && sim::column<double>(memory, kFarthest).size() != stand.plants.size())
+    throw sim::BrokenContract("a front that does not know how far its attractors are");
+  guidance(memory, commons);
 }
 
 std::vector<sim::Site> ColonizationProcess::due(const sim::StandView& stand, sim::Columns& memory,

@@ -1,6 +1,7 @@
 #include "rules/growth/front_memory.h"
 
 #include <algorithm>
+#include <cmath>
 #include <tuple>
 
 #include "sim/base/error.h"
@@ -108,7 +109,11 @@ void requireSoundTree(const Attractors& a) {
 
 void requireSoundNumbers(const Front& front) {
   const Attractors& a = front.attractors;
+  const auto isPlace = [](double x) { return std::abs(x) < 1e9; };
+  for (const sim::Vec3& at : front.nodes)
+    require(isPlace(at.x) && isPlace(at.y) && isPlace(at.z), "a node that is nowhere");
   for (std::size_t i = 0; i < a.x.size(); ++i) {
+    require(isPlace(a.x[i]) && isPlace(a.y[i]) && isPlace(a.z[i]), "an attractor that is nowhere");
     require(between(a.number[i], 0, a.x.size()) &&
                 a.place[static_cast<std::size_t>(a.number[i])] == static_cast<std::int32_t>(i),
             "attractors that are not where they say");

@@ -397,6 +397,34 @@ TEST(Colonization, TellsTrunkBranchesAndTwigsApart) {
     EXPECT_GE(order[static_cast<std::size_t>(leaf.node)], 2.0f);
 }
 
+TEST(Colonization, RefusesAStateThatGrowthNeverLeaves) {
+  sim::World world = tests::wallPlot();
+  const sim::Growth sound = sim::grow(world, garden(world), gardenSettings(6));
+  const auto refused = [&](const std::function<void(sim::Columns& front, sim::Columns& memory)>& damage) {
+    sim::Growth growth = sound;
+    damage(growth.commons.at(rules::attractorsNamed("crown")), growth.stands[0].memory);
+    sim::World copy = world;
+    try {
+      sim::Growing(copy, garden(copy), gardenSettings(18), std::move(growth));
+    } catch (const sim::BrokenContract&) {
+      return true;
+    }
+    return false;
+  };
+  EXPECT_FALSE(refused([](auto&, auto&) {}));
+  const auto whole = [](sim::Columns& columns, const char* name) -> std::vector<std::int32_t>& {
+    return sim::column<std::int32_t>(columns, name);
+  };
+  EXPECT_TRUE(refused([&](auto& front, auto&) { whole(front, "front_nearest")[3] = 1'000'000; }));
+  EXPECT_TRUE(refused([&](auto& front, auto&) { whole(front, "tree_child")[0] = 0; }));
+  EXPECT_TRUE(refused([&](auto& front, auto&) { whole(front, "front_number")[0] = -1; }));
+  EXPECT_TRUE(refused([&](auto& front, auto&) { whole(front, "node_pulled_by").back() += 1; }));
+  EXPECT_TRUE(refused([&](auto& front, auto&) { sim::column<double>(front, "front_x")[0] = NAN; }));
+  EXPECT_TRUE(refused([&](auto& front, auto&) { front.erase("front_y"); }));
+  EXPECT_TRUE(refused([&](auto&, auto& memory) { whole(memory, "active_node").back() = 99'999; }));
+  EXPECT_TRUE(refused([&](auto&, auto& memory) { sim::column<double>(memory, "front_lengths_vx")[0] = 0.0; }));
+}
+
 TEST(Colonization, SaysWhatKeepsItFromBeginning) {
   const auto messageOf = [](const rules::RuleSet& rules, const std::vector<Vec3>& attractors) {
     sim::World world = open();

@@ -28,12 +28,14 @@ int main(int argc, char** argv) {
                "bench");
   std::string csv = "out/bench.csv", document;
   double most_voxels = 1.1e9, most_segments = 1e6;
+  int most_attractors = 1'000'000;
   std::set<int> rows;
   app.add_option("--csv", csv, "Where the table goes")->capture_default_str();
   app.add_option("--into", document, "A document whose first block of ``` takes what is printed");
   app.add_option("--most-voxels", most_voxels, "Of the largest world")->capture_default_str();
   app.add_option("--most-segments", most_segments, "Of the largest growth");
-  app.add_option("--rows", rows, "Only these of 1 .. 7")->check(CLI::Range(1, 7));
+  app.add_option("--most-attractors", most_attractors, "Of the largest front");
+  app.add_option("--rows", rows, "Only these of 1 .. 8")->check(CLI::Range(1, 8));
   CLI11_PARSE(app, argc, argv);
   const auto wanted = [&](int row) { return rows.empty() || rows.contains(row); };
   try {
@@ -48,6 +50,7 @@ int main(int argc, char** argv) {
     if (wanted(5)) bench::benchSegments(most_segments, report);
     if (wanted(6)) bench::benchMemory(most_segments, report);
     if (wanted(7)) bench::benchForetold(report);
+    if (wanted(8)) bench::benchFront(most_attractors, report);
     report.writeCsv(csv);
     if (!document.empty()) report.writeInto(document);
   } catch (const std::exception& error) {

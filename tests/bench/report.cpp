@@ -34,17 +34,18 @@ std::string number(double value) {
 
 }  // namespace
 
+double secondsOf(const Work& work) {
+  const auto began = std::chrono::steady_clock::now();
+  work();
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
+}
+
 std::vector<double> medianSeconds(const std::vector<Work>& works) {
-  using Clock = std::chrono::steady_clock;
   constexpr std::size_t kRounds = 5;
   std::vector<std::array<double, kRounds>> seconds(works.size());
   for (const Work& work : works) work();
   for (std::size_t round = 0; round < kRounds; ++round) {
-    for (std::size_t i = 0; i < works.size(); ++i) {
-      const auto began = Clock::now();
-      works[i]();
-      seconds[i][round] = std::chrono::duration<double>(Clock::now() - began).count();
-    }
+    for (std::size_t i = 0; i < works.size(); ++i) seconds[i][round] = secondsOf(works[i]);
   }
   std::vector<double> medians;
   for (auto& five : seconds) {

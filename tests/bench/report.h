@@ -12,6 +12,9 @@ namespace espalier::bench {
 
 using Work = std::function<void()>;
 
+/// One timing.
+double secondsOf(const Work& work);
+
 /// The median of five timings, seconds, after one run that warms caches and memory.
 double medianSeconds(const Work& work);
 /// The same for several that are to be compared: they take turns, so that what else the machine does falls on

@@ -26,6 +26,9 @@ void benchMemory(double most_segments, Report& report);
 /// What whole runs take over what their first lines foretold.
 void benchForetold(Report& report);
 
+/// The front of space colonization, bare and in worlds, up to so many attractors, and a kd-tree in its place.
+void benchFront(int most_attractors, Report& report);
+
 /// A sky of at least so many directions, of equal weight for equal parts.
 sim::DirectionSet skyOf(int directions);
 

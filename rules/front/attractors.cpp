@@ -6,6 +6,7 @@
 #include <bit>
 #include <cmath>
 #include <limits>
+#include <memory>
 #include <numeric>
 
 #include "rules/front/attractor_tree.h"
@@ -169,9 +170,9 @@ struct Meeting {
       atLeaf(node, {these, near});
     } else if (near * asIndex(held) > kWorthTasks) {
       sim::parallelForEach(asIndex(in.children[node]), [&](std::size_t c) {
-        std::vector<std::int64_t> own(near * kRoom + Leaf::kPadding);
-        std::copy(these, these + near, own.begin());
-        at(asIndex(in.child[node]) + c, own.data(), near);
+        const auto own = std::make_unique_for_overwrite<std::int64_t[]>(near * kRoom + Leaf::kPadding);
+        std::copy(these, these + near, own.get());
+        at(asIndex(in.child[node]) + c, own.get(), near);
       });
     } else {
       for (std::int32_t c = 0; c < in.children[node]; ++c) at(asIndex(in.child[node] + c), these, near);
@@ -198,8 +199,8 @@ void meet(Attractors& attractors, std::span<const sim::Vec3> nodes, std::span<co
     const sim::Vec3 at = nodes[asIndex(fresh[i])];
     x[i] = at.x, y[i] = at.y, z[i] = at.z;
   }
-  std::vector<std::int64_t> which(count * kRoom + Leaf::kPadding);
-  std::iota(which.begin(), which.begin() + static_cast<std::ptrdiff_t>(count), 0);
+  const auto which = std::make_unique_for_overwrite<std::int64_t[]>(count * kRoom + Leaf::kPadding);
+  std::iota(which.get(), which.get() + count, 0);
   const Meeting meeting{attractors,
                         nodes,
                         {x.data(), y.data(), z.data(), fresh.data()},
@@ -207,7 +208,7 @@ void meet(Attractors& attractors, std::span<const sim::Vec3> nodes, std::span<co
                         reach.kill * reach.kill,
                         reach.iteration,
                         pulls};
-  meeting.at(0, which.data(), count);
+  meeting.at(0, which.get(), count);
 }
 
 namespace {

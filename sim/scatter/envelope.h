@@ -76,9 +76,12 @@ struct Strewing {
   std::vector<DensityAt> density;  ///< by share, rising; linear between, level beyond the ends; none: even
 };
 
+/// Throws InputError for no points, more than 2^32 - 1, and a density that is negative, no number, out of
+/// order or nothing anywhere.
+void requireSound(const Strewing& strewing);
+
 /// Points in an envelope: each follows from the stream and its number alone, so that more of them begin with
-/// the same ones. Throws InputError as requireSound, for no points, more than 2^32 - 1, and a density that is
-/// negative, no number, out of order or nothing anywhere.
+/// the same ones. Throws InputError as requireSound.
 PointSet scatterInside(const Envelope& envelope, const Strewing& strewing, std::uint64_t stream);
 
 }  // namespace espalier::sim

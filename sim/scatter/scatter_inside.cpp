@@ -100,11 +100,15 @@ class Heights {
 
 }  // namespace
 
-PointSet scatterInside(const Envelope& envelope, const Strewing& strewing, std::uint64_t stream) {
-  requireSound(envelope);
+void requireSound(const Strewing& strewing) {
   requireSoundDensity(strewing.density);
   if (strewing.count == 0 || strewing.count > std::numeric_limits<std::uint32_t>::max())
     throw InputError(fmt::format("{} points in an envelope; expected 1 to 2^32 - 1", strewing.count));
+}
+
+PointSet scatterInside(const Envelope& envelope, const Strewing& strewing, std::uint64_t stream) {
+  requireSound(envelope);
+  requireSound(strewing);
   const Heights heights(envelope.solid, strewing);
   const bool square = isSquare(envelope.solid);
   PointSet points;

@@ -139,11 +139,12 @@ Growing::Growing(World& world, std::vector<Planting> plantings, GrowthSettings s
 namespace {
 
 /// Plants as seeds: a node each, and parts in the world.
-Growth seeded(World& world, const std::vector<Planting>& plantings, bool record) {
+Growth seeded(World& world, const std::vector<Planting>& plantings, const GrowthSettings& settings) {
   requireProcesses(plantings);
   requireSeeds(world, plantings);
   Growth growth;
-  growth.recorded = record;
+  growth.commons = settings.commons;
+  growth.recorded = settings.record_attempts;
   for (const Planting& planting : plantings) {
     growth.stands.push_back({growth.plants.size(), planting.seeds.size(), {}});
     for (std::size_t i = 0; i < planting.seeds.size(); ++i) {
@@ -169,7 +170,7 @@ Growth seeded(World& world, const std::vector<Planting>& plantings, bool record)
 }  // namespace
 
 Growing::Growing(World& world, std::vector<Planting> plantings, GrowthSettings settings)
-    : Growing(world, plantings, settings, seeded(world, plantings, settings.record_attempts)) {
+    : Growing(world, plantings, settings, seeded(world, plantings, settings)) {
   for (std::size_t i = 0; i < plantings_.size(); ++i)
     plantings_[i].process->begin(view(i), growth_.stands[i].memory, growth_.commons);
 }

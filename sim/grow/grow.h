@@ -31,6 +31,7 @@ struct GrowthSettings {
   std::uint64_t seed = 1;
   LightSource light;
   std::function<SkyTable()> sky_table;  ///< made once, if a process wants it, and then must be there
+  Commons commons;                      ///< what plantings share from the beginning, such as attractors
   bool record_attempts = false;
   std::stop_token stop;
   MemoryPlan memory;

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "render/image/camera.h"
+#include "rules/language/envelope_spec.h"
 #include "rules/language/rule_set.h"
 #include "scenes/problem.h"
 #include "sim/base/provenance.h"
@@ -33,6 +34,7 @@ struct SceneMesh {
   std::string told;  ///< what reports call the file, without a path of the machine; empty: its last name
   RegionsFrom regions_from = RegionsFrom::group;  ///< which names of the file become regions
   bool solid = false;                             ///< fill the inside
+  bool tiled = true;      ///< false: no part of the world, a shape for attractors alone
   bool optional = false;  ///< a missing file skips the scene instead of being an error
   double scale = 1.0;
   sim::Vec3 rotate_deg{0.0};  ///< about x, then y, then z
@@ -127,6 +129,20 @@ struct PlantSpec {
   std::optional<Scatter> scatter;
 };
 
+/// Points that plants grow towards, from exactly one source.
+struct AttractorsSpec {
+  std::string name;
+  rules::EnvelopeSpec solid;        ///< either this
+  std::optional<sim::Vec3> at_m;    ///< its foot
+  std::string surface;              ///< or the name of a mesh that they lie on
+  std::string inside;               ///< or of one that they lie in
+  std::filesystem::path points;     ///< or a file that lists them
+  std::string told;                 ///< what reports call that file
+  rules::StrewingSpec strewing;     ///< spread and density: of a solid
+  std::optional<double> spacing_m;  ///< on a surface: the least between two
+  Place place = {};                 ///< where a scene file has it
+};
+
 struct NamedCamera {
   std::string name;
   render::Camera camera;
@@ -177,6 +193,7 @@ struct Scene {
   SkySpec sky;
   SunSpec sun;
   ExposureSpec exposure;
+  std::vector<AttractorsSpec> attractors;
   std::vector<PlantSpec> plants;
   std::vector<RegionMention> region_mentions;  ///< in the rules of its plants: each place once
   std::vector<Problem> warnings;               ///< what its files say without effect

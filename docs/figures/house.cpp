@@ -25,7 +25,7 @@ struct Setting {
 const std::map<std::string, Setting>& settings() {
   static const std::map<std::string, Setting> all = {
       {"sim",
-       {{{"grow", "light", "sweep", "tile", "world", "base"}, {"grow", "sense", "tile"}},
+       {{{"grow", "light", "sweep", "tile", "world", "base"}, {"grow", "sense", "tile"}, {"scatter", "tile"}},
         {0.945f, 0.925f, 0.880f},
         {0.56f, 0.47f, 0.30f}}},
       {"rules", {{{"growth", "language"}}, {0.900f, 0.935f, 0.880f}, {0.33f, 0.50f, 0.27f}}},

@@ -61,6 +61,9 @@ struct Writer {
   std::string operator()(std::chrono::year_month_day date) const { return sim::written(date); }
   std::string operator()(const std::string& text) const { return text; }
   std::string operator()(const RuleReference& reference) const { return reference.file; }
+  std::string operator()(const Pairs& pairs) const {
+    return listed(pairs, [](const glm::dvec2& p) { return fmt::format("[{}, {}]", p.x, p.y); });
+  }
   std::string operator()(const Polygons& polygons) const {
     const std::string_view unit = polygons.metres ? " m" : "";
     const auto corner = [&](const sim::Vec3& p) {
@@ -137,6 +140,11 @@ std::string expectation(const Key& key) {
       return fmt::format("three numbers [x, y, z]{}", inUnit(key));
     case Kind::place:
       return fmt::format("a point [x, y, z]{}", inUnit(key));
+    case Kind::pairs:
+      return fmt::format("a list of 1 to {} pairs [a, b] of numbers, b {}", key.most, rangeText(key.limits));
+    case Kind::outline:
+      return fmt::format("a list of 1 to {} points [a, b]{}, b {}", key.most, inUnit(key),
+                         rangeText(key.limits));
     case Kind::polygons:
       return fmt::format(
           "a list of polygons, each a list of points [x, y, z]{}, all numbers or all lengths such as \"2 "

@@ -35,6 +35,8 @@ enum class Kind {
   colour,       ///< "#rrggbb" or [r, g, b], both sRGB; stored linear
   point,        ///< [x, y, z] of numbers
   place,        ///< [x, y, z], each as in `metres`
+  pairs,        ///< Pairs: a list of [a, b], both numbers; the limits are of b
+  outline,      ///< Pairs: the same, each number as in `metres`
   polygons,     ///< Polygons: a list of them, each a list of points [x, y, z], each as in `distance`
   choice,       ///< one of a few words
   name,         ///< a word that may become part of a file name
@@ -65,6 +67,9 @@ struct WholeRange {
   friend bool operator==(const WholeRange&, const WholeRange&) = default;
 };
 
+/// Points of a curve in the plane.
+using Pairs = std::vector<glm::dvec2>;
+
 /// A rule set that a file refers to; `file` is empty where it is written in place.
 struct RuleReference {
   std::string file;
@@ -74,7 +79,7 @@ struct RuleReference {
 
 /// A value on its way between a file and a struct. monostate: none.
 using Datum = std::variant<std::monostate, bool, std::int64_t, WholeRange, double, Value, Length, Distance,
-                           sim::Colour, sim::Vec3, std::chrono::year_month_day, std::string, Polygons,
+                           sim::Colour, sim::Vec3, std::chrono::year_month_day, std::string, Pairs, Polygons,
                            std::vector<std::string>, RuleReference>;
 
 struct Table;

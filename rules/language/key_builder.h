@@ -114,6 +114,14 @@ class TableOf {
     return field<sim::Vec3>(n, Kind::place, a, s);
   }
   template <class A>
+  TableOf& pairs(std::string n, A a, About s) {
+    return field<Pairs>(n, Kind::pairs, a, s);
+  }
+  template <class A>
+  TableOf& outline(std::string n, A a, About s) {
+    return field<Pairs>(n, Kind::outline, a, s);
+  }
+  template <class A>
   TableOf& date(std::string n, A a, About s) {
     return field<std::chrono::year_month_day>(n, Kind::date, a, s);
   }

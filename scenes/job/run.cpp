@@ -99,20 +99,23 @@ sim::Lighting lightFor(const Scene& scene, const Site& site, bool vines,
 struct Prepared {
   Site site;
   std::vector<sim::Planting> plantings;
+  std::vector<NamedPoints> attractors;
   std::vector<rules::Exposure> seed_lights;
 };
 
 Prepared prepare(const Scene& scene, const RunOptions& options, Report& report, Stages& stages) {
+  std::vector<Problem> of_attractors;
   Prepared prepared = stages.run("tiling", [&] {
     Site site = makeSite(scene);
     auto plantings = makePlantings(scene, site);
     requireCamerasInTheOpen(scene, site.world);
-    auto lights = lightOfSeeds(plantings, site.world, growthSettings(scene, site).light);
-    return Prepared{std::move(site), std::move(plantings), std::move(lights)};
+    auto attractors = attractorsOf(scene, site, &of_attractors);
+    auto lights = lightOfSeeds(plantings, site.world, growthSettings(scene, site, {}).light);
+    return Prepared{std::move(site), std::move(plantings), std::move(attractors), std::move(lights)};
   });
   describeWorld(report, scene, prepared.site);
   std::vector<Problem> warnings = scene.warnings;
-  for (const auto& more : {prepared.site.warnings, unknownRegions(scene, prepared.site.world)})
+  for (const auto& more : {prepared.site.warnings, of_attractors, unknownRegions(scene, prepared.site.world)})
     warnings.insert(warnings.end(), more.begin(), more.end());
   warn(warnings, scene.file, options, report);
   return prepared;
@@ -161,7 +164,7 @@ sim::Growth growOn(const Scene& scene, Prepared& prepared, std::optional<sim::Gr
                    const Keeping& keeping, Clock::time_point began, Report& report) {
   Site& site = prepared.site;
   std::vector<sim::Planting>& plantings = prepared.plantings;
-  sim::GrowthSettings settings = growthSettings(scene, site);
+  sim::GrowthSettings settings = growthSettings(scene, site, prepared.attractors);
   settings.progress = [&](const sim::GrowthProgress& progress) {
     report.run.proposals = progress.proposals;
     if (options.on_growth) options.on_growth(progress);
@@ -284,7 +287,8 @@ Foretold foretellRun(const Scene& scene, const RunOptions& options) {
   Stages stages(options, report);
   Prepared prepared = prepare(scene, options, report, stages);
   return inScene(scene, [&] {
-    sim::Growing growing(prepared.site.world, prepared.plantings, growthSettings(scene, prepared.site));
+    sim::Growing growing(prepared.site.world, prepared.plantings,
+                         growthSettings(scene, prepared.site, prepared.attractors));
     GrowthForeteller foreteller(prepared.site, prepared.plantings, pictures, scene.iterations,
                                 growing.growth(), stages.began());
     std::optional<Foretold> foretold;

@@ -11,6 +11,7 @@
 #include "scenes/problem.h"
 #include "scenes/read/settings.h"
 #include "sim/base/error.h"
+#include "sim/base/hasher.h"
 
 namespace espalier::scenes {
 namespace {
@@ -22,14 +23,15 @@ bool startsWith(std::string_view path, std::initializer_list<std::string_view> k
   });
 }
 
-/// Where a mesh lies does not matter, what it holds does.
+/// Where a mesh or a table of points lies does not matter, what it holds does.
 bool namesAFile(std::string_view path) {
-  return path.starts_with("meshes[") && (path.ends_with("].file") || path.ends_with("].optional"));
+  return (path.starts_with("meshes[") && (path.ends_with("].file") || path.ends_with("].optional"))) ||
+         (path.starts_with("attractors.") && path.ends_with(".points"));
 }
 
 std::string difference(const std::string& path, const std::string* was, const std::string* is) {
   const auto shown = [](const std::string* value) { return value != nullptr ? inQuotes(*value) : "nothing"; };
-  if (path.ends_with("].contents")) return fmt::format("{} are others", path);
+  if (path.ends_with(".contents")) return fmt::format("{} are others", path);
   return fmt::format("{} is {}, was {}", path, shown(is), shown(was));
 }
 
@@ -79,9 +81,18 @@ sim::Inputs inputsOf(const Scene& scene, const Site& site) {
       continue;
     inputs.emplace_back(path, value);
   }
-  for (std::size_t i = 0; i < site.meshes.size(); ++i) {
+  std::size_t tiled = 0, shapes = 0;
+  for (std::size_t i = 0; i < scene.meshes.size(); ++i) {
+    const sim::Mesh& mesh = scene.meshes[i].tiled ? site.meshes[tiled++].mesh : site.shapes[shapes++];
     inputs.emplace_back(fmt::format("meshes[{}].contents", i),
-                        fmt::format("{:016x}", sim::contentHash(site.meshes[i].mesh)));
+                        fmt::format("{:016x}", sim::contentHash(mesh)));
+  }
+  for (std::size_t i = 0; i < scene.attractors.size(); ++i) {
+    if (scene.attractors[i].points.empty()) continue;
+    sim::Hasher hash;
+    hash.add(site.listed_m[i]);
+    inputs.emplace_back(fmt::format("attractors.{}.contents", scene.attractors[i].name),
+                        fmt::format("{:016x}", hash.digest()));
   }
   return inputs;
 }

@@ -84,7 +84,8 @@ std::vector<sim::Planting> makePlantings(const Scene& scene, const Site& site) {
   return plantings;
 }
 
-sim::GrowthSettings growthSettings(const Scene& scene, const Site& site) {
+sim::GrowthSettings growthSettings(const Scene& scene, const Site& site,
+                                   const std::vector<NamedPoints>& attractors) {
   sim::GrowthSettings settings;
   settings.iterations = scene.iterations;
   settings.seed = scene.seed;
@@ -92,6 +93,7 @@ sim::GrowthSettings growthSettings(const Scene& scene, const Site& site) {
   settings.sky_table = [weighting = site.sky.weighting] {
     return sim::makeSkyTable(9, 36, sim::backgroundOf(weighting));  // cells of 10 degrees
   };
+  settings.commons = commonsOf(attractors);
   for (const ImageSpec& image : scene.images) {
     settings.record_attempts = settings.record_attempts || image.kind == ImageKind::attempts;
   }

@@ -10,6 +10,7 @@
 #include "rules/growth/voxel_widths.h"
 #include "scenes/clean_text.h"
 #include "scenes/import/mesh_import.h"
+#include "scenes/import/points_reader.h"
 #include "scenes/import/world_of.h"
 #include "scenes/lights.h"
 #include "scenes/prepare/in_scene.h"
@@ -39,7 +40,13 @@ void addFiles(const SceneMesh& spec, const std::vector<sim::InputFile>& read, Me
   }
 }
 
-std::vector<sim::TiledMesh> readMeshes(const Scene& scene, MeshFiles& files, std::vector<Problem>& warnings) {
+/// Those that stand in the world, and those that do not.
+struct Meshes {
+  std::vector<sim::TiledMesh> tiled;
+  std::vector<sim::Mesh> shapes;
+};
+
+Meshes readMeshes(const Scene& scene, MeshFiles& files, std::vector<Problem>& warnings) {
   for (const SceneMesh& spec : scene.meshes) {
     std::error_code unknown;  // what cannot be looked at is there, and an error when it is read
     if (spec.optional &&
@@ -47,23 +54,43 @@ std::vector<sim::TiledMesh> readMeshes(const Scene& scene, MeshFiles& files, std
       throw MeshMissing(fmt::format("{}: the mesh {} is not there", scene.file.string(), spec.file.string()));
     }
   }
-  std::vector<sim::TiledMesh> meshes;
+  Meshes meshes;
   for (const SceneMesh& spec : scene.meshes) {
     MeshSources read;
     sim::Mesh mesh = placeMesh(importMesh(spec.file, spec.regions_from, std::nullopt, &read), spec.scale,
                                spec.rotate_deg, spec.translate_m);
     addFiles(spec, read.files, files);
     for (Problem& warning : read.warnings) {  // of materials, which nobody sees under a colour of the scene's
-      if (!spec.colour && std::find(warnings.begin(), warnings.end(), warning) == warnings.end())
+      if (spec.tiled && !spec.colour &&
+          std::find(warnings.begin(), warnings.end(), warning) == warnings.end())
         warnings.push_back(std::move(warning));
     }
     mesh.name = spec.name;
     if (spec.colour) {
       for (sim::Material& material : mesh.materials) material.colour = *spec.colour;
     }
-    meshes.push_back({std::move(mesh), spec.solid});
+    if (spec.tiled) {
+      meshes.tiled.push_back({std::move(mesh), spec.solid});
+    } else {
+      meshes.shapes.push_back(std::move(mesh));
+    }
   }
   return meshes;
+}
+
+std::vector<std::vector<sim::Vec3>> readListed(const Scene& scene, MeshFiles& files) {
+  std::vector<std::vector<sim::Vec3>> all;
+  for (const AttractorsSpec& spec : scene.attractors) {
+    all.emplace_back();
+    if (spec.points.empty()) continue;
+    sim::InputFile read;
+    all.back() = readPoints(spec.points, read);
+    if (!spec.told.empty()) read.name = spec.told;
+    files.paths.push_back(spec.points);
+    if (std::find(files.files.begin(), files.files.end(), read) == files.files.end())
+      files.files.push_back(std::move(read));
+  }
+  return all;
 }
 
 /// The voxel size that gives the longest side of the bounds this many voxels.
@@ -114,18 +141,21 @@ sim::World worldFor(const Scene& scene, const std::vector<sim::TiledMesh>& meshe
 Site makeSite(const Scene& scene) {
   MeshFiles files;
   std::vector<Problem> warnings;
-  std::vector<sim::TiledMesh> meshes = readMeshes(scene, files, warnings);
+  Meshes meshes = readMeshes(scene, files, warnings);
+  std::vector<std::vector<sim::Vec3>> listed_m = readListed(scene, files);
   return inScene(scene, [&]() -> Site {
     std::vector<sim::FillReport> fills;
     std::optional<sim::World> world;
     sim::Sky sky;
     sim::Sun sun;
-    sim::parallelInvoke([&] { world.emplace(worldFor(scene, meshes, fills)); },
+    sim::parallelInvoke([&] { world.emplace(worldFor(scene, meshes.tiled, fills)); },
                         [&] {
                           sky = sim::makeSky(skySettings(scene.sky));
                           sun = makeSun(scene.sun);
                         });
-    return {std::move(meshes),
+    return {std::move(meshes.tiled),
+            std::move(meshes.shapes),
+            std::move(listed_m),
             std::move(fills),
             std::move(*world),
             std::move(sky),
@@ -139,6 +169,7 @@ Site makeSite(const Scene& scene) {
 
 Site makeSiteForLight(Scene scene) {
   scene.plants.clear();
+  scene.attractors.clear();
   scene.world.layers = 0;
   return makeSite(scene);
 }

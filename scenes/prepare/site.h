@@ -24,12 +24,14 @@ class MeshMissing : public std::runtime_error {
 /// Nothing changes it but growth, where a run lets its plants grow in the site's own world.
 struct Site {
   std::vector<sim::TiledMesh> meshes;  ///< as placed, world metres
-  std::vector<sim::FillReport> fills;  ///< of the solid ones
-  sim::World world;                    ///< with nothing but the meshes in it
+  std::vector<sim::Mesh> shapes;       ///< placed likewise, but no part of the world: for attractors
+  std::vector<std::vector<sim::Vec3>> listed_m;  ///< of each of the scene's attractors, what its file lists
+  std::vector<sim::FillReport> fills;            ///< of the solid ones
+  sim::World world;                              ///< with nothing but the meshes in it
   sim::Sky sky;
   std::optional<sim::RandomSky> random_sky;  ///< where the scene asks for it: instead of sky's directions
   sim::Sun sun;
-  std::vector<sim::InputFile> mesh_files;         ///< what the meshes were read from, each once
+  std::vector<sim::InputFile> mesh_files;         ///< what meshes and points were read from, each once
   std::vector<std::filesystem::path> mesh_paths;  ///< where those are
   std::vector<Problem> warnings;                  ///< of what mesh files name and have not
 };

@@ -68,6 +68,11 @@ Json varying(const Json& one) {
   return anyOf({one, list(one, 2, 2), curve});
 }
 
+Json pairs(const Key& key, const Json& first, const Json& second) {
+  return list({{"type", "array"}, {"prefixItems", {first, second}}, {"items", false}, {"minItems", 2}}, 1,
+              key.most);
+}
+
 Json polygons(const Key& key, const Json& coordinate) {
   return list(list(list(coordinate, 3, 3), 3, 64), 1, key.most);
 }
@@ -131,6 +136,11 @@ Json valueOf(const Key& key) {
       return list(bounded(key, "number"), 3, 3);
     case Kind::place:
       return list(anyOf({bounded(key, "number"), lengthText("mm|cm|m")}), 3, 3);
+    case Kind::pairs:
+      return pairs(key, {{"type", "number"}}, bounded(key, "number"));
+    case Kind::outline:
+      return pairs(key, anyOf({{{"type", "number"}}, lengthText("mm|cm|m")}),
+                   anyOf({bounded(key, "number"), lengthText("mm|cm|m")}));
     case Kind::polygons:
       return anyOf({polygons(key, bounded(key, "number")),
                     polygons(key, anyOf({{{"const", 0}}, lengthText("mm|cm|m")}))});

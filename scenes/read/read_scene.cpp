@@ -57,6 +57,23 @@ void findMeshes(Scene& scene, const YamlNode& root, const rules::Check::Complain
   }
 }
 
+/// The same for tables of points.
+void findPoints(Scene& scene, const YamlNode& root, const rules::Check::Complain& complain) {
+  for (AttractorsSpec& attractors : scene.attractors) {
+    if (attractors.points.empty()) continue;
+    const auto key = fmt::format("attractors.{}.points", attractors.name);
+    const auto written = attractors.points.string();
+    attractors.points = beside(root, written);
+    attractors.told = toldFrom(scene.file, attractors.points, fs::path(written).is_absolute());
+    std::error_code error;
+    if (attractors.points.extension() != ".csv") {
+      complain(key, fmt::format("{} is no table of points; expected a .csv file", inQuotes(written)));
+    } else if (!fs::is_regular_file(attractors.points, error)) {
+      complain(key, fmt::format("there is no table of points {}; expected one", attractors.points.string()));
+    }
+  }
+}
+
 Scene sceneOf(const Document& document, const fs::path& path, Problems& problems) {
   const YamlNode& root = *document.root;
   static const auto paths = pathsOf(sceneTable());
@@ -79,6 +96,8 @@ Scene sceneOf(const Document& document, const fs::path& path, Problems& problems
   auto checks = sceneChecks();
   checks.push_back(
       {{}, [&](const void*, const auto&, const auto& complain) { findMeshes(scene, root, complain); }});
+  checks.push_back(
+      {{}, [&](const void*, const auto&, const auto& complain) { findPoints(scene, root, complain); }});
   fillNames(scene);
   scene.region_mentions = loader.mentions();
   scene.read_files.push_back({cleanText(path.filename().string()), "scene", document.hash});
@@ -89,6 +108,8 @@ Scene sceneOf(const Document& document, const fs::path& path, Problems& problems
   }
   for (const SceneMesh& mesh : scene.meshes) scene.read_paths.push_back(mesh.file);
   scene.warnings = loader.warnings().sorted();
+  for (AttractorsSpec& attractors : scene.attractors)
+    attractors.place = placeOf({&root}, "attractors." + attractors.name);
   for (std::size_t i = 0; i < scene.plants.size(); ++i) {
     scene.plants[i].rules_place = placeOf({&root}, fmt::format("plants[{}].rules", i));
     auto& scatter = scene.plants[i].scatter;

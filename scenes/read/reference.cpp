@@ -55,6 +55,7 @@ How values are written:
 - *number*: decimal, such as `2.4` or `.5`. No leading zeros.
 - *length*: metres, as a number or as text with a unit: `0.04`, `4 cm`, `40 mm`, `0.04 m`.
 - *point*: `[x, y, z]`; *place*: the same in lengths.
+- *pairs*: a list of `[a, b]`, such as `[[0, 1], [0.5, 3]]`; *outline*: the same in lengths, `[[0, 6 m], [2 m, 6 m]]`.
 - *colour*: `"#a05f46"`, in quotes, for an unquoted `#` begins a comment; or `[r, g, b]` from 0 to 1. Both sRGB.
 - *date*: `2026-06-21`; or `06-21`, of 2017, the year of the common tables of the sun.
 - *name*: letters, digits, `_`, `-` and `.`: it may become part of a file's name.
@@ -92,6 +93,10 @@ std::string kindText(const Key& key) {
       return "point";
     case Kind::place:
       return "place";
+    case Kind::pairs:
+      return "pairs";
+    case Kind::outline:
+      return "outline";
     case Kind::polygons:
       return "polygons";
     case Kind::choice:

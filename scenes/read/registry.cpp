@@ -1,5 +1,6 @@
 #include "scenes/read/registry.h"
 
+#include "rules/language/envelope_keys.h"
 #include "rules/language/key_builder.h"
 #include "scenes/read/light_keys.h"
 #include "scenes/scene.h"
@@ -33,6 +34,8 @@ std::shared_ptr<const Table> meshKeys() {
           {{"group", RegionsFrom::group}, {"material", RegionsFrom::material}},
           {.meaning = "Whether the file's groups or its materials become regions that rules can name."})
       .flag("solid", &SceneMesh::solid, {.meaning = "Fills the inside too."})
+      .flag("tiled", &SceneMesh::tiled,
+            {.meaning = "Whether it stands in the world; otherwise it is a shape for attractors alone."})
       .flag("optional", &SceneMesh::optional,
             {.meaning = "Where the file is missing, the scene is skipped instead of being an error."})
       .number(
@@ -143,6 +146,29 @@ std::shared_ptr<const Table> plantKeys() {
       .shared();
 }
 
+std::shared_ptr<const Table> attractorKeys() {
+  TableOf<AttractorsSpec> table;
+  rules::addSolids(table, &AttractorsSpec::solid);
+  table
+      .place("at", &AttractorsSpec::at_m,
+             {.unit = kMetres,
+              .limits = kCoordinate,
+              .meaning = "The solid's foot, the lowest point of its axis: the middle of a box's floor."})
+      .text("surface", &AttractorsSpec::surface,
+            {.meaning = "Or the name of one of the meshes: on its surface, even by area.", .most = 100})
+      .text("inside", &AttractorsSpec::inside,
+            {.meaning = "Or the name of one of the meshes: in its inside, even by volume.", .most = 100})
+      .file("points", &AttractorsSpec::points,
+            {.meaning = "Or a table of points, .csv: x, y, z in metres on each line."});
+  rules::addStrewing(table, &AttractorsSpec::strewing);
+  return table
+      .metres("spacing", &AttractorsSpec::spacing_m,
+              {.unit = kMetres,
+               .limits = kPositive,
+               .meaning = "Least between any two on a surface; without a count as many as find room."})
+      .shared();
+}
+
 std::shared_ptr<const Table> cameraKeys() {
   return TableOf<NamedCamera>()
       .place("eye", [](auto& c) -> auto& { return c.camera.eye_m; },
@@ -206,6 +232,9 @@ Table makeTable() {
                {.meaning = "How sun_exposure is found: Greene's inclined arc, or with a place the real sun."})
       .section("exposure", &Scene::exposure, exposureKeys(),
                {.meaning = "What espalier expose finds beside the exposure of surfaces."})
+      .list<AttractorsSpec>(
+          "attractors", Kind::named, &Scene::attractors, attractorKeys(),
+          {.meaning = "Points that plants grow towards, by names that rules use.", .most = kMostEntries})
       .list<PlantSpec>("plants", Kind::entries, &Scene::plants, plantKeys(),
                        {.meaning = "What grows.", .most = kMostEntries})
       .whole("iterations", &Scene::iterations,

@@ -5,6 +5,7 @@
 #include <set>
 
 #include "scenes/problem.h"
+#include "scenes/read/attractor_checks.h"
 #include "scenes/read/light_keys.h"
 #include "scenes/read/registry.h"
 #include "scenes/scene.h"
@@ -87,9 +88,23 @@ void checkSeedKeys(const Scene& scene, const Given&, const Complain& complain) {
 }
 
 void checkMeshes(const Scene& scene, const Given&, const Complain& complain) {
-  if (scene.meshes.empty() && !scene.world.bounds_m) {
+  const bool none = std::none_of(scene.meshes.begin(), scene.meshes.end(),
+                                 [](const SceneMesh& mesh) { return mesh.tiled; });
+  if (none && !scene.world.bounds_m) {
     complain("meshes",
              "no mesh and no world.bounds; expected at least one mesh, or the bounds of an empty world");
+  }
+}
+
+/// What only means something to a mesh that stands in the world.
+void checkUntiled(const Scene& scene, const Given& given, const Complain& complain) {
+  for (std::size_t i = 0; i < scene.meshes.size(); ++i) {
+    if (scene.meshes[i].tiled) continue;
+    for (const char* const key : {"regions", "solid", "colour"}) {
+      const auto path = fmt::format("meshes[{}].{}", i, key);
+      if (given(path))
+        complain(path, fmt::format("{} means nothing to a mesh with tiled: false; expected it without", key));
+    }
   }
 }
 
@@ -212,6 +227,8 @@ const std::vector<Check>& sceneChecks() {
       check({"sky"}, checkSky),
       check({"sun"}, checkSun),
       check({}, checkPlants),
+      check({"meshes"}, checkUntiled),
+      check({"meshes", "attractors"}, checkAttractors),
       check({}, [](const Scene& s, const Given&,
                    const Complain& complain) { checkNames(s.meshes, "meshes", complain); }),
       check({}, [](const Scene& s, const Given&,

@@ -244,6 +244,23 @@ Maybe<Distance> distance(const ScalarReader& read, const Node& node) {
   return number ? Maybe<Distance>(Distance{*number, lengths.metres()}) : std::nullopt;
 }
 
+/// A list of pairs. The limits are of their second numbers; a first length may be as far to either side of 0.
+Maybe<rules::Pairs> pairs(const ScalarReader& read, const Node& node) {
+  const auto pair = [&](const Node& n) -> Maybe<glm::dvec2> {
+    if (n.kind != Node::Kind::list || n.items.size() != 2)
+      return read.fail(n, fmt::format("has {} where a pair [a, b] should stand", described(n)));
+    const bool lengths = read.key.kind == Kind::outline;
+    Key either = read.key;
+    either.limits = {-read.key.limits.max, read.key.limits.max};
+    const auto a = lengths ? ScalarReader{either, read.path, read.problems}.metres(n.items[0])
+                           : read.anyNumber(n.items[0]);
+    const auto b = lengths ? read.metres(n.items[1]) : read.number(n.items[1]);
+    return a && b ? Maybe<glm::dvec2>(glm::dvec2(*a, *b)) : std::nullopt;
+  };
+  if (node.kind == Node::Kind::list && node.items.empty()) return read.fail(node, "is an empty list");
+  return listOf(read, node, read.key.most, pair);
+}
+
 Maybe<Polygons> polygons(const ScalarReader& read, const Node& node) {
   LengthReader lengths(read);
   const auto corner = [&](const Node& n) {
@@ -286,6 +303,9 @@ std::optional<Datum> readDatum(const Node& node, const Key& key, const std::stri
       return datum(triple(read, node, number));
     case Kind::place:
       return datum(triple(read, node, metres));
+    case Kind::pairs:
+    case Kind::outline:
+      return datum(pairs(read, node));
     case Kind::polygons:
       return datum(polygons(read, node));
     case Kind::choice:

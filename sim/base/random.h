@@ -37,6 +37,7 @@ enum class Purpose : std::uint8_t {
   opacity = 6,
   sky = 7,
   spot = 8,
+  attractor = 9,
   custom = 128
 };
 

@@ -124,7 +124,7 @@ class Slab {
   /// Writes the rows y_first .. y_last.
   void write(int y_first, int y_last, Filled& filled) const {
     const auto rows = static_cast<std::size_t>(y_last - y_first + 1);
-    std::vector<std::size_t> doubtful(rows);
+    std::vector<Filled> counts(rows);
     parallelForEach(rows, [&](std::size_t row) {
       const int y = y_first + static_cast<int>(row);
       for (int z = box_.first.z; z <= box_.last.z; ++z) {
@@ -138,17 +138,23 @@ class Slab {
           if (inside_.empty() || surface_.at(v)) continue;
           const std::uint8_t state = inside_[box_.index(v)];
           if ((state & kInside) != 0) filled.inside.set(v);
-          doubtful[row] += state >> 1;
+          if ((state & kDoubtful) != 0) ++counts[row].doubtful;
+          if ((state & (kDoubtful | kInside)) == kDoubtful) ++counts[row].outvoted;
+          if ((state & kUndecided) != 0) ++counts[row].undecided;
         }
       }
     });
-    for (const std::size_t d : doubtful) filled.doubtful += d;
+    for (const Filled& count : counts) {
+      filled.doubtful += count.doubtful;
+      filled.outvoted += count.outvoted;
+      filled.undecided += count.undecided;
+    }
   }
 
  private:
-  static constexpr std::uint8_t kInside = 1, kDoubtful = 2;
+  static constexpr std::uint8_t kInside = 1, kDoubtful = 2, kUndecided = 4;
 
-  /// Turns votes into kInside and kDoubtful.
+  /// Turns votes into kInside, kDoubtful and kUndecided.
   void settle() {
     constexpr int kAll = 2 * static_cast<int>(kAxes.size());
     const auto doubtful = [](std::uint8_t votes) { return votes > 1 && votes < kAll; };
@@ -167,7 +173,9 @@ class Slab {
     for (std::size_t i = 0; i < inside_.size(); ++i) {
       std::uint8_t& v = inside_[i];
       if (doubtful(v)) {
-        v = votes[i] > kHalf ? kInside | kDoubtful : kDoubtful;
+        const int ends = votes[i];
+        const bool close = 3 * std::max(ends, 2 * kHalf - ends) < 4 * kHalf;
+        v = static_cast<std::uint8_t>(kDoubtful | (ends > kHalf ? kInside : 0) | (close ? kUndecided : 0));
       } else {
         v = v == kAll ? kInside : 0;
       }

@@ -12,7 +12,9 @@ namespace espalier::sim {
 struct Filled {
   BitVolume inside;  ///< of a solid's voxels, those that the surface leaves free
   BitVolume opaque;  ///< what takes light: all that are inside, and where that is too little, those behind
-  std::size_t doubtful = 0;  ///< free voxels that the lines along the axes did not settle
+  std::size_t doubtful = 0;   ///< free voxels that the lines along the axes did not settle
+  std::size_t outvoted = 0;   ///< of those, the ones taken for outside
+  std::size_t undecided = 0;  ///< of the doubtful, where neither side has two thirds of all ends
 };
 
 /// `surface` are the voxels that the mesh's own triangles tile. Corners must lie within 16,000 voxels of the

@@ -55,7 +55,7 @@ class Listening : public sim::Process {
 void benchGrowth(const scenes::Scene& scene, scenes::Site& site, Report& report) {
   constexpr const char* kRow = "4 growth";
   constexpr int kEvery = 5;  // iterations; the sweeps would take longer than all else
-  sim::GrowthSettings settings = scenes::growthSettings(scene, site);
+  sim::GrowthSettings settings = scenes::growthSettings(scene, site, scenes::attractorsOf(scene, site));
   std::vector<std::shared_ptr<const Listening>> listeners;
   auto plantings = scenes::makePlantings(scene, site);
   for (auto& planting : plantings) {

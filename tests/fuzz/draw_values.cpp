@@ -181,6 +181,14 @@ std::string ValueDrawer::text(const rules::Key& key, const Limits& usual) {
     case Kind::point:
     case Kind::place:
       return three([&] { return number(key.limits, usual); });
+    case Kind::pairs:
+    case Kind::outline: {  // along a line, or up a tree
+      const bool metres = key.kind == Kind::outline;
+      std::vector<std::string> points;
+      for (int i = 0; i < 4; ++i)
+        points.push_back(fmt::format("[{}, {}]", metres ? i * voxel_m_ : i / 3.0, number(key.limits, usual)));
+      return fmt::format("[{}]", fmt::join(points, ", "));
+    }
     case Kind::polygons:
       return polygons(key.limits, key.most);
     case Kind::choice:

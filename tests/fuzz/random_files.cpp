@@ -165,6 +165,21 @@ void RandomFiles::knowSpecials() {
   text("meshes[].scale", [=, this] { return fmt::format("{}", longest * world_.voxel_m); });
   text("meshes[].translate",
        [this] { return ValueDrawer::point(world_.middle_m.x, world_.middle_m.y, world_.middle_m.z); });
+  text("meshes[].tiled",
+       [this] { return std::string(world_.bounds && numbers_.chance(0.5) ? "false" : "true"); });
+  // A solid that the world holds some of.
+  const auto side = [this] {
+    const double least = std::min({world_.extent_m().x, world_.extent_m().y, world_.extent_m().z});
+    return std::min(numbers_.uniform(0.1, 1.0) * least, 1e5);
+  };
+  for (const char* const length :
+       {"cone.height", "cone.radius", "dome.radius", "cylinder.height", "cylinder.radius", "sphere.radius"})
+    text(std::string("attractors.<name>.") + length, [=] { return fmt::format("{}", side()); });
+  for (const char* const sides : {"ellipsoid.radii", "box.size"})
+    text(std::string("attractors.<name>.") + sides,
+         [=] { return ValueDrawer::point(side(), side(), side()); });
+  text("attractors.<name>.at", [this] { return place(numbers_.chance(0.9) ? 0.3 : 0.6); });
+  text("attractors.<name>.count", [this] { return fmt::format("{}", numbers_.whole(1, 300)); });
   text("plants[].seeds[].at", [this] { return place(numbers_.chance(0.1) ? 0.5 : 0.45); });
   text("plants[].scatter.region", [this] { return std::string(numbers_.chance(0.9) ? "floor" : "wall"); });
   text("plants[].scatter.count", [this] { return fmt::format("{}", numbers_.whole(1, 6)); });

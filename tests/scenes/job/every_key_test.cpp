@@ -95,6 +95,25 @@ Edit realSun(const std::string& more) {
   return {kArc, "sun: {place: {latitude: 47, longitude: 8, utc_offset: 1}, step: 60, " + more + "}"};
 }
 
+constexpr const char* kMeshes = "meshes:\n";
+
+/// Attractors from a mesh or a file, beside two meshes that stand nowhere.
+Change strewn(const std::string& attractors, const std::string& from, const std::string& to) {
+  return {"state_hash",
+          {{kMeshes,
+            "meshes:\n  - {file: block.obj, name: shape, tiled: false}\n"
+            "  - {file: block.obj, name: other_shape, scale: 0.5, tiled: false}\n"},
+           {"seed: 5", "seed: 5\nattractors: {main: {" + attractors + "}}"}},
+          {from, to}};
+}
+
+/// Attractors in a solid.
+Change crown(const std::string& solid, const std::string& from, const std::string& to) {
+  return {"state_hash",
+          {{"seed: 5", "seed: 5\nattractors: {main: {" + solid + ", at: [0, 0.5, 0.4], count: 40}}"}},
+          {from, to}};
+}
+
 const std::map<std::string, Change>& changes() {
   const std::string sun = "expose: exposure.csv";
   const Edit shadows{kImage, "{kind: shadow_matte, name: a}"};
@@ -110,6 +129,7 @@ const std::map<std::string, Change>& changes() {
       {"meshes[].name", {sun, {}, {"name: plot,", "name: wall,"}}},
       {"meshes[].regions", {sun, {}, {"regions: group", "regions: material"}}},
       {"meshes[].solid", {"expose: exposure.vdb", {}, {"regions: group", "regions: group, solid: true"}}},
+      {"meshes[].tiled", {"world.vdb", {}, {", regions: group}", ", tiled: false}"}}},
       {"meshes[].optional",
        {"error", {{"plot.obj", "none.obj"}}, {"regions: group", "regions: group, optional: true"}}},
       {"meshes[].scale", {"world.vdb", {}, {"regions: group", "regions: group, scale: 0.7"}}},
@@ -166,6 +186,28 @@ const std::map<std::string, Change>& changes() {
        {"state_hash",
         {{"rules: vine.yaml", "rules: vine.yaml, scatter: {region: floor, count: 2}"}},
         {"count: 2", "count: 3"}}},
+      {"attractors.<name>.cone.height",
+       crown("cone: {height: 60 cm, radius: 40 cm}", "height: 60", "height: 50")},
+      {"attractors.<name>.cone.radius",
+       crown("cone: {height: 60 cm, radius: 40 cm}", "radius: 40", "radius: 30")},
+      {"attractors.<name>.dome.radius", crown("dome: {radius: 50 cm}", "radius: 50", "radius: 40")},
+      {"attractors.<name>.cylinder.height",
+       crown("cylinder: {height: 60 cm, radius: 40 cm}", "height: 60", "height: 50")},
+      {"attractors.<name>.cylinder.radius",
+       crown("cylinder: {height: 60 cm, radius: 40 cm}", "radius: 40", "radius: 30")},
+      {"attractors.<name>.sphere.radius", crown("sphere: {radius: 30 cm}", "radius: 30", "radius: 20")},
+      {"attractors.<name>.ellipsoid.radii", crown("ellipsoid: [30 cm, 20 cm, 40 cm]", "[30 cm", "[20 cm")},
+      {"attractors.<name>.box.size", crown("box: [30 cm, 20 cm, 40 cm]", "[30 cm", "[20 cm")},
+      {"attractors.<name>.revolution.profile",
+       crown("revolution: [[0, 0.3], [0.1, 0.3], [0.2, 0.2], [0.5, 0.1]]", "0.3], [0.2", "0.4], [0.2")},
+      {"attractors.<name>.at", crown("sphere: 30 cm", "at: [0, 0.5", "at: [0.2, 0.5")},
+      {"attractors.<name>.surface", strewn("surface: plot", "surface: plot", "surface: shape")},
+      {"attractors.<name>.inside", strewn("inside: shape", "inside: shape", "inside: other_shape")},
+      {"attractors.<name>.points", strewn("points: listed.csv", "listed.csv", "other.csv")},
+      {"attractors.<name>.count", strewn("surface: plot, count: 20", "count: 20", "count: 30")},
+      {"attractors.<name>.spread", crown("sphere: 30 cm, spread: volume", "volume", "height")},
+      {"attractors.<name>.density", crown("sphere: 30 cm, density: [[0, 1], [1, 2]]", "[1, 2]", "[1, 3]")},
+      {"attractors.<name>.spacing", strewn("surface: plot, spacing: 30 cm", "spacing: 30", "spacing: 20")},
       {"iterations", {"state_hash", {}, {"iterations: 6", "iterations: 4"}}},
       {"seed", {"state_hash", {}, {"seed: 5", "seed: 6"}}},
       {"image.width", {"a.png", {}, {"width: 40", "width: 44"}}},
@@ -203,6 +245,12 @@ class EverySceneKey : public testing::TestWithParam<std::string> {
   void SetUp() override {
     scratch_.write("plot.obj", kMesh);
     scratch_.write("flat.obj", std::string(kMesh).substr(0, std::string(kMesh).find("g block")));
+    std::string block(kMesh);
+    block = block.substr(block.find("v 0.3"));
+    for (int i = 0; i < 8; ++i) block = "v 0 0 0\n" + block;  // before those that it counts from
+    scratch_.write("block.obj", block);
+    scratch_.write("listed.csv", "0,0.5,0.4\n0.1,0.5,0.4\n");
+    scratch_.write("other.csv", "0,0.5,0.4\n0.1,0.6,0.4\n");
     scratch_.write("paint.mtl", "newmtl stone\nKd 0.5 0.5 0.5\nnewmtl brick\nKd 0.6 0.2 0.1\n");
     scratch_.write(
         "vine.yaml",

@@ -83,5 +83,44 @@ TEST_F(KeptMemory, ThatIsNoneIsADamagedState) {
   });
 }
 
+/// What a run says that goes on from half of another.
+std::string goesOnWith(const tests::Scratch& scratch, const std::string& first, const std::string& second) {
+  const std::string half =
+      std::string(kScene).replace(std::string(kScene).find("iterations: 8"), 13, "iterations: 4");
+  RunOptions options;
+  options.folder = scratch.path("out");
+  options.pictures = false;
+  const auto read = [&](const std::string& text) {
+    auto scene = readScene(scratch.write("scene.yaml", text));
+    EXPECT_TRUE(scene) << format(scene.problems());
+    return *scene;
+  };
+  runScene(read(half + first), options);
+  scratch.write("points.csv", "1,1.5,1\n0.5,1,1\n");
+  try {
+    runScene(read(kScene + second), options, {.resume = true});
+  } catch (const sim::InputError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(KeptAttractors, AreThoseThatItGoesOnWith) {
+  const tests::Scratch scratch;
+  const std::string dome = "attractors: {crown: {dome: 60 cm, at: [1, 1, 1], count: 30}}\n";
+  const std::string more = "attractors: {crown: {dome: 60 cm, at: [1, 1, 1], count: 31}}\n";
+  const std::string table = "attractors: {crown: {points: points.csv}}\n";
+  EXPECT_EQ(goesOnWith(scratch, dome, dome), "");
+  EXPECT_NE(goesOnWith(scratch, dome, more).find("attractors.crown.count is '31', was '30'"),
+            std::string::npos);
+  EXPECT_NE(goesOnWith(scratch, "", dome).find("grown from something else"), std::string::npos);
+  EXPECT_EQ(goesOnWith(scratch, "", ""), "");
+  scratch.write("points.csv", "1,1.5,1\n0.5,1,1\n");
+  EXPECT_EQ(goesOnWith(scratch, table, table), "");
+  scratch.write("points.csv", "1,1.5,1\n");
+  EXPECT_NE(goesOnWith(scratch, table, table).find("attractors.crown.contents are others"),
+            std::string::npos);
+}
+
 }  // namespace
 }  // namespace espalier::scenes

@@ -80,6 +80,11 @@ inline std::vector<std::string> goodTexts(const rules::Key& key) {
       return {triple, fmt::format("[{0}, {1}, {0}]", number, other)};
     case Kind::place:
       return {triple, "[1 cm, 2 mm, 0.1 m]"};
+    case Kind::pairs:
+      return {fmt::format("[[0, {}], [0.5, {}], [1, {}]]", number, other, number)};
+    case Kind::outline:
+      return {fmt::format("[[0, {0}], [1, {0}], [2, {0}], [3, {0}]]", number),
+              "[[0, 1 cm], [1 mm, 2 mm], [0.5 m, 0.1 m], [1, 1]]"};
     case Kind::polygons:
       return {"[[[0, 0, 0], [1, 0, 0], [0, 1, 0]]]", "[[[0, 0, 0], [1, 0, 0], [0, 1, 0.5]]]",
               "[[[0, 0, 0], [1 cm, 0, 0], [0, 20 mm, \"-1 mm\"]]]"};
@@ -168,6 +173,10 @@ inline std::vector<std::string> badTexts(const rules::Key& key) {
       return more(beyond(triple), {"[1, 2]", "1", "{}"});
     case Kind::place:
       return more(beyond(triple), {"[1, 2]", "1", "[1 vx, 0, 0]"});
+    case Kind::pairs:
+    case Kind::outline:
+      return more(beyond([](const std::string& text) { return fmt::format("[[0, {}]]", text); }),
+                  {"[]", "[1, 2]", "[[1]]", "[[1, 2, 3]]", "[[few, 1]]", "1", "{}"});
     case Kind::polygons:
       return {"[[0, 0, 0]]", "1", "[[[0, 0, few], [1, 0, 0], [0, 1, 0]]]",
               "[[[0, 0, 0], [1 cm, 0, 0], [0, 2, 0]]]", "[[[0, 0, 0], [1 vx, 0, 0], [0, 1, 0]]]"};

@@ -1,0 +1,84 @@
+#include "scenes/read/attractor_checks.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+
+#include "rules/language/envelope_keys.h"
+#include "scenes/problem.h"
+
+namespace espalier::scenes {
+namespace {
+
+using rules::Check;
+
+/// The keys of all sources that an entry states.
+std::vector<std::string> sourcesOf(const AttractorsSpec& spec) {
+  std::vector<std::string> sources = rules::solidsIn(spec.solid);
+  if (!spec.surface.empty()) sources.emplace_back("surface");
+  if (!spec.inside.empty()) sources.emplace_back("inside");
+  if (!spec.points.empty()) sources.emplace_back("points");
+  return sources;
+}
+
+void checkMeshName(const std::string& name, const std::string& path, const Scene& scene,
+                   const Check::Complain& complain) {
+  std::vector<std::string> names;
+  for (const SceneMesh& mesh : scene.meshes) names.push_back(mesh.name);
+  if (name.empty() || std::find(names.begin(), names.end(), name) != names.end()) return;
+  complain(path, names.empty()
+                     ? fmt::format("no mesh is called {}, as there is none; expected one among the meshes",
+                                   inQuotes(name))
+                     : fmt::format("no mesh is called {}; expected one of {}{}", inQuotes(name),
+                                   listed(names, name), didYouMean(name, names)));
+}
+
+/// Complains of keys that the one source does not know.
+void checkMeaning(const AttractorsSpec& spec, const std::string& source, const std::string& path,
+                  const Check::Given& given, const Check::Complain& complain) {
+  const bool surface = source == "surface", points = source == "points";
+  const bool solid = !surface && !points && source != "inside";
+  const auto needs = [&](const char* key, bool meant, const char* expected) {
+    const std::string at = path + "." + key;
+    if (meant || !given(at)) return;
+    complain(at,
+             fmt::format("{} means nothing to attractors by {}; expected it with {}", key, source, expected));
+  };
+  needs("at", solid, "a solid");
+  needs("spread", solid, "a solid");
+  needs("density", solid, "a solid");
+  needs("spacing", surface, "a surface");
+  needs("count", !points, "a solid or a mesh");
+  if (solid && !spec.at_m)
+    complain(path,
+             fmt::format("a {} that stands nowhere; expected at: [x, y, z], where its foot is", source));
+}
+
+}  // namespace
+
+void checkAttractors(const Scene& scene, const Check::Given& given, const Check::Complain& complain) {
+  for (const AttractorsSpec& spec : scene.attractors) {
+    const std::string path = "attractors." + spec.name;
+    const auto sources = sourcesOf(spec);
+    if (sources.empty()) {
+      complain(
+          path,
+          "attractors from nowhere; expected a solid such as dome: {radius: 6 m}, surface: MESH, inside: "
+          "MESH or points: FILE");
+      continue;
+    }
+    if (sources.size() > 1) {
+      complain(path + "." + sources[1],
+               fmt::format("attractors by {}; expected one of them", fmt::join(sources, " and ")));
+      continue;
+    }
+    checkMeshName(spec.surface, path + ".surface", scene, complain);
+    checkMeshName(spec.inside, path + ".inside", scene, complain);
+    checkMeaning(spec, sources.front(), path, given, complain);
+    rules::checkEnvelope(spec.solid, path, complain);
+    rules::checkStrewing(spec.strewing, path, complain);
+  }
+}
+
+}  // namespace espalier::scenes

@@ -1,0 +1,11 @@
+#pragma once
+#include "rules/language/key.h"
+#include "scenes/scene.h"
+
+namespace espalier::scenes {
+
+/// What must hold between the keys of a scene's attractors.
+void checkAttractors(const Scene& scene, const rules::Check::Given& given,
+                     const rules::Check::Complain& complain);
+
+}  // namespace espalier::scenes

@@ -1,0 +1,173 @@
+#include "scenes/prepare/attractors.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "scenes/read/read_scene.h"
+#include "sim/base/error.h"
+#include "tests/support/messages.h"
+#include "tests/support/scratch.h"
+
+namespace espalier::scenes {
+namespace {
+
+constexpr const char* kCube =
+    "v -1 0 -1\nv 1 0 -1\nv 1 0 1\nv -1 0 1\nv -1 2 -1\nv 1 2 -1\nv 1 2 1\nv -1 2 1\n"
+    "f 1 2 3 4\nf 5 8 7 6\nf 1 5 6 2\nf 2 6 7 3\nf 3 7 8 4\nf 4 8 5 1\n";
+
+class Attractors : public testing::Test {
+ protected:
+  /// Of a world from -4 to 4 and 0 to 8 high, in voxels of 10 cm, in whose middle a cube of 2 m stands.
+  std::vector<NamedPoints> made(const std::string& attractors, const std::string& meshes = kStands) {
+    scratch_.write("cube.obj", kCube);
+    scratch_.write("sheet.obj", "v 0 0 0\nv 1 0 0\nv 1 0 1\nf 1 2 3\n");
+    const auto path = scratch_.write(
+        "scene.yaml", "espalier: scene\nworld: {voxel: 10 cm, bounds: {min: [-4, 0, -4], max: [4, 8, 4]}}\n" +
+                          meshes + "attractors:\n  main: " + attractors + "\n");
+    auto read = readScene(path);
+    if (!read) throw sim::InputError(format(read.problems()));
+    scene_ = *read;
+    site_.emplace(makeSite(scene_));
+    warnings_.clear();
+    return attractorsOf(scene_, *site_, &warnings_);
+  }
+  std::string refusal(const std::string& attractors, const std::string& meshes = kStands) {
+    return tests::messageOf([&] { made(attractors, meshes); }).substr(scratch_.path("").string().size());
+  }
+  sim::Vec3 metres(sim::Vec3 at_vx) const { return sim::worldFromVoxel(site_->world.frame(), at_vx); }
+
+  static constexpr const char* kStands = "meshes: [{file: cube.obj, solid: true}]\n";
+  static constexpr const char* kShape = "meshes: [{file: cube.obj, tiled: false, translate: [0, 3, 0]}]\n";
+
+  tests::Scratch scratch_;
+  Scene scene_;
+  std::optional<Site> site_;
+  std::vector<Problem> warnings_;
+};
+
+TEST_F(Attractors, OfASolidKeepOutOfWhatStandsThere) {
+  const auto all = made("{cylinder: {height: 4, radius: 1.5}, at: [0, 1, 0], count: 4000}");
+  ASSERT_EQ(all.size(), 1u);
+  EXPECT_EQ(all[0].name, "main");
+  // The cube fills a part of its lowest metre.
+  const double share = 1.0 - (4.0 / (2.25 * 3.14159)) / 4.0;
+  EXPECT_NEAR(static_cast<double>(all[0].at_vx.size()), 4000 * share, 150);
+  for (const sim::Vec3& p : all[0].at_vx) EXPECT_FALSE(site_->world.occupied().at(sim::voxelAt(p)));
+  EXPECT_EQ(all[0].normal, std::vector<sim::Vec3>(all[0].at_vx.size(), sim::Vec3(0)));
+  EXPECT_TRUE(warnings_.empty());
+}
+
+TEST_F(Attractors, BeyondTheWorldAreCounted) {
+  const auto all = made("{box: [8, 2, 8], at: [4, 4, 0], count: 1000}");
+  ASSERT_EQ(warnings_.size(), 1u);
+  EXPECT_EQ(warnings_[0].line, 5);
+  EXPECT_EQ(warnings_[0].column, 3);
+  EXPECT_EQ(warnings_[0].text, "attractors 'main': of 1000 points " +
+                                   std::to_string(1000 - all[0].at_vx.size()) +
+                                   " lie beyond the world and 0 in what stands there");
+  EXPECT_NEAR(static_cast<double>(all[0].at_vx.size()), 500, 65);
+  EXPECT_EQ(refusal("{dome: 6, at: [100, 0, 0], count: 9}"),
+            "scene.yaml:5:3: attractors 'main': of 9 points 9 lie beyond the world and 0 in what stands "
+            "there: none "
+            "is left; expected a place in the open, inside the world");
+  EXPECT_EQ(refusal("{sphere: 0.5, at: [0, 0.5, 0], count: 9}"),
+            "scene.yaml:5:3: attractors 'main': of 9 points 0 lie beyond the world and 9 in what stands "
+            "there: none "
+            "is left; expected a place in the open, inside the world");
+}
+
+TEST_F(Attractors, OnAMeshThatStandsThereStepOutOfIt) {
+  const auto all = made("{surface: cube, count: 600}");
+  EXPECT_GT(all[0].at_vx.size(), 480u);  // all but those beneath
+  for (std::size_t i = 0; i < all[0].at_vx.size(); ++i) {
+    const sim::Vec3 p = metres(all[0].at_vx[i]), n = all[0].normal[i];
+    EXPECT_EQ(glm::length(n), 1.0);
+    EXPECT_FALSE(site_->world.occupied().at(sim::voxelAt(all[0].at_vx[i])));
+    const double out = std::max({std::abs(p.x), std::abs(p.y - 1), std::abs(p.z)}) - 1;
+    EXPECT_GT(out, 0.0);
+    EXPECT_LT(out, 0.2001);
+  }
+}
+
+TEST_F(Attractors, OnAShapeThatStandsNowhereLieOnIt) {
+  const auto all = made("{surface: cube, spacing: 30 cm}", kShape);
+  EXPECT_EQ(site_->world.occupied().count(), 0u);
+  EXPECT_GT(all[0].at_vx.size(), 100u);
+  for (std::size_t i = 0; i < all[0].at_vx.size(); ++i) {
+    const sim::Vec3 p = metres(all[0].at_vx[i]) - sim::Vec3(0, 4, 0);
+    EXPECT_NEAR(std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)}), 1.0, 1e-9);
+    for (std::size_t k = 0; k < i; ++k)
+      EXPECT_GE(glm::distance(all[0].at_vx[i], all[0].at_vx[k]), 3.0 - 1e-9);
+  }
+  EXPECT_TRUE(warnings_.empty());
+  made("{surface: cube, spacing: 90 cm, count: 100}", kShape);
+  ASSERT_EQ(warnings_.size(), 1u);
+  EXPECT_NE(warnings_[0].text.find(" of 100 points find room on 'cube' with 0.9 m between any two"),
+            std::string::npos)
+      << warnings_[0].text;
+}
+
+TEST_F(Attractors, InAShape) {
+  const auto all = made("{inside: cube, count: 500}", kShape);
+  for (const sim::Vec3& at : all[0].at_vx) {
+    const sim::Vec3 p = metres(at) - sim::Vec3(0, 4, 0);
+    EXPECT_LT(std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)}), 1.01);
+  }
+  EXPECT_TRUE(warnings_.empty());
+  EXPECT_EQ(
+      refusal("{inside: sheet}", "meshes: [{file: sheet.obj, tiled: false}]\n"),
+      "scene.yaml:5:3: attractors 'main': mesh 'sheet': is a sheet, and points are wanted in its inside; "
+      "expected a mesh that holds something, or points on its surface");
+}
+
+TEST_F(Attractors, InAMeshThatLeaksSaySo) {
+  std::string open = kCube;
+  open = open.substr(0, open.find("f 5")) + open.substr(open.find("f 1 5"));  // without its lid
+  scratch_.write("open.obj", open);
+  made("{inside: open, count: 50}", "meshes: [{file: open.obj, tiled: false}]\n");
+  ASSERT_EQ(warnings_.size(), 1u);
+  EXPECT_NE(warnings_[0].text.find("the mesh 'open' leaks: for 1e+02 %"), std::string::npos)
+      << warnings_[0].text;
+}
+
+TEST_F(Attractors, FromATable) {
+  scratch_.write("p.csv", "\"x\", y, z\n\n# one\n0.5,4,0\n-1.5 , 2e0 ,3, more\r\n9,4,0\n");
+  const auto all = made("{points: p.csv}");
+  ASSERT_EQ(all[0].at_vx.size(), 2u);
+  EXPECT_LT(glm::distance(metres(all[0].at_vx[0]), sim::Vec3(0.5, 4, 0)), 1e-12);
+  EXPECT_LT(glm::distance(metres(all[0].at_vx[1]), sim::Vec3(-1.5, 2, 3)), 1e-12);
+  EXPECT_EQ(warnings_.at(0).text,
+            "attractors 'main': of 3 points 1 lie beyond the world and 0 in what stands there");
+  EXPECT_EQ(site_->mesh_files.back().name, "p.csv");
+  EXPECT_EQ(site_->mesh_files.back().kind, "points");
+  const std::string expected = "; expected x, y, z in metres, each from -1000000 to 1000000";
+  for (const std::string bad : {"1,2", "1,2,nan", "1;2;3", "1,2,3e7", "1,2,x", "x,y,z"}) {
+    scratch_.write("p.csv", "0,1,0\n" + bad + "\n");
+    EXPECT_EQ(refusal("{points: p.csv}"), "p.csv:2: '" + bad + "' is no point" + expected);
+  }
+  scratch_.write("p.csv", "x,y,z\n");
+  EXPECT_EQ(refusal("{points: p.csv}"), "p.csv: has no points; expected x, y, z on each line");
+}
+
+TEST_F(Attractors, FollowFromTheSeedAndTheirName) {
+  const std::string dome = "{dome: 2, at: [0, 3, 0], count: 50}";
+  const auto first = made(dome)[0].at_vx;
+  EXPECT_EQ(made(dome)[0].at_vx, first);
+  EXPECT_NE(made(dome + "\nseed: 2")[0].at_vx, first);
+  const auto both = made(dome + "\n  other: " + dome);
+  EXPECT_EQ(both[0].at_vx, first);
+  EXPECT_NE(both[1].at_vx, first);
+}
+
+TEST_F(Attractors, AreColumnsOfWhatPlantingsShare) {
+  const auto all = made("{dome: 2, at: [0, 3, 0], count: 50}");
+  const sim::Commons commons = commonsOf(all);
+  ASSERT_EQ(commons.size(), 1u);
+  const sim::Columns& columns = commons.at("attractors main");
+  EXPECT_EQ(sim::column<sim::Vec3>(columns, "at_vx"), all[0].at_vx);
+  EXPECT_EQ(sim::column<sim::Vec3>(columns, "normal"), all[0].normal);
+}
+
+}  // namespace
+}  // namespace espalier::scenes

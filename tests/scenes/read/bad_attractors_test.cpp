@@ -1,0 +1,102 @@
+#include <gtest/gtest.h>
+
+#include <string>
+
+#include "tests/scenes/read/bad_file.h"
+
+namespace espalier::scenes {
+namespace {
+
+using tests::BadFile;
+
+// As in bad_scenes_test.cpp: what follows after "espalier: scene" and the line of an empty world.
+const std::vector<BadFile> kBadAttractors = {
+    {"a mesh that stands nowhere, and is solid",
+     "meshes: [{file: none.obj, optional: true, tiled: false, solid: true}]\n",
+     {"3:64: solid means nothing to a mesh with tiled: false; expected it without"}},
+    {"no mesh that stands somewhere",
+     "world: {voxel: 4 cm}\nmeshes: [{file: a.obj, tiled: false}]\n",
+     {"3:1: no mesh and no world.bounds; expected at least one mesh"}},
+    {"attractors from nowhere",
+     "attractors:\n  crown: {count: 5}\n",
+     {"4:3: attractors from nowhere; expected a solid such as dome: {radius: 6 m}, surface: MESH, inside: "
+      "MESH or points: FILE"}},
+    {"attractors from two places",
+     "attractors: {crown: {dome: 6, at: [0, 0, 0], surface: wall}}\n",
+     {"3:55: attractors by dome and surface; expected one of them"}},
+    {"two solids",
+     "attractors: {crown: {dome: 6, cone: {height: 1, radius: 1}, at: [0, 0, 0]}}\n",
+     {"3:28: attractors by cone and dome; expected one of them"}},
+    {"a solid that stands nowhere",
+     "attractors: {crown: {dome: 6}}\n",
+     {"3:14: a dome that stands nowhere; expected at: [x, y, z], where its foot is"}},
+    {"no attractors",
+     "attractors: {crown: {dome: 6, at: [0, 0, 0], count: 0}}\n",
+     {"3:53: attractors.crown.count is '0', which is out of range; expected a whole number from 1 to "
+      "10000000"}},
+    {"a negative radius",
+     "attractors: {crown: {dome: {radius: -6}, at: [0, 0, 0]}}\n",
+     {"3:37: attractors.crown.dome.radius is '-6', which is out of range"}},
+    {"a radius that is no number",
+     "attractors: {crown: {dome: {radius: nan}, at: [0, 0, 0]}}\n",
+     {"3:37: attractors.crown.dome.radius is 'nan', which is no length"}},
+    {"an empty envelope",
+     "attractors: {crown: {cone: {height: 0, radius: 2}, at: [0, 0, 0]}}\n",
+     {"3:37: attractors.crown.cone.height is '0', which is out of range"}},
+    {"a profile of three points",
+     "attractors: {crown: {revolution: [[0, 1], [1, 1], [2, 1]], at: [0, 0, 0]}}\n",
+     {"3:22: a profile of 3 points; expected four, the control points of a Bezier curve"}},
+    {"a profile of five points",
+     "attractors: {crown: {revolution: [[0, 1], [1, 1], [2, 1], [3, 1], [4, 1]], at: [0, 0, 0]}}\n",
+     {"3:34: attractors.crown.revolution.profile has a list of 5, more than 4"}},
+    {"a profile with a negative radius",
+     "attractors: {crown: {revolution: {profile: [[0, 1], [1, -1], [2, 1], [3, 1]]}, at: [0, 0, 0]}}\n",
+     {"3:57: attractors.crown.revolution.profile is '-1', which is out of range; expected a list of 1 to 4 "
+      "points "
+      "[a, b] (metres), b 0 to 100000"}},
+    {"a profile that falls",
+     "attractors: {crown: {revolution: {profile: [[0, 1], [2, 1], [1, 1], [3, 1]]}, at: [0, 0, 0]}}\n",
+     {"3:22: a profile with the height 1 after 2; expected heights that do not fall"}},
+    {"a profile without an inside",
+     "attractors: {crown: {revolution: {profile: [[0, 0], [2, 0], [3, 0], [3, 0]]}, at: [0, 0, 0]}}\n",
+     {"3:22: a profile without an inside; expected heights that rise and a radius above 0"}},
+    {"a density of nothing",
+     "attractors: {crown: {dome: 6, at: [0, 0, 0], density: [[0, 0], [1, 0]]}}\n",
+     {"3:46: a density of 0 along the whole height; expected one above 0 somewhere"}},
+    {"a density above the crown",
+     "attractors: {crown: {dome: 6, at: [0, 0, 0], density: [[0, 1], [2, 1]]}}\n",
+     {"3:46: a density of 1 at 2 of the height; expected a number of 0 or more at a share from 0 to 1"}},
+    {"attractors on no mesh",
+     "attractors: {crown: {surface: wall}}\n",
+     {"3:31: no mesh is called 'wall', as there is none; expected one among the meshes"}},
+    {"attractors in another mesh",
+     "meshes: [{file: walls.obj, optional: true}]\nattractors: {crown: {inside: wall}}\n",
+     {"4:30: no mesh is called 'wall'; expected one of walls; did you mean 'walls'?"}},
+    {"spacing in a solid",
+     "attractors: {crown: {dome: 6, at: [0, 0, 0], spacing: 1}}\n",
+     {"3:55: spacing means nothing to attractors by dome; expected it with a surface"}},
+    {"a density on a mesh",
+     "meshes: [{file: walls.obj, optional: true}]\nattractors: {crown: {inside: walls, density: [[0, 1]]}}\n",
+     {"4:37: density means nothing to attractors by inside; expected it with a solid"}},
+    {"a table of points that is not there",
+     "attractors: {crown: {points: none.csv, count: 3}}\n",
+     {"3:30: there is no table of points none.csv; expected one",
+      "3:47: count means nothing to attractors by points; expected it with a solid or a mesh"}},
+    {"a table of points of another kind",
+     "attractors: {crown: {points: points.xyz}}\n",
+     {"3:30: 'points.xyz' is no table of points; expected a .csv file"}},
+};
+
+class BadAttractors : public testing::TestWithParam<BadFile> {};
+
+TEST_P(BadAttractors, AreRefusedWithPlaceAndReason) {
+  const std::string text = GetParam().text;
+  const std::string world =
+      text.starts_with("world") ? "" : "world: {voxel: 4 cm, bounds: {min: [-1, -1, -1], max: [1, 1, 1]}}\n";
+  tests::expectMessages(GetParam(), "s.yaml", "espalier: scene\n" + world + text);
+}
+
+INSTANTIATE_TEST_SUITE_P(Corpus, BadAttractors, testing::ValuesIn(kBadAttractors), tests::testName);
+
+}  // namespace
+}  // namespace espalier::scenes

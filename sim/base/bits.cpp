@@ -1,6 +1,9 @@
 #include "sim/base/bits.h"
 
 #include <bit>
+#include <cassert>
+
+#include "sim/base/parallel.h"
 
 namespace espalier::sim {
 
@@ -8,6 +11,13 @@ std::size_t BitVolume::count() const {
   std::size_t total = 0;
   for (const std::uint64_t word : words_) total += static_cast<std::size_t>(std::popcount(word));
   return total;
+}
+
+void BitVolume::add(const BitVolume& more) {
+  assert(more.size_ == size_);
+  parallelFor(words_.size(), [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) words_[i] |= more.words_[i];
+  });
 }
 
 }  // namespace espalier::sim

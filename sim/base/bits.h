@@ -32,6 +32,8 @@ class BitVolume {
   /// The voxel must lie inside.
   void set(Voxel v) { row(v.y, v.z)[v.x >> 6] |= std::uint64_t{1} << (v.x & 63); }
   void clear(Voxel v) { row(v.y, v.z)[v.x >> 6] &= ~(std::uint64_t{1} << (v.x & 63)); }
+  /// Sets all that are set in a volume of the same size.
+  void add(const BitVolume& more);
 
   const std::uint64_t* row(int y, int z) const { return words_.data() + rowOffset(y, z); }
   std::uint64_t* row(int y, int z) { return words_.data() + rowOffset(y, z); }

@@ -211,9 +211,9 @@ Proposal Growing::propose(const Due& due, std::size_t planting, const Site& site
   const Voxel place = voxelAt(site.at_vx);
   ClearAhead clear, sky_clear;
   std::optional<Light> light;
-  if (wants.light) light = sensor_->at(world_.opaque(), {&place, 1}, clear).front();
+  if (wants.light) light = sensor_->at(world_.opaque(), {&place, 1}, clear, &world_.opaqueBricks()).front();
   std::optional<SkyInside> sky;
-  if (wants.sky_table) sky.emplace(*sky_sensor_, world_.opaque(), sky_clear);
+  if (wants.sky_table) sky.emplace(*sky_sensor_, world_.opaque(), sky_clear, &world_.opaqueBricks());
   return proposeAt(planting, site, light ? &*light : nullptr, sky ? &*sky : nullptr,
                    due.memories.at(planting), due.commons, true);
 }
@@ -229,9 +229,10 @@ void Growing::proposeAll(std::vector<Asked>& asked) {
     places.push_back(voxelAt(asked[i].site.at_vx));
     lit[i] = places.size();
   }
-  const auto lights = sensor_ ? sensor_->at(world_.opaque(), places, clear_) : std::vector<Light>();
+  const Bricks* const filled = &world_.opaqueBricks();
+  const auto lights = sensor_ ? sensor_->at(world_.opaque(), places, clear_, filled) : std::vector<Light>();
   std::optional<SkyInside> sky;
-  if (sky_wanted) sky.emplace(*sky_sensor_, world_.opaque(), sky_clear_);
+  if (sky_wanted) sky.emplace(*sky_sensor_, world_.opaque(), sky_clear_, filled);
   parallelFor(asked.size(), 4, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       throwIfStopped();

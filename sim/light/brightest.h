@@ -80,12 +80,14 @@ class SkySensor {
 
 /// Asks for the brightest direction at places of a volume that stands still meanwhile: the same as brightest
 /// gives for each. Most of what is asked of a bud's light ends before it comes to this. May be asked from any
-/// number of threads. Borrows all three.
+/// number of threads. Borrows the first three.
 class SkyInside {
  public:
   /// `opaque` must have the shape that was given to the sensor. `ahead` is kept from one to the next of them.
-  SkyInside(const SkySensor& sensor, const BitVolume& opaque, ClearAhead& ahead)
-      : filter_(sensor.filter_), rays_(sensor.rays_, opaque, ahead) {}
+  /// `filled`: as OpenRays has it.
+  SkyInside(const SkySensor& sensor, const BitVolume& opaque, ClearAhead& ahead,
+            const Bricks* filled = nullptr)
+      : filter_(sensor.filter_), rays_(sensor.rays_, opaque, ahead, filled) {}
 
   /// See SkyFilter::brightest. The place must lie in the volume.
   Vec3 brightest(Voxel place) const { return filter_.brightest(rays_.from(place)); }

@@ -5,7 +5,7 @@
 #include <bit>
 #include <cstdlib>
 #include <cstring>
-#include <iterator>
+#include <functional>
 #include <map>
 #include <optional>
 #include <tuple>
@@ -17,45 +17,23 @@
 namespace espalier::sim {
 namespace {
 
-constexpr int kSide = ClearBricks::kSide;
-
-/// Bit b of the result: whether byte b holds anything.
-std::uint64_t bytesThatHoldAnything(std::uint64_t word) {
-  word |= word >> 4;
-  word |= word >> 2;
-  word |= word >> 1;
-  return ((word & 0x0101010101010101u) * 0x0102040810204080u) >> 56;
-}
-
-/// The bricks that hold anything, by their y.
-std::vector<std::vector<Voxel>> filledBricks(const BitVolume& occupied) {
-  const Voxel size = occupied.size();
-  const auto words = static_cast<std::size_t>(occupied.rowWords() - 1);
-  std::vector<std::vector<Voxel>> filled(static_cast<std::size_t>((size.y + kSide - 1) / kSide));
-  parallelForEach(filled.size(), [&](std::size_t slab) {
-    const int y = static_cast<int>(slab);
-    std::vector<std::uint64_t> united(words);
-    for (int z = 0; z * kSide < size.z; ++z) {
-      std::fill(united.begin(), united.end(), 0);
-      for (int dy = kSide * y; dy < std::min(size.y, kSide * (y + 1)); ++dy) {
-        for (int dz = kSide * z; dz < std::min(size.z, kSide * (z + 1)); ++dz) {
-          const std::uint64_t* const row = occupied.row(dy, dz);
-          for (std::size_t w = 0; w < words; ++w) united[w] |= row[w];
-        }
-      }
-      for (std::size_t w = 0; w < words; ++w) {
-        for (std::uint64_t bricks = bytesThatHoldAnything(united[w]); bricks != 0; bricks &= bricks - 1)
-          filled[slab].emplace_back(static_cast<int>(8 * w) + std::countr_zero(bricks), y, z);
+template <class Visit>
+void forEachSet(const BitVolume& bits, Visit visit) {
+  for (int y = 0; y < bits.size().y; ++y) {
+    for (int z = 0; z < bits.size().z; ++z) {
+      for (int w = 0; w < bits.rowWords(); ++w) {
+        for (std::uint64_t word = bits.row(y, z)[w]; word != 0; word &= word - 1)
+          visit(Voxel(w * BitVolume::kWordBits + std::countr_zero(word), y, z));
       }
     }
-  });
-  return filled;
+  }
 }
 
 /// How often bricks are to be halved in number along each axis until a row along the shortest fits into a
-/// lane, and all of them into memory.
+/// lane, and all of them into the near caches. Larger ones are found and followed several times as fast, and
+/// rays go on little longer until they are in one that is clear.
 int halvings(Voxel bricks) {
-  constexpr std::size_t kMostBricks = std::size_t{1} << 21;
+  constexpr std::size_t kMostBricks = std::size_t{1} << 16;
   for (int n = 0;; ++n) {
     const Voxel left = ((bricks - 1) >> Voxel(n)) + 1;
     const std::size_t all = static_cast<std::size_t>(left.x) * static_cast<std::size_t>(left.y) *
@@ -200,39 +178,81 @@ std::uint64_t wordAt(const Plane& plane, std::size_t byte) {
 
 }  // namespace
 
-ClearBricks::ClearBricks(const BitVolume& occupied, std::span<const LatticeDirection> directions)
-    : size_(occupied.size()),
-      bricks_((size_ + (kSide - 1)) / kSide),
+ClearBricks::ClearBricks(Voxel size, const Bricks& filled, std::span<const LatticeDirection> directions)
+    : size_(size),
+      bricks_(filled.bits().size()),
       coarser_(halvings(bricks_)),
-      filled_(((bricks_ - 1) >> Voxel(coarser_)) + 1) {
-  const Layout layout(filled_.size());
+      filled_(bricks_),
+      judged_(((bricks_ - 1) >> Voxel(coarser_)) + 1) {
+  const Layout layout(judged_.size());
   step_[static_cast<std::size_t>(layout.lane)] = 1;
   step_[static_cast<std::size_t>(layout.row)] = 8 * layout.lane_bytes;
   step_[static_cast<std::size_t>(layout.column)] = 8 * layout.bytes;
   rows_.resize(kWords * 8 * layout.allBytes());
-  find(directions, judgedBricks(occupied));
+  blocked_.resize(directions.size(), Plane(layout.allBytes()));
+  for (const LatticeDirection& direction : directions)
+    ahead_filled_[octantOf(direction.v)] = BitVolume(bricks_);
+  forgetAll();
+  follow(filled, directions);
 }
 
-std::vector<Voxel> ClearBricks::judgedBricks(const BitVolume& occupied) {
-  BitVolume judged(filled_.size());
-  std::vector<Voxel> bricks;
-  for (const auto& slab : filledBricks(occupied)) {
-    for (const Voxel brick : slab) {
-      const Voxel as_one = brick >> Voxel(coarser_);
-      if (judged.at(as_one)) continue;
-      judged.set(as_one);
-      bricks.push_back(as_one);
+void ClearBricks::forgetAll() {
+  filled_ = BitVolume(filled_.size());
+  judged_ = BitVolume(judged_.size());
+  for (BitVolume& octant : ahead_filled_) octant = BitVolume(octant.size());
+  std::fill(rows_.begin(), rows_.end(), ~std::uint64_t{0});
+  for (Plane& plane : blocked_) std::fill(plane.begin(), plane.end(), std::uint8_t{0});
+}
+
+void ClearBricks::addAhead(int y, int z, std::span<const std::uint64_t> came) {
+  for (std::size_t octant = 0; octant < ahead_filled_.size(); ++octant) {
+    BitVolume& to = ahead_filled_[octant];
+    if (to.size().x == 0) continue;
+    const int back_y = (octant & 2u) != 0 ? 1 : -1, back_z = (octant & 4u) != 0 ? 1 : -1;
+    for (const int at_y : {y, y + back_y}) {
+      for (const int at_z : {z, z + back_z}) {
+        if (at_y < 0 || at_y >= bricks_.y || at_z < 0 || at_z >= bricks_.z) continue;
+        std::uint64_t* const row = to.row(at_y, at_z);
+        for (std::size_t w = 0; w < came.size(); ++w) {
+          const std::uint64_t after = w + 1 < came.size() ? came[w + 1] : 0, before = w > 0 ? came[w - 1] : 0;
+          row[w] |= came[w] | ((octant & 1u) != 0 ? came[w] << 1 | before >> 63 : came[w] >> 1 | after << 63);
+        }
+      }
     }
   }
-  filled_ = std::move(judged);
-  return bricks;
 }
 
-void ClearBricks::find(std::span<const LatticeDirection> directions, const std::vector<Voxel>& bricks) {
-  const Voxel size = filled_.size();
+std::vector<Voxel> ClearBricks::takeNote(const BitVolume& filled) {
+  std::vector<Voxel> added;
+  std::vector<std::uint64_t> all(static_cast<std::size_t>(filled.rowWords() - 1));
+  for (int y = 0; y < bricks_.y; ++y) {
+    for (int z = 0; z < bricks_.z; ++z) {
+      std::uint64_t* const before = filled_.row(y, z);
+      const std::uint64_t* const now = filled.row(y, z);
+      std::uint64_t any = 0;
+      for (std::size_t w = 0; w < all.size(); ++w) any |= all[w] = now[w] & ~before[w];
+      if (any == 0) continue;
+      addAhead(y, z, all);
+      for (std::size_t w = 0; w < all.size(); ++w) {
+        for (std::uint64_t came = all[w]; came != 0; came &= came - 1) {
+          const int x = static_cast<int>(w) * BitVolume::kWordBits + std::countr_zero(came);
+          const Voxel as_one = Voxel(x, y, z) >> Voxel(coarser_);
+          if (judged_.at(as_one)) continue;
+          judged_.set(as_one);
+          added.push_back(as_one);
+        }
+        before[w] = now[w];
+      }
+    }
+  }
+  return added;
+}
+
+void ClearBricks::find(std::span<const LatticeDirection> directions) {
+  const Voxel size = judged_.size();
   const Layout layout(size);
   ReadPlane filled(layout);
-  for (const Voxel brick : bricks) filled.set(brick);
+  forEachSet(judged_, [&](Voxel brick) { filled.set(brick); });
   std::map<std::tuple<int, int, int>, ReadPlane> met;  // by a brick whose low corner lies here, by v's signs
   for (const LatticeDirection& direction : directions) {
     const Voxel sign = glm::sign(direction.v);
@@ -246,7 +266,7 @@ void ClearBricks::find(std::span<const LatticeDirection> directions, const std::
   parallelForEach((directions.size() + 63) / 64, [&](std::size_t column) {
     const auto mine =
         directions.subspan(64 * column, std::min<std::size_t>(64, directions.size() - 64 * column));
-    std::vector<Plane> blocked(mine.size());
+    const std::span<Plane> blocked = std::span(blocked_).subspan(64 * column, mine.size());
     for (std::size_t i = 0; i < mine.size(); ++i) {
       const Voxel v = mine[i].v, sign = glm::sign(v);
       met.at({sign.x, sign.y, sign.z}).unite(wayOf(layout, size, v), blocked[i]);
@@ -262,39 +282,62 @@ void ClearBricks::find(std::span<const LatticeDirection> directions, const std::
   });
 }
 
-void ClearBricks::addFilled(std::span<const Voxel> judged, std::span<const LatticeDirection> directions) {
-  if (ahead_.empty()) {
-    for (const LatticeDirection& direction : directions) {
-      std::vector<Ahead>& ahead = ahead_.emplace_back();
-      forEachAhead(filled_.size(), direction.v, [&](Voxel o, Voxel at) { ahead.push_back({o, at}); });
-    }
+void ClearBricks::findAhead(std::span<const LatticeDirection> directions) {
+  for (const LatticeDirection& direction : directions) {
+    Ahead& ahead = ahead_.emplace_back();
+    forEachAhead(judged_.size(), direction.v, [&](Voxel corner, Voxel brick) {
+      ahead.corners.push_back(corner);
+      ahead.bricks.push_back(brick);
+      ahead.steps.push_back(static_cast<std::int32_t>(indexJudged(brick)));
+    });
   }
+}
+
+void ClearBricks::addFilled(std::span<const Voxel> judged, std::span<const LatticeDirection> directions) {
+  const Voxel size = judged_.size();
+  if (ahead_.empty()) findAhead(directions);
   parallelForEach((directions.size() + 63) / 64, [&](std::size_t column) {
     for (std::size_t i = 64 * column; i < std::min<std::size_t>(64 * (column + 1), directions.size()); ++i) {
+      const Ahead& ahead = ahead_[i];
       const std::uint64_t others = ~(std::uint64_t{1} << (i % 64));
+      std::uint8_t* const blocked = blocked_[i].data();
       for (const Voxel brick : judged) {
-        for (const Ahead& ahead : ahead_[i]) {
-          if (!contains(filled_.size(), brick - ahead.corner)) break;  // no other comes from inside
-          const Voxel from = brick - ahead.brick;
-          if (contains(filled_.size(), from)) rows_[kWords * indexJudged(from) + column] &= others;
+        const auto first = static_cast<std::ptrdiff_t>(indexJudged(brick));
+        const auto block = [&](std::size_t k) {
+          const auto from = static_cast<std::size_t>(first - ahead.steps[k]);
+          const unsigned bit = 1u << (from % 8);
+          if ((blocked[from / 8] & bit) != 0) return;
+          blocked[from / 8] = static_cast<std::uint8_t>(blocked[from / 8] | bit);
+          rows_[kWords * from + column] &= others;
+        };
+        const auto whileInside = [&](Voxel farther) {  // how many, as no others come from inside
+          return static_cast<std::size_t>(
+              std::partition_point(ahead.corners.begin(), ahead.corners.end(),
+                                   [&](Voxel corner) { return contains(size, brick - corner - farther); }) -
+              ahead.corners.begin());
+        };
+        const std::size_t all = whileInside(Voxel(0));
+        const std::size_t inside = std::min(all, whileInside(glm::sign(directions[i].v)));
+        for (std::size_t k = 0; k < inside; ++k) block(k);
+        for (std::size_t k = inside; k < all; ++k) {
+          if (contains(size, brick - ahead.bricks[k])) block(k);
         }
       }
     }
   });
 }
 
-void ClearBricks::follow(const BitVolume& occupied, std::span<const LatticeDirection> directions) {
-  constexpr std::size_t kFew = 300;  // adding one of so many bricks costs less than finding all anew
-  const BitVolume before = filled_;
-  const std::vector<Voxel> bricks = judgedBricks(occupied);
-  std::vector<Voxel> added;
-  std::copy_if(bricks.begin(), bricks.end(), std::back_inserter(added),
-               [&](Voxel brick) { return !before.at(brick); });
-  const bool none_emptied = bricks.size() - added.size() == before.count();
-  if (none_emptied && kFew * added.size() <= rows_.size() / kWords) {
+void ClearBricks::follow(const Bricks& filled, std::span<const LatticeDirection> directions) {
+  constexpr std::size_t kFew = 1000;  // adding one of so many bricks costs less than finding all anew
+  const BitVolume& now = filled.bits();
+  const auto emptied = [](std::uint64_t before, std::uint64_t after) { return (before & ~after) != 0; };
+  if (!std::equal(filled_.words().begin(), filled_.words().end(), now.words().begin(), std::not_fn(emptied)))
+    forgetAll();
+  const std::vector<Voxel> added = takeNote(now);
+  if (kFew * added.size() <= rows_.size() / kWords) {
     addFilled(added, directions);
   } else {
-    find(directions, bricks);
+    find(directions);
   }
 }
 

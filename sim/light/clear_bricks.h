@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "sim/base/bits.h"
+#include "sim/base/bricks.h"
 #include "sim/sweep/directions.h"
 
 namespace espalier::sim {
@@ -16,24 +17,35 @@ namespace espalier::sim {
 /// bricks count that the brick would overlap on its way along the direction.
 class ClearBricks {
  public:
-  static constexpr int kSide = 8;  ///< voxels along a brick's edge
+  static constexpr int kSide = Bricks::kSide;
 
   static constexpr std::size_t kWords = 4;  ///< of the directions' bits
 
-  /// At most 64 * kWords directions.
-  ClearBricks(const BitVolume& occupied, std::span<const LatticeDirection> directions);
+  /// At most 64 * kWords directions. `filled`: the volume's bricks, of which nothing else is asked.
+  ClearBricks(Voxel size, const Bricks& filled, std::span<const LatticeDirection> directions);
 
   /// The volume, of the same shape, has changed: as if made anew, with the same directions, in time with the
   /// bricks that filled.
-  void follow(const BitVolume& occupied, std::span<const LatticeDirection> directions);
+  void follow(const Bricks& filled, std::span<const LatticeDirection> directions);
 
   /// kWords words; bit i is direction i. Outside of the world all are clear.
   const std::uint64_t* ofBrick(Voxel brick) const {
     return contains(bricks_, brick) ? rows_.data() + kWords * index(brick) : kAll;
   }
   bool is(std::size_t direction, Voxel voxel) const {
-    if (!contains(size_, voxel)) return true;
-    return ((rows_[kWords * index(voxel >> Voxel(3)) + direction / 64] >> (direction % 64)) & 1u) != 0;
+    return !contains(size_, voxel) || isInside(direction, voxel);
+  }
+  /// The same of a voxel of the world.
+  bool isInside(std::size_t direction, Voxel voxel) const {
+    const std::size_t at = index(voxel >> Voxel(3));
+    return ((blocked_[direction][at / 8] >> (at % 8)) & 1u) == 0;
+  }
+  /// Whether anything lies in the brick of a voxel of the world, or in those one farther along any of the
+  /// axes, the way that a direction leads. A ray lies in no others until it is more than kSide voxels away.
+  bool mayMeet(Voxel direction, Voxel voxel) const {
+    const Voxel brick = voxel >> Voxel(3);
+    return ((ahead_filled_[octantOf(direction)].row(brick.y, brick.z)[brick.x >> 6] >> (brick.x & 63)) &
+            1u) != 0;
   }
 
  private:
@@ -45,21 +57,34 @@ class ClearBricks {
            static_cast<std::size_t>(judged.z) * step_[2];
   }
 
-  /// Those that hold anything, and takes note of them.
-  std::vector<Voxel> judgedBricks(const BitVolume& occupied);
-  void find(std::span<const LatticeDirection> directions, const std::vector<Voxel>& bricks);
+  static std::size_t octantOf(Voxel direction) {
+    return (direction.x < 0 ? 1u : 0u) | (direction.y < 0 ? 2u : 0u) | (direction.z < 0 ? 4u : 0u);
+  }
+  void forgetAll();
+  /// Of a row of bricks those that filled, a word after another.
+  void addAhead(int y, int z, std::span<const std::uint64_t> came);
+  /// Those judged as one that hold anything now and did not before.
+  std::vector<Voxel> takeNote(const BitVolume& filled);
+  void find(std::span<const LatticeDirection> directions);
+  void findAhead(std::span<const LatticeDirection> directions);
   void addFilled(std::span<const Voxel> judged, std::span<const LatticeDirection> directions);
 
   Voxel size_, bricks_;
   int coarser_;  // halvings: in large worlds 2^coarser_ bricks along each axis are judged as one
   std::array<std::size_t, 3> step_{};  // from a brick to the next along each axis
   std::vector<std::uint64_t> rows_;
-  BitVolume filled_;  // bricks that are judged as one and hold anything
+  /// The same by direction, a bit for each of what is judged as one: set where it is not clear. Small, so
+  /// that what asks along one direction, or of many bricks, seldom leaves the nearest cache.
+  std::vector<std::vector<std::uint8_t>> blocked_;
+  BitVolume filled_;                       // bricks that hold anything
+  std::array<BitVolume, 8> ahead_filled_;  // of each octant that directions lead into: mayMeet
+  BitVolume judged_;                       // those that are judged as one and hold anything
   /// What brick 0 overlaps on its way along a direction, and where its low corner is then; nearer ones first.
   struct Ahead {
-    Voxel corner, brick;
+    std::vector<Voxel> corners, bricks;
+    std::vector<std::int32_t> steps;  ///< to the bricks, by indexJudged
   };
-  std::vector<std::vector<Ahead>> ahead_;  // of each direction, once asked for
+  std::vector<Ahead> ahead_;  // of each direction, once asked for
 };
 
 }  // namespace espalier::sim

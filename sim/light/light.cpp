@@ -1,17 +1,30 @@
 #include "sim/light/light.h"
 
+#include <algorithm>
+
 #include "sim/base/parallel.h"
 #include "sim/sweep/sweep.h"
 
 namespace espalier::sim {
 namespace {
 
-/// With fewer places, casting their rays takes less time than finding the clear bricks of so many voxels; and
-/// with more, a sweep of so many takes less than finding a place's open rays. As measured on worlds of 5 to
-/// 13 million voxels.
-constexpr std::size_t kVoxelsPerCast = 70'000, kVoxelsPerFound = 200;
-/// The first of them where the clear bricks need only be followed.
-constexpr std::size_t kVoxelsPerCastAgain = 400'000;
+std::size_t voxelsIn(Voxel size) {
+  return static_cast<std::size_t>(size.x) * static_cast<std::size_t>(size.y) *
+         static_cast<std::size_t>(size.z);
+}
+
+/// With more places, a sweep of so many voxels takes less time than finding a place's open rays. As measured
+/// on worlds of 5 to 13 million voxels.
+constexpr std::size_t kVoxelsPerFound = 200;
+
+/// With fewer places, casting their rays takes less time than finding the clear bricks, or than following
+/// them if they are known. In small worlds that hangs on how many bricks there are; large ones have no more
+/// that are judged, and the longer the world, the dearer are rays. As measured on worlds of 5 to 390 million
+/// voxels.
+std::size_t fewestForOpenRays(Voxel size, bool known) {
+  const std::size_t voxels = voxelsIn(size), edges = static_cast<std::size_t>(size.x + size.y + size.z);
+  return known ? std::min(voxels / 400'000, 6'000 / edges) : std::min(voxels / 70'000, 36'000 / edges);
+}
 
 DirectionSet both(DirectionSet sky, const DirectionSet& sun) {
   sky.insert(sky.end(), sun.begin(), sun.end());
@@ -29,15 +42,13 @@ LightSensor::LightSensor(const BitVolume& shape, const LightSource& source)
       random_sky_(source.random_sky),
       weighting_(source.weighting) {}
 
-std::vector<Light> LightSensor::at(const BitVolume& opaque, std::span<const Voxel> places,
-                                   ClearAhead& ahead) const {
+std::vector<Light> LightSensor::at(const BitVolume& opaque, std::span<const Voxel> places, ClearAhead& ahead,
+                                   const Bricks* filled) const {
   const Voxel size = opaque.size();
-  const std::size_t voxels =
-      static_cast<std::size_t>(size.x) * static_cast<std::size_t>(size.y) * static_cast<std::size_t>(size.z);
-  const std::size_t a_cast = ahead.known() ? kVoxelsPerCastAgain : kVoxelsPerCast;
-  std::vector<Light> lights = places.size() < voxels / a_cast            ? byRays(opaque, places)
-                              : places.size() < voxels / kVoxelsPerFound ? byOpenRays(opaque, places, ahead)
-                                                                         : bySweep(opaque, places);
+  std::vector<Light> lights = places.size() < fewestForOpenRays(size, ahead.known()) ? byRays(opaque, places)
+                              : places.size() < voxelsIn(size) / kVoxelsPerFound
+                                  ? byOpenRays(opaque, places, ahead, filled)
+                                  : bySweep(opaque, places);
   if (!random_sky_) return lights;
   parallelFor(places.size(), 4, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i)
@@ -56,8 +67,8 @@ std::vector<Light> LightSensor::byRays(const BitVolume& opaque, std::span<const 
 }
 
 std::vector<Light> LightSensor::byOpenRays(const BitVolume& opaque, std::span<const Voxel> places,
-                                           ClearAhead& ahead) const {
-  const std::vector<std::uint64_t> open = rays_.from(opaque, places, ahead);
+                                           ClearAhead& ahead, const Bricks* filled) const {
+  const std::vector<std::uint64_t> open = rays_.from(opaque, places, ahead, filled);
   return lightsOf(places.size(),
                   [&](std::size_t i) { return std::span(open).subspan(i * rays_.words(), rays_.words()); });
 }

@@ -33,12 +33,14 @@ class LightSensor {
 
   /// `opaque` must have the shape that was given, and the places must lie in it. Takes the way that costs
   /// least for so many places, with what is kept from the last time. Random rays are always cast.
-  std::vector<Light> at(const BitVolume& opaque, std::span<const Voxel> places, ClearAhead& ahead) const;
+  /// `filled`: the volume's bricks, from who keeps them (World::opaqueBricks).
+  std::vector<Light> at(const BitVolume& opaque, std::span<const Voxel> places, ClearAhead& ahead,
+                        const Bricks* filled = nullptr) const;
   /// Each ray walked voxel by voxel: the plain way, without random rays.
   std::vector<Light> byRays(const BitVolume& opaque, std::span<const Voxel> places) const;
   /// As sim/light/open_rays.h does it: for buds.
-  std::vector<Light> byOpenRays(const BitVolume& opaque, std::span<const Voxel> places,
-                                ClearAhead& ahead) const;
+  std::vector<Light> byOpenRays(const BitVolume& opaque, std::span<const Voxel> places, ClearAhead& ahead,
+                                const Bricks* filled = nullptr) const;
   /// The whole world swept: where light is asked for nearly everywhere.
   std::vector<Light> bySweep(const BitVolume& opaque, std::span<const Voxel> places) const;
 

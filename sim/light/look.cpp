@@ -103,25 +103,38 @@ HWY_INLINE bool anyOf(const std::uint64_t* words, std::ptrdiff_t start, const st
   return !hn::AllTrue(du, hn::Eq(hn::And(hit, hn::Set(du, 1)), hn::Zero(du)));
 }
 
-/// From where the legs end, with a look ahead from time to time.
+/// Whether one of the next `count` steps is occupied.
+HWY_INLINE bool anyOfRun(const std::uint64_t* words, std::ptrdiff_t start, const std::int64_t* steps,
+                         std::size_t count) {
+  for (; count > kAtOnce; count -= kAtOnce, steps += kAtOnce) {
+    if (anyOf<false>(words, start, steps, kAtOnce)) return true;
+  }
+  return anyOf<true>(words, start, steps, count);
+}
+
+/// From where the legs end, run by run, with a look ahead after each. Most runs lie among empty bricks, and
+/// then no voxel of them is read.
 HWY_INLINE bool walkOn(const BitVolume& occupied, const Group& group, const ClearBricks& clear, Voxel p,
                        std::size_t i) {
   const LatticeDirection& direction = group.directions[i];
   const std::size_t period = direction.crossed.size(), done = group.rays[i].near + kSteps;
   const std::uint64_t* const words = occupied.words().data();
   const std::int64_t* const steps = group.period_steps.data() + group.first_step[i];
+  const std::uint32_t* const runs = group.runs.data() + group.first_run[i];
   std::size_t k = done % period;
+  const std::uint32_t* run = runs;
+  while (run[1] <= k) ++run;
   Voxel base = p + static_cast<int>(done / period) * direction.v;
   std::ptrdiff_t start = (occupied.row(base.y, base.z) - words) * BitVolume::kWordBits + base.x;
   for (int left = periodsInside(occupied.size(), base, direction.v); left > 0; --left) {
-    for (std::size_t next; k < period; k = next) {
-      next = std::min(period, k + kAtOnce);
-      if (next - k == kAtOnce ? anyOf<false>(words, start, steps + k, kAtOnce)
-                              : anyOf<true>(words, start, steps + k, next - k))
+    for (; k < period; k = *++run) {
+      if (clear.mayMeet(direction.v, base + direction.crossed[k]) &&
+          anyOfRun(words, start, steps + k, run[1] - k))
         return false;
-      if (clear.is(i, base + direction.crossed[next - 1])) return true;
+      if (clear.isInside(i, base + direction.crossed[run[1] - 1])) return true;
     }
     k = 0;
+    run = runs;
     base += direction.v;
     start += steps[period - 1];
   }

@@ -52,6 +52,10 @@ struct Group {
   /// on. As many steps as are read at once lie behind the last.
   std::vector<std::int64_t> period_steps;
   std::vector<std::size_t> first_step;
+  /// A period's voxels in runs, none of which leads farther than a brick's side along any axis: of direction
+  /// i the first voxel of each from first_run[i] on, and then how many voxels there are.
+  std::vector<std::uint32_t> runs;
+  std::vector<std::size_t> first_run;
 };
 
 /// For each place a row of bits, `stride` words apart: the group's directions that reach the world's edge.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <optional>
 #include <utility>
 
 #include "sim/base/parallel.h"
@@ -53,7 +54,7 @@ looking::Group groupOf(const BitVolume& shape, std::span<const LatticeDirection>
   const bool down =
       std::any_of(directions.begin(), directions.end(), [](const auto& d) { return d.v.y < 0; });
   constexpr int kAcross = 2 * kNear + 1;
-  looking::Group group{directions, down ? -kNear : 0, {}, {}, {}, {}, {}};
+  looking::Group group{directions, down ? -kNear : 0, {}, {}, {}, {}, {}, {}, {}};
   group.crossing.resize(static_cast<std::size_t>(kAcross * (kNear + 1 - group.lowest)));
   for (std::size_t i = 0; i < directions.size(); ++i) {
     const auto include = [&](looking::Mask& mask) { mask.words[i / 64] |= std::uint64_t{1} << (i % 64); };
@@ -77,6 +78,15 @@ looking::Group groupOf(const BitVolume& shape, std::span<const LatticeDirection>
     group.rays.push_back(ray);
     group.first_step.push_back(group.period_steps.size());
     for (const Voxel o : directions[i].crossed) group.period_steps.push_back(stepOf(shape, o));
+    group.first_run.push_back(group.runs.size());
+    Voxel first(0);
+    for (std::size_t k = 0; k < directions[i].crossed.size(); ++k) {
+      const Voxel o = directions[i].crossed[k];
+      if (k > 0 && farthest(o - first) <= ClearBricks::kSide) continue;
+      group.runs.push_back(static_cast<std::uint32_t>(k));
+      first = o;
+    }
+    group.runs.push_back(static_cast<std::uint32_t>(directions[i].crossed.size()));
   }
   group.period_steps.resize(group.period_steps.size() + looking::kAtOnce);
   return group;
@@ -99,21 +109,23 @@ ClearAhead::~ClearAhead() = default;
 ClearAhead::ClearAhead(ClearAhead&&) noexcept = default;
 ClearAhead& ClearAhead::operator=(ClearAhead&&) noexcept = default;
 
-void OpenRays::look(const BitVolume& occupied, ClearAhead& ahead) const {
+void OpenRays::look(const BitVolume& occupied, ClearAhead& ahead, const Bricks* filled) const {
+  std::optional<Bricks> scanned;
+  if (filled == nullptr) filled = &scanned.emplace(occupied);
   const bool known = ahead.known();
   for (std::size_t g = 0; g < groups_->size(); ++g) {
     const auto directions = (*groups_)[g].directions;
     if (known) {
-      ahead.of_groups_[g].follow(occupied, directions);
+      ahead.of_groups_[g].follow(*filled, directions);
     } else {
-      ahead.of_groups_.emplace_back(occupied, directions);
+      ahead.of_groups_.emplace_back(occupied.size(), *filled, directions);
     }
   }
 }
 
 std::vector<std::uint64_t> OpenRays::from(const BitVolume& occupied, std::span<const Voxel> places,
-                                          ClearAhead& ahead) const {
-  look(occupied, ahead);
+                                          ClearAhead& ahead, const Bricks* filled) const {
+  look(occupied, ahead, filled);
   std::vector<std::uint64_t> open(places.size() * words());
   for (std::size_t g = 0; g < groups_->size(); ++g) {
     parallelFor(places.size(), 16, [&](std::size_t begin, std::size_t end) {
@@ -124,9 +136,10 @@ std::vector<std::uint64_t> OpenRays::from(const BitVolume& occupied, std::span<c
   return open;
 }
 
-RaysInside::RaysInside(const OpenRays& rays, const BitVolume& occupied, ClearAhead& ahead)
+RaysInside::RaysInside(const OpenRays& rays, const BitVolume& occupied, ClearAhead& ahead,
+                       const Bricks* filled)
     : rays_(rays), occupied_(occupied), ahead_(ahead) {
-  rays.look(occupied, ahead);
+  rays.look(occupied, ahead, filled);
 }
 
 std::vector<std::uint64_t> RaysInside::from(Voxel place) const {

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "sim/base/bits.h"
+#include "sim/base/bricks.h"
 #include "sim/sweep/directions.h"
 
 namespace espalier::sim {
@@ -45,24 +46,26 @@ class OpenRays {
   /// Of a place's row of bits.
   std::size_t words() const { return (directions_->size() + 63) / 64; }
   /// A row of bits for each place, one after another: bit i says whether direction i reaches the world's
-  /// edge. `occupied` must have the shape that was given, and the places must lie in it.
-  std::vector<std::uint64_t> from(const BitVolume& occupied, std::span<const Voxel> places,
-                                  ClearAhead& ahead) const;
+  /// edge. `occupied` must have the shape that was given, and the places must lie in it. `filled`: its
+  /// bricks, from who keeps them; else the volume is scanned for them.
+  std::vector<std::uint64_t> from(const BitVolume& occupied, std::span<const Voxel> places, ClearAhead& ahead,
+                                  const Bricks* filled = nullptr) const;
 
  private:
   friend class RaysInside;
   /// Makes it true of the volume.
-  void look(const BitVolume& occupied, ClearAhead& ahead) const;
+  void look(const BitVolume& occupied, ClearAhead& ahead, const Bricks* filled) const;
 
   std::shared_ptr<const DirectionSet> directions_;  // the groups refer to them
   std::shared_ptr<const std::vector<looking::Group>> groups_;
 };
 
 /// The same for single places, in a volume that stands still meanwhile: nothing is found for places of which
-/// nobody asks. May be asked from any number of threads. Borrows all three.
+/// nobody asks. May be asked from any number of threads. Borrows the first three.
 class RaysInside {
  public:
-  RaysInside(const OpenRays& rays, const BitVolume& occupied, ClearAhead& ahead);
+  RaysInside(const OpenRays& rays, const BitVolume& occupied, ClearAhead& ahead,
+             const Bricks* filled = nullptr);
 
   /// A place's row of bits.
   std::vector<std::uint64_t> from(Voxel place) const;

@@ -15,7 +15,7 @@
 namespace espalier::sim {
 namespace {
 
-constexpr int kBrick = 8;
+constexpr int kBrick = Bricks::kSide;
 constexpr double kNever = std::numeric_limits<double>::infinity();
 
 /// The ray with cubes at [v, v + 1), so that planes are whole numbers.
@@ -166,19 +166,6 @@ RayHit hitAt(const Ray& ray, const Cube& cube, const Crossing& crossing) {
 }
 
 }  // namespace
-
-Bricks::Bricks(const BitVolume& occupied) : bits_((occupied.size() + (kBrick - 1)) / kBrick) {
-  const Voxel size = occupied.size();
-  for (int y = 0; y < size.y; ++y) {
-    for (int z = 0; z < size.z; ++z) {
-      const std::uint64_t* row = occupied.row(y, z);
-      for (int bx = 0; bx < bits_.size().x; ++bx) {
-        const int x = bx * kBrick;
-        if (((row[x >> 6] >> (x & 63)) & 0xffu) != 0) bits_.set({bx, y / kBrick, z / kBrick});
-      }
-    }
-  }
-}
 
 std::optional<RayHit> firstHit(const BitVolume& occupied, const Bricks& bricks, Vec3 origin_vx,
                                Vec3 direction, double free_vx) {

@@ -2,6 +2,7 @@
 #include <optional>
 
 #include "sim/base/bits.h"
+#include "sim/base/bricks.h"
 #include "sim/base/vec.h"
 
 namespace espalier::sim {
@@ -10,16 +11,6 @@ struct RayHit {
   Voxel voxel{0};  ///< the first occupied voxel
   Voxel face{0};   ///< outward normal of the cube's face that was hit; zero if the ray began inside the voxel
   double t = 0.0;  ///< distance along the unit direction, voxel widths
-};
-
-/// Bricks of 8x8x8 voxels that hold anything at all: lets a ray cross empty space in large steps.
-class Bricks {
- public:
-  explicit Bricks(const BitVolume& occupied);
-  const BitVolume& bits() const { return bits_; }  ///< one for each
-
- private:
-  BitVolume bits_;
 };
 
 /// The first occupied voxel that a ray meets (Amanatides and Woo 1987, over bricks and then voxels). The

@@ -6,7 +6,6 @@
 #include <limits>
 
 #include "sim/base/error.h"
-#include "sim/base/parallel.h"
 #include "sim/base/random.h"
 #include "sim/world/world_grids.h"
 
@@ -81,12 +80,14 @@ World::World(const Frame& frame)
       occupied_(frame.size),
       solid_(frame.size),
       opaque_(frame.size),
+      opaque_bricks_(frame.size),
       grids_(makeGrids(frame)) {}
 World::World(const World& other)
     : frame_(other.frame_),
       occupied_(other.occupied_),
       solid_(other.solid_),
       opaque_(other.opaque_),
+      opaque_bricks_(other.opaque_bricks_),
       parts_(other.parts_),
       layers_(other.layers_),
       version_(other.version_),
@@ -165,7 +166,9 @@ void World::join(const TiledVoxel& tiled) {
 }
 
 void World::shade(Voxel v, PartKind kind, float coverage) {
-  if (stopsLight(v, opacity(kind, coverage))) opaque_.set(v);
+  if (!stopsLight(v, opacity(kind, coverage))) return;
+  opaque_.set(v);
+  opaque_bricks_.add(v);
 }
 
 /// The grids' leaves by block, where the grids were not made leaf by leaf here.
@@ -227,12 +230,8 @@ void World::occupyBlocks(std::span<const TiledVoxel> blocks) {
 
 void World::addOpaque(const BitVolume& voxels) {
   assert(voxels.size() == frame_.size);
-  parallelForEach(static_cast<std::size_t>(frame_.size.y), [&](std::size_t slice) {
-    const int y = static_cast<int>(slice);
-    for (int z = 0; z < frame_.size.z; ++z) {
-      for (int i = 0; i < opaque_.rowWords(); ++i) opaque_.row(y, z)[i] |= voxels.row(y, z)[i];
-    }
-  });
+  opaque_.add(voxels);
+  opaque_bricks_.add(Bricks(voxels));
   ++version_;
 }
 

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "sim/base/bits.h"
+#include "sim/base/bricks.h"
 #include "sim/base/frame.h"
 #include "sim/base/vec.h"
 
@@ -104,6 +105,8 @@ class World {
   /// light as the leaves in them would stop rays. Which ones follows from their place, their part's kind and
   /// their coverage alone.
   const BitVolume& opaque() const { return opaque_; }
+  /// The bricks in which anything takes light.
+  const Bricks& opaqueBricks() const { return opaque_bricks_; }
   const std::vector<Part>& parts() const { return parts_; }
   const Part& part(PartId id) const { return parts_[static_cast<std::size_t>(id - 1)]; }
   int layers() const { return layers_; }
@@ -153,6 +156,7 @@ class World {
 
   Frame frame_;
   BitVolume occupied_, solid_, opaque_;
+  Bricks opaque_bricks_;
   std::vector<Part> parts_;
   int layers_ = 0;
   std::uint64_t version_ = 0;

@@ -29,12 +29,18 @@ inline sim::Part elementPart(std::string object) {
   return part;
 }
 
+/// Whether the bricks that a world keeps are those of what takes light in it.
+inline bool keepsItsBricks(const sim::World& world) {
+  return world.opaqueBricks().bits().words() == sim::Bricks(world.opaque()).bits().words();
+}
+
 /// The first thing in which two worlds differ; empty where they are the same.
 inline std::string differenceOf(const sim::World& a, const sim::World& b) {
   if (!(a.frame() == b.frame())) return "frame";
   if (a.occupied().words() != b.occupied().words()) return "occupied voxels";
   if (a.solid().words() != b.solid().words()) return "solid voxels";
   if (a.opaque().words() != b.opaque().words()) return "opaque voxels";
+  if (a.opaqueBricks().bits().words() != b.opaqueBricks().bits().words()) return "opaque bricks";
   const auto at = [](const char* what, sim::Voxel v) {
     return std::string(what) + " at " + std::to_string(v.x) + " " + std::to_string(v.y) + " " +
            std::to_string(v.z);

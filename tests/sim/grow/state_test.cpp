@@ -11,6 +11,7 @@
 #include "sim/grow/grow.h"
 #include "tests/support/plots.h"
 #include "tests/support/processes.h"
+#include "tests/support/worlds.h"
 
 namespace espalier {
 namespace {
@@ -61,6 +62,7 @@ TEST(State, GoesOnAsIfNothingHadHappened) {
     const sim::BitVolume site = world.occupied();
     auto restored = sim::restore(sim::readState(part.bytes, "f"), world, plantings(world.frame()), "f");
     EXPECT_EQ(sim::stateHash(world, restored), part.hash);
+    EXPECT_TRUE(tests::keepsItsBricks(world));
     std::size_t proposals = 0;
     auto going_on = settings(14);
     going_on.progress = [&](const sim::GrowthProgress& p) {
@@ -72,6 +74,7 @@ TEST(State, GoesOnAsIfNothingHadHappened) {
     }
     EXPECT_EQ(growing.growth().iterations, 14);
     EXPECT_EQ(sim::stateHash(world, growing.growth()), whole.hash) << before;
+    EXPECT_TRUE(tests::keepsItsBricks(world));
     EXPECT_EQ(sim::stateBytes(kInputs, world, site, growing.growth()), whole.bytes) << before;
     EXPECT_EQ(proposals > 0, before < 14);
   }

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "sim/light/sky.h"
 #include "sim/light/sun.h"
 #include "sim/sweep/sweep.h"
@@ -36,6 +38,47 @@ TEST(Light, IsTheSameEveryWay) {
     ASSERT_EQ(rays[i].sky.sum, plain.sum);
     ASSERT_EQ(rays[i].sky.toward, plain.toward);
   }
+}
+
+/// Whether two answers are the same to the last bit.
+bool same(const std::vector<sim::Light>& a, const std::vector<sim::Light>& b) {
+  return std::equal(a.begin(), a.end(), b.begin(), b.end(),
+                    [](const sim::Light& one, const sim::Light& other) {
+                      return one.sky.sum == other.sky.sum && one.sky.toward == other.sky.toward &&
+                             one.sun.sum == other.sun.sum && one.sun.toward == other.sun.toward;
+                    });
+}
+
+// A plant grows in an open world, and few places or many ask: whatever way is taken then, and whoever keeps
+// the bricks, the answer is that of the rays.
+TEST(Light, OfAWorldThatFillsIsThatOfItsRays) {
+  const Voxel size(330, 290, 310);
+  sim::BitVolume bits(size);
+  tests::addBox(bits, {0, 0, 0}, {size.x - 1, 2, size.z - 1});
+  tests::addBox(bits, {60, 3, 150}, {65, 200, 309});
+  sim::Bricks filled(bits);
+  const sim::LightSensor sensor(
+      bits, {sim::makeSky({.directions = 64}).directions, sim::makeSun(sim::SunArc{}).directions});
+  std::mt19937 random(5);
+  const auto inCrown = [&] {
+    const auto around = [&](int middle) { return middle - 90 + static_cast<int>(random() % 180); };
+    return Voxel(around(160), around(150), around(155));
+  };
+  sim::ClearAhead kept, scanned;
+  for (const int count : {1, 3, 60, 1, 2, 40, 5, 0, 300}) {
+    std::vector<Voxel> places;
+    for (int i = 0; i < count; ++i) places.push_back(inCrown());
+    const auto rays = sensor.byRays(bits, places);
+    ASSERT_TRUE(same(sensor.at(bits, places, kept, &filled), rays)) << count;
+    ASSERT_TRUE(same(sensor.at(bits, places, scanned), rays)) << count;
+    EXPECT_EQ(kept.known(), scanned.known());
+    for (int i = 0; i < 5 * count; ++i) {
+      const Voxel v = inCrown();
+      bits.set(v);
+      filled.add(v);
+    }
+  }
+  EXPECT_TRUE(kept.known());
 }
 
 TEST(Light, IsWhateverTheMapSays) {

@@ -123,7 +123,7 @@ TEST(ClearBricks, NoRayThroughOneMeetsAnything) {
   set.resize(std::min<std::size_t>(set.size(), 64 * sim::ClearBricks::kWords));
   for (const Voxel size : {Voxel(40, 33, 30), Voxel(17, 40, 25), Voxel(530, 515, 513)}) {
     const auto bits = tests::randomBits(size, size.x > 100 ? 1e-7 : 0.0005, 13);
-    const sim::ClearBricks clear(bits, set);
+    const sim::ClearBricks clear(size, sim::Bricks(bits), set);
     std::size_t clear_ones = 0;
     for (std::size_t d = 0; d < set.size(); ++d) {
       for (const Voxel from : placesIn(size, 150, 14)) {
@@ -147,7 +147,7 @@ TEST(ClearBricks, NoRayThroughOneMeetsAnything) {
 
 /// Whether all bricks are as those of clear bricks made anew.
 bool isAsAnew(const sim::ClearBricks& clear, const sim::BitVolume& bits, const sim::DirectionSet& set) {
-  const sim::ClearBricks anew(bits, set);
+  const sim::ClearBricks anew(bits.size(), sim::Bricks(bits), set);
   const Voxel bricks = (bits.size() + 7) / 8;
   for (int y = 0; y < bricks.y; ++y)
     for (int z = 0; z < bricks.z; ++z)
@@ -164,7 +164,8 @@ TEST(ClearBricks, ThatFollowAVolumeAreAsIfMadeAnew) {
   set.resize(std::min<std::size_t>(set.size(), 64 * sim::ClearBricks::kWords));
   for (const Voxel size : {Voxel(90, 70, 61), Voxel(17, 140, 25), Voxel(8, 8, 8), Voxel(530, 525, 513)}) {
     auto bits = tests::randomBits(size, size.x > 100 ? 1e-7 : 2e-5, 21);
-    sim::ClearBricks clear(bits, set);
+    sim::Bricks filled(bits);
+    sim::ClearBricks clear(size, filled, set);
     std::mt19937 random(22);
     const auto anywhere = [&] {
       const auto below = [&](int n) { return static_cast<int>(random() % static_cast<unsigned>(n)); };
@@ -173,28 +174,38 @@ TEST(ClearBricks, ThatFollowAVolumeAreAsIfMadeAnew) {
     for (const int voxels : {1, 0, 3, 1, 40, 2, 3000, 1}) {
       const sim::ClearBricks unchanged = clear;
       for (int i = 0; i < voxels; ++i) bits.set(anywhere());
-      clear.follow(bits, set);
+      clear.follow(sim::Bricks(bits), set);
       ASSERT_TRUE(isAsAnew(clear, bits, set)) << size.x << " " << voxels;
       // There is something to follow.
       if (voxels == 3 && size.x == 90) {
         EXPECT_FALSE(isAsAnew(unchanged, bits, set));
       }
     }
-    clear.follow(sim::BitVolume(size), set);
+    clear.follow(sim::Bricks(size), set);
     ASSERT_TRUE(isAsAnew(clear, sim::BitVolume(size), set));
   }
 }
 
+// With the bricks that somebody keeps, too; in the last of these worlds some are judged as one.
 TEST(OpenRays, WithWhatWasClearBeforeAreThoseThatReachTheEdgeNow) {
   const sim::DirectionSet set = allKinds();
-  auto bits = tests::randomBits({75, 50, 66}, 0.0005, 31);
-  const sim::OpenRays rays(bits, set);
-  sim::ClearAhead ahead;
-  for (unsigned round = 0; round < 6; ++round) {
-    const auto places = placesIn(bits.size(), 20, round);
-    sim::ClearAhead anew;
-    ASSERT_EQ(rays.from(bits, places, ahead), rays.from(bits, places, anew));
-    for (const Voxel place : placesIn(bits.size(), 3, 100 + round)) bits.set(place);
+  for (const Voxel size : {Voxel(75, 50, 66), Voxel(530, 313, 240)}) {
+    auto bits = tests::randomBits(size, size.x > 100 ? 2e-6 : 0.0005, 31);
+    sim::Bricks filled(bits);
+    const sim::OpenRays rays(bits, set);
+    sim::ClearAhead ahead, ahead_kept;
+    for (unsigned round = 0; round < 6; ++round) {
+      const auto places = placesIn(size, 20, round);
+      sim::ClearAhead anew;
+      const auto open = rays.from(bits, places, anew);
+      ASSERT_EQ(rays.from(bits, places, ahead), open);
+      ASSERT_EQ(rays.from(bits, places, ahead_kept, &filled), open);
+      for (const Voxel place : placesIn(size, 3, 100 + round)) {
+        bits.set(place);
+        filled.add(place);
+      }
+    }
+    expectWhatRaysMeet(bits, set, placesIn(size, 20, 50));
   }
 }
 

@@ -182,6 +182,49 @@ TEST(World, ACopyIsTheSameAndStandsForItself) {
   EXPECT_EQ(copy.world.nearSteps().at({2, 9, 5}), 4 * 256);
 }
 
+// Of every kind of edit, in a world whose bricks reach beyond it.
+TEST(World, KeepsTheBricksInWhichAnythingTakesLight) {
+  const Voxel size(75, 50, 66);
+  World world(tests::unitFrame(size));
+  const PartId parts[] = {world.addPart(tests::scenePart("wall")), world.addPart(tests::stemPart("ivy")),
+                          world.addPart(tests::elementPart("ivy"))};
+  std::mt19937 random(41);
+  const auto below = [&](int n) { return static_cast<int>(random() % static_cast<unsigned>(n)); };
+  const auto voxels = [&](int count, PartId part) {
+    std::vector<TiledVoxel> tiled;
+    for (int i = 0; i < count; ++i)
+      tiled.push_back({{below(size.x), below(size.y), below(size.z)},
+                       {.part = part, .coverage = 0.1f * static_cast<float>(below(30))}});
+    return tiled;
+  };
+  EXPECT_TRUE(tests::keepsItsBricks(world));
+  for (int round = 0; round < 12; ++round) {
+    const auto before = world.opaque().count();
+    const World copy(world);
+    for (const PartId part : parts) world.occupy(voxels(3, part));
+    world.occupyClear(voxels(2, parts[0]));
+    BitVolume more(size);
+    for (const TiledVoxel& tiled : voxels(2, parts[0])) more.set(tiled.voxel);
+    world.addOpaque(more);
+    const Voxel block(8 * below(9), 8 * below(6), 8 * below(8));
+    if (!Bricks(world.occupied()).bits().at(block / 8))
+      world.occupyBlocks(std::vector<TiledVoxel>{{block, {.part = parts[0]}}});
+    ASSERT_TRUE(tests::keepsItsBricks(world));
+    EXPECT_GT(world.opaque().count(), before);
+    // The copy stands for itself, and so does one that is changed.
+    ASSERT_TRUE(tests::keepsItsBricks(copy));
+    World other = copy;
+    other.occupy(voxels(5, parts[1]));
+    ASSERT_TRUE(tests::keepsItsBricks(other));
+    ASSERT_TRUE(tests::keepsItsBricks(copy));
+    World moved(std::move(other));
+    moved.occupy(voxels(5, parts[2]));
+    ASSERT_TRUE(tests::keepsItsBricks(moved));
+    other = world;
+    ASSERT_TRUE(tests::keepsItsBricks(other));
+  }
+}
+
 TEST(World, RefusesVoxelsOutsideInEveryBuild) {
   World world(tests::unitFrame(Voxel(8)));
   const PartId part = world.addPart(tests::scenePart("wall"));

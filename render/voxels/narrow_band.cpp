@@ -1,0 +1,124 @@
+#include "render/voxels/narrow_band.h"
+
+#include <fmt/format.h>
+#include <openvdb/openvdb.h>
+#include <openvdb/tools/MeshToVolume.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "render/image/drawing.h"
+#include "render/image/legend.h"
+#include "render/voxels/section.h"
+
+namespace espalier::render {
+namespace {
+
+constexpr sim::Colour kOutsideNear(0.16f, 0.42f, 0.62f), kOutsideFar(0.84f, 0.91f, 0.95f);
+constexpr sim::Colour kInsideNear(0.80f, 0.42f, 0.16f), kInsideFar(0.98f, 0.90f, 0.78f);
+constexpr Ink kOutline{sim::Colour(0.11f, 0.12f, 0.14f), 1.0f};
+
+sim::Colour tintOf(float distance_vx) {
+  const float far = std::clamp(std::abs(distance_vx) / static_cast<float>(kBand), 0.0f, 1.0f);
+  return distance_vx < 0.0f ? glm::mix(kInsideNear, kInsideFar, far)
+                            : glm::mix(kOutsideNear, kOutsideFar, far);
+}
+
+/// Where triangles cross the plane.
+std::vector<std::array<glm::vec2, 2>> outlineOf(const std::vector<sim::Vec3>& corners_vx,
+                                                const sim::Mesh& mesh, const CutPlane& plane) {
+  std::vector<std::array<glm::vec2, 2>> outline;
+  for (const auto& triangle : mesh.triangles) {
+    std::array<glm::vec2, 3> ends;
+    std::size_t count = 0;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const sim::Vec3 a = corners_vx[triangle[k]], b = corners_vx[triangle[(k + 1) % 3]];
+      const double from_a = a[plane.axis] - plane.at, from_b = b[plane.axis] - plane.at;
+      if ((from_a < 0.0) == (from_b < 0.0)) continue;
+      const sim::Vec3 at = a + from_a / (from_a - from_b) * (b - a);
+      ends[count++] = {static_cast<float>(at[plane.across]), static_cast<float>(at[plane.up])};
+    }
+    if (count == 2) outline.push_back({ends[0], ends[1]});
+  }
+  return outline;
+}
+
+std::vector<sim::Vec3> cornersOf(const sim::Mesh& mesh, const sim::Frame& frame) {
+  std::vector<sim::Vec3> corners;
+  corners.reserve(mesh.vertices_m.size());
+  for (const sim::Vec3& at_m : mesh.vertices_m) corners.push_back(sim::voxelFromWorld(frame, at_m));
+  return corners;
+}
+
+}  // namespace
+
+BandCut bandCut(const sim::Mesh& mesh, const sim::Frame& frame, const CutPlane& plane) {
+  openvdb::initialize();
+  const std::vector<sim::Vec3> corners = cornersOf(mesh, frame);
+  std::vector<openvdb::Vec3s> points;
+  std::vector<openvdb::Vec3I> triangles;
+  points.reserve(corners.size());
+  triangles.reserve(mesh.triangles.size());
+  for (const sim::Vec3& at : corners) points.emplace_back(at.x, at.y, at.z);
+  for (const auto& [a, b, c] : mesh.triangles) triangles.emplace_back(a, b, c);
+  const auto grid = openvdb::tools::meshToLevelSet<openvdb::FloatGrid>(
+      *openvdb::math::Transform::createLinearTransform(1.0), points, triangles, static_cast<float>(kBand));
+
+  BandCut cut;
+  cut.size = {frame.size[plane.across], frame.size[plane.up]};
+  cut.outline = outlineOf(corners, mesh, plane);
+  cut.distance_vx.assign(static_cast<std::size_t>(cut.size.x) * static_cast<std::size_t>(cut.size.y),
+                         std::numeric_limits<float>::quiet_NaN());
+  for (auto value = grid->cbeginValueOn(); value && !cut.has_inside; ++value) cut.has_inside = *value < 0.0f;
+  auto voxels = grid->getConstAccessor();
+  std::size_t i = 0;
+  for (int y = 0; y < cut.size.y; ++y) {
+    for (int x = 0; x < cut.size.x; ++x, ++i) {
+      sim::Voxel v(0);
+      v[plane.axis] = plane.at;
+      v[plane.across] = x;
+      v[plane.up] = y;
+      float distance = 0.0f;
+      if (voxels.probeValue({v.x, v.y, v.z}, distance)) cut.distance_vx[i] = distance;
+    }
+  }
+  return cut;
+}
+
+double bandBytes(const sim::Mesh& mesh, const sim::Frame& frame) {
+  // Leaves of 8x8x8 voxels that a band six voxels wide touches hold a few times what lies in it; while it is
+  // made, each voxel has the number of its nearest triangle too.
+  constexpr double kBytes = 4 * 2.0 * 8 * 6;
+  const std::vector<sim::Vec3> corners = cornersOf(mesh, frame);
+  double area = 0.0;
+  for (const auto& [a, b, c] : mesh.triangles)
+    area += 0.5 * glm::length(glm::cross(corners[b] - corners[a], corners[c] - corners[a]));
+  return kBytes * area;
+}
+
+Image drawNarrowBand(const BandCut& cut, const BandLook& look) {
+  const auto distanceAt = [&](glm::ivec2 v) {
+    return cut.distance_vx[static_cast<std::size_t>(v.y) * static_cast<std::size_t>(cut.size.x) +
+                           static_cast<std::size_t>(v.x)];
+  };
+  Image image = drawCells(cut.size, look.width_px, [&](glm::ivec2 v) -> std::optional<sim::Colour> {
+    const float distance = distanceAt(v);
+    return std::isnan(distance) ? std::nullopt : std::optional(tintOf(distance));
+  });
+  const float cell = static_cast<float>(look.width_px) / static_cast<float>(cut.size.x);
+  const auto pixel = [&](glm::vec2 v) {
+    return glm::vec2((v.x + 0.5f) * cell, static_cast<float>(image.height) - (v.y + 0.5f) * cell);
+  };
+  const float width = std::clamp(0.14f * cell, 1.0f, 3.0f);
+  for (const auto& [a, b] : cut.outline) drawSegment(image, pixel(a), pixel(b), width, kOutline);
+
+  SwatchLegend legend{look.title, look.note, {{kOutline.colour, "the surface"}}};
+  legend.swatches.push_back({tintOf(1.0f), fmt::format("outside, up to {} voxels away", kBand)});
+  if (cut.has_inside)
+    legend.swatches.push_back({tintOf(-1.0f), fmt::format("inside, up to {} voxels away", kBand)});
+  drawLegend(image, legend);
+  return image;
+}
+
+}  // namespace espalier::render

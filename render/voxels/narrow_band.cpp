@@ -10,7 +10,10 @@
 
 #include "render/image/drawing.h"
 #include "render/image/legend.h"
+#include "render/voxels/pale_scene.h"
 #include "render/voxels/section.h"
+#include "sim/base/parallel.h"
+#include "sim/tile/inside.h"
 
 namespace espalier::render {
 namespace {
@@ -51,49 +54,73 @@ std::vector<sim::Vec3> cornersOf(const sim::Mesh& mesh, const sim::Frame& frame)
   return corners;
 }
 
+/// Those that come so near to the plane that its distances may be theirs.
+std::vector<openvdb::Vec3I> nearTriangles(const sim::Mesh& mesh, const std::vector<sim::Vec3>& corners_vx,
+                                          const CutPlane& plane) {
+  std::vector<openvdb::Vec3I> near;
+  for (const auto& [a, b, c] : mesh.triangles) {
+    const auto [low, high] =
+        std::minmax({corners_vx[a][plane.axis], corners_vx[b][plane.axis], corners_vx[c][plane.axis]});
+    if (high > plane.at - kBand - 1 && low < plane.at + kBand + 1) near.emplace_back(a, b, c);
+  }
+  return near;
+}
+
 }  // namespace
 
 BandCut bandCut(const sim::Mesh& mesh, const sim::Frame& frame, const CutPlane& plane) {
+  sim::Frame slice = frame;
+  slice.origin_m[plane.axis] += plane.at * frame.voxel_m;
+  slice.size[plane.axis] = 1;
+  const sim::BitVolume inside = sim::insideOf(mesh, slice);
+
   openvdb::initialize();
   const std::vector<sim::Vec3> corners = cornersOf(mesh, frame);
   std::vector<openvdb::Vec3s> points;
-  std::vector<openvdb::Vec3I> triangles;
   points.reserve(corners.size());
-  triangles.reserve(mesh.triangles.size());
   for (const sim::Vec3& at : corners) points.emplace_back(at.x, at.y, at.z);
-  for (const auto& [a, b, c] : mesh.triangles) triangles.emplace_back(a, b, c);
-  const auto grid = openvdb::tools::meshToLevelSet<openvdb::FloatGrid>(
-      *openvdb::math::Transform::createLinearTransform(1.0), points, triangles, static_cast<float>(kBand));
+  const openvdb::tools::QuadAndTriangleDataAdapter<openvdb::Vec3s, openvdb::Vec3I> triangles(
+      points, nearTriangles(mesh, corners, plane));
+  openvdb::FloatGrid::Ptr grid;
+  // On one thread: which of two equally near triangles comes first would depend on their number.
+  sim::onThreads(1, [&] {
+    grid = openvdb::tools::meshToVolume<openvdb::FloatGrid>(
+        triangles, *openvdb::math::Transform::createLinearTransform(1.0), static_cast<float>(kBand),
+        static_cast<float>(kBand), openvdb::tools::UNSIGNED_DISTANCE_FIELD);
+  });
 
   BandCut cut;
   cut.size = {frame.size[plane.across], frame.size[plane.up]};
   cut.outline = outlineOf(corners, mesh, plane);
-  cut.distance_vx.assign(static_cast<std::size_t>(cut.size.x) * static_cast<std::size_t>(cut.size.y),
-                         std::numeric_limits<float>::quiet_NaN());
-  for (auto value = grid->cbeginValueOn(); value && !cut.has_inside; ++value) cut.has_inside = *value < 0.0f;
+  cut.has_inside = inside.count() > 0;
   auto voxels = grid->getConstAccessor();
-  std::size_t i = 0;
   for (int y = 0; y < cut.size.y; ++y) {
-    for (int x = 0; x < cut.size.x; ++x, ++i) {
+    for (int x = 0; x < cut.size.x; ++x) {
       sim::Voxel v(0);
-      v[plane.axis] = plane.at;
       v[plane.across] = x;
       v[plane.up] = y;
+      const bool within = inside.at(v);
+      v[plane.axis] = plane.at;
       float distance = 0.0f;
-      if (voxels.probeValue({v.x, v.y, v.z}, distance)) cut.distance_vx[i] = distance;
+      const bool near = voxels.probeValue({v.x, v.y, v.z}, distance);
+      cut.distance_vx.push_back(!near    ? std::numeric_limits<float>::quiet_NaN()
+                                : within ? -distance
+                                         : distance);
     }
   }
   return cut;
 }
 
-double bandBytes(const sim::Mesh& mesh, const sim::Frame& frame) {
+double bandBytes(const sim::Mesh& mesh, const sim::Frame& frame, const CutPlane& plane) {
   // Leaves of 8x8x8 voxels that a band six voxels wide touches hold a few times what lies in it; while it is
   // made, each voxel has the number of its nearest triangle too.
-  constexpr double kBytes = 4 * 2.0 * 8 * 6;
+  constexpr double kBytes = 4 * 2.0 * 8 * 2 * kBand;
   const std::vector<sim::Vec3> corners = cornersOf(mesh, frame);
   double area = 0.0;
-  for (const auto& [a, b, c] : mesh.triangles)
-    area += 0.5 * glm::length(glm::cross(corners[b] - corners[a], corners[c] - corners[a]));
+  for (const openvdb::Vec3I& t : nearTriangles(mesh, corners, plane)) {
+    const sim::Vec3 a = corners[t[0]], b = corners[t[1]], c = corners[t[2]];
+    area += 0.5 * glm::length(glm::cross(b - a, c - a));
+  }
   return kBytes * area;
 }
 
@@ -113,12 +140,16 @@ Image drawNarrowBand(const BandCut& cut, const BandLook& look) {
   const float width = std::clamp(0.14f * cell, 1.0f, 3.0f);
   for (const auto& [a, b] : cut.outline) drawSegment(image, pixel(a), pixel(b), width, kOutline);
 
+  // The band lies anywhere in the picture, so its legend stands below.
+  const float line = std::max(9.0f, static_cast<float>(image.width) / 46.0f);
+  Image sheet = paper(image.width, image.height + static_cast<int>(13.0f * line));
+  paste(sheet, image, 0, 0);
   SwatchLegend legend{look.title, look.note, {{kOutline.colour, "the surface"}}};
   legend.swatches.push_back({tintOf(1.0f), fmt::format("outside, up to {} voxels away", kBand)});
   if (cut.has_inside)
     legend.swatches.push_back({tintOf(-1.0f), fmt::format("inside, up to {} voxels away", kBand)});
-  drawLegend(image, legend);
-  return image;
+  drawLegend(sheet, legend);
+  return sheet;
 }
 
 }  // namespace espalier::render

@@ -18,6 +18,9 @@ struct CutPlane {
   int at = 0;              ///< the voxels of the cut, along the axis
 };
 
+/// How many voxels to either side of the surface the band reaches.
+inline constexpr int kBand = 3;
+
 /// A narrow-band level set of a mesh where a plane cuts it.
 struct BandCut {
   glm::ivec2 size{0};              ///< voxels across and up
@@ -25,17 +28,15 @@ struct BandCut {
   /// Where the mesh crosses the plane through the voxels' centres: segments, in voxels (a centre is at whole
   /// numbers).
   std::vector<std::array<glm::vec2, 2>> outline;
-  bool has_inside = false;  ///< whether any of the whole level set, not of the cut alone, lies inside
+  bool has_inside = false;  ///< whether any of the cut lies inside
 };
 
-/// How many voxels to either side of the surface the band reaches.
-inline constexpr int kBand = 3;
-
-/// OpenVDB's level set of the whole mesh on the frame's voxels (Museth 2013, VDB; the narrow band of Tanaka
-/// et al. 2022, figure 3). A mesh that is not closed may have no inside.
+/// The distance from the mesh by OpenVDB (Museth 2013, VDB; the narrow band of Tanaka et al. 2022, figure 3),
+/// with the sign that the filling of solids gives, so that the mesh may have holes. Throws InputError as
+/// sim::insideOf does.
 BandCut bandCut(const sim::Mesh& mesh, const sim::Frame& frame, const CutPlane& plane);
-/// What the level set takes of memory, from above.
-double bandBytes(const sim::Mesh& mesh, const sim::Frame& frame);
+/// What that takes of memory, from above: by the area of the triangles that come near the plane.
+double bandBytes(const sim::Mesh& mesh, const sim::Frame& frame, const CutPlane& plane);
 
 struct BandLook {
   int width_px = 960;
@@ -43,7 +44,7 @@ struct BandLook {
 };
 
 /// The band's voxels in two hues, for inside and outside, the paler the farther from the surface; the surface
-/// as a line; all else paper. Display values.
+/// as a line; all else paper; below it the legend. Display values.
 Image drawNarrowBand(const BandCut& cut, const BandLook& look);
 
 }  // namespace espalier::render

@@ -92,7 +92,7 @@ render::Image drawNarrowBand(const std::vector<sim::TiledMesh>& meshes, const si
   const render::CutPlane plane = planeOf(frame, image);
   render::BandLook look;
   requireFits(image, look.width_px, {frame.size[plane.across], frame.size[plane.up]});
-  const double bytes = render::bandBytes(mesh, frame);
+  const double bytes = render::bandBytes(mesh, frame, plane);
   if (bytes > 0.3 * sim::memoryBudget()) {
     throw sim::InputError(
         fmt::format("image '{}': the level set of '{}' in voxels of {:.3g} m takes {} of memory; expected "
@@ -103,7 +103,7 @@ render::Image drawNarrowBand(const std::vector<sim::TiledMesh>& meshes, const si
   look.title = image.caption.empty() ? "narrow band of " + mesh.name : image.caption;
   look.note = fmt::format("signed distance, {} voxels to either side; a voxel is {:.3g} m", render::kBand,
                           frame.voxel_m);
-  if (!cut.has_inside) look.note += "\nno inside: the mesh is not closed";
+  if (!cut.has_inside) look.note += "\nnothing of this cut lies inside";
   return render::drawNarrowBand(cut, look);
 }
 

@@ -52,11 +52,26 @@ TEST(NarrowBand, OfASheetHasNoInside) {
   EXPECT_NEAR(cut.distance_vx[14 * 31 + 15], 1.2, 1e-3);
 }
 
-TEST(NarrowBand, TakesMemoryByItsSurface) {
-  const double one = bandBytes(tests::sphereMesh(Vec3(0.0), 0.5, 40), kFrame);
-  EXPECT_NEAR(bandBytes(tests::sphereMesh(Vec3(0.0), 1.0, 40), kFrame) / one, 4.0, 1e-6);
-  const double voxels = 4.0 * 3.14159 * 25.0 * 2 * kBand;
-  EXPECT_GT(one, 4.0 * voxels);
+TEST(NarrowBand, OfABodyWithHolesHasAnInside) {
+  const sim::Mesh whole = tests::sphereMesh(Vec3(0.0), 0.9, 40);
+  const sim::Mesh open = tests::without(whole, [](Vec3 p) { return p.y > 0.85; });
+  ASSERT_LT(open.triangles.size(), whole.triangles.size());
+  const CutPlane plane{2, 0, 1, 15};
+  const BandCut expected = bandCut(whole, kFrame, plane), cut = bandCut(open, kFrame, plane);
+  std::size_t other = 0;
+  for (std::size_t i = 0; i < 20 * 31; ++i)  // below the hole
+    other += std::isnan(cut.distance_vx[i]) ? !std::isnan(expected.distance_vx[i])
+                                            : !(cut.distance_vx[i] == expected.distance_vx[i]);
+  EXPECT_EQ(other, 0u);
+}
+
+TEST(NarrowBand, TakesMemoryByTheSurfaceNearItsPlane) {
+  const sim::Mesh box = tests::boxMesh(Vec3(-1.0), Vec3(1.0));
+  const double side = 20.0 * 20.0;  // voxels
+  const double through = bandBytes(box, kFrame, {1, 0, 2, 15}), below = bandBytes(box, kFrame, {1, 0, 2, 4});
+  EXPECT_NEAR(below / through, 5.0 / 4.0, 1e-6);  // its bottom too
+  EXPECT_GT(through, 4.0 * 4 * side * 2 * kBand);
+  EXPECT_EQ(bandBytes(box, kFrame, {1, 0, 2, 0}), 0.0);
 }
 
 TEST(Golden, NarrowBandOfTwoBodies) {

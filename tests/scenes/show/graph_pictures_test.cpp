@@ -36,7 +36,7 @@ rules::RuleSet tree(bool onto) {
 sim::Growth grown(sim::World& world, int iterations, bool onto = false) {
   sim::GrowthSettings settings = tests::brightSettings(iterations);
   sim::column<Vec3>(settings.commons[rules::attractorsNamed("crown")], rules::kAttractorPlace) =
-      testing::inBox(21, 500, {32, 42, 32}, {18, 14, 18});
+      tests::inBox(21, 500, {32, 42, 32}, {18, 14, 18});
   std::vector<sim::Planting> plantings =
       tests::planting(world, tree(onto), {{22, 4, 32}, {44, 4, 32}}, "tree");
   plantings.push_back(tests::planting(world, tests::lively(), {{32, 2, 50}}, "vine").front());

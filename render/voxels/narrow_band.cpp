@@ -79,14 +79,16 @@ BandCut bandCut(const sim::Mesh& mesh, const sim::Frame& frame, const CutPlane& 
   std::vector<openvdb::Vec3s> points;
   points.reserve(corners.size());
   for (const sim::Vec3& at : corners) points.emplace_back(at.x, at.y, at.z);
-  const openvdb::tools::QuadAndTriangleDataAdapter<openvdb::Vec3s, openvdb::Vec3I> triangles(
-      points, nearTriangles(mesh, corners, plane));
+  const std::vector<openvdb::Vec3I> near = nearTriangles(mesh, corners, plane);
+  const openvdb::tools::QuadAndTriangleDataAdapter<openvdb::Vec3s, openvdb::Vec3I> triangles(points, near);
   openvdb::FloatGrid::Ptr grid;
-  // On one thread: which of two equally near triangles comes first would depend on their number.
+  // On one thread: which of two equally near triangles comes first would depend on their number. As a level
+  // set, although its signs are not used: unsigned distances are not made even, and are off by up to 0.3
+  // voxels.
   sim::onThreads(1, [&] {
     grid = openvdb::tools::meshToVolume<openvdb::FloatGrid>(
         triangles, *openvdb::math::Transform::createLinearTransform(1.0), static_cast<float>(kBand),
-        static_cast<float>(kBand), openvdb::tools::UNSIGNED_DISTANCE_FIELD);
+        static_cast<float>(kBand));
   });
 
   BandCut cut;
@@ -102,10 +104,10 @@ BandCut bandCut(const sim::Mesh& mesh, const sim::Frame& frame, const CutPlane& 
       const bool within = inside.at(v);
       v[plane.axis] = plane.at;
       float distance = 0.0f;
-      const bool near = voxels.probeValue({v.x, v.y, v.z}, distance);
-      cut.distance_vx.push_back(!near    ? std::numeric_limits<float>::quiet_NaN()
-                                : within ? -distance
-                                         : distance);
+      const bool in_band = voxels.probeValue({v.x, v.y, v.z}, distance);
+      cut.distance_vx.push_back(!in_band ? std::numeric_limits<float>::quiet_NaN()
+                                : within ? -std::abs(distance)
+                                         : std::abs(distance));
     }
   }
   return cut;

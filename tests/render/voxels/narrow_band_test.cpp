@@ -6,6 +6,7 @@
 
 #include "tests/support/golden.h"
 #include "tests/support/meshes.h"
+#include "tests/support/messages.h"
 
 namespace espalier::render {
 namespace {
@@ -64,6 +65,14 @@ TEST(NarrowBand, OfABodyWithHolesHasAnInside) {
                  ? !std::isnan(expected.distance_vx[i])
                  : !(std::abs(cut.distance_vx[i] - expected.distance_vx[i]) < 0.1f);
   EXPECT_EQ(other, 0u);
+}
+
+TEST(NarrowBand, OfAMeshThatReachesTooFarIsRefused) {
+  const std::string message = tests::messageOf([] {
+    bandCut(tests::boxMesh(Vec3(-1.0), Vec3(2000.0), "hall"), kFrame, {1, 0, 2, 15});
+  });
+  EXPECT_EQ(message.find("mesh 'hall': too large to know its inside, it reaches 16000 voxels"), 0u)
+      << message;
 }
 
 TEST(NarrowBand, TakesMemoryByTheSurfaceNearItsPlane) {

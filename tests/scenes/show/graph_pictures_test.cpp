@@ -10,7 +10,7 @@
 #include "rules/growth/make_process.h"
 #include "scenes/show/flat_pictures.h"
 #include "scenes/show/growth_graph.h"
-#include "sim/light/sky.h"
+#include "sim/base/parallel.h"
 #include "tests/rules/front/points.h"
 #include "tests/support/lively.h"
 #include "tests/support/meshes.h"
@@ -135,7 +135,7 @@ class GraphPicture : public testing::Test {
 
 TEST_F(GraphPicture, FollowsKindAndIteration) {
   const render::Image end = draw(ImageKind::graph);
-  EXPECT_EQ(draw(ImageKind::graph).pixels, end.pixels);
+  sim::onThreads(3, [&] { EXPECT_EQ(draw(ImageKind::graph).pixels, end.pixels); });
   EXPECT_EQ(draw(ImageKind::graph, growth_.iterations + 7).pixels, end.pixels);
   EXPECT_NE(draw(ImageKind::graph, 8).pixels, end.pixels);
   EXPECT_NE(draw(ImageKind::points).pixels, end.pixels);

@@ -53,7 +53,8 @@ bool same(const render::Camera& a, const render::Camera& b) {
 
 render::SwatchLegend legendOf(const render::PointGraph& graph, bool points) {
   render::SwatchLegend legend;
-  legend.title = points ? "nodes and attractors" : "out-trees";
+  const bool attracted = !graph.waiting.empty() || !graph.ended.empty();
+  legend.title = !points ? "out-trees" : attracted ? "nodes and attractors" : "nodes";
   const render::GraphColours colours = render::graphColours();
   const auto count = [&](std::size_t many, sim::Colour colour, const char* one, const char* more) {
     if (many > 0) legend.swatches.push_back({colour, fmt::format("{} {}", many, many == 1 ? one : more)});

@@ -24,6 +24,12 @@ std::string_view nameOf(ImageKind kind) {
       return "section";
     case ImageKind::attempts:
       return "attempts";
+    case ImageKind::points:
+      return "points";
+    case ImageKind::graph:
+      return "graph";
+    case ImageKind::narrow_band:
+      return "narrow_band";
     case ImageKind::contact_sheet:
       return "contact_sheet";
   }

@@ -154,11 +154,14 @@ enum class ImageKind {
   threshold,
   shadow_matte,
   surface_colour,
-  first_pass,  // Greene's figure 6
-  sun_hours,   // of direct sun, a day
-  vines,       // the plant itself, leaves and stems
-  section,     // a cut through the world with its boundary layers
-  attempts,    // every trial of a flat walk and the voxels taken, beside the skeleton
+  first_pass,   // Greene's figure 6
+  sun_hours,    // of direct sun, a day
+  vines,        // the plant itself, leaves and stems
+  section,      // a cut through the world with its boundary layers
+  attempts,     // every trial of a flat walk and the voxels taken, beside the skeleton
+  points,       // nodes and attractors of colonization
+  graph,        // the plants' out-trees as lines
+  narrow_band,  // a cut through the level set of a mesh
   contact_sheet
 };
 
@@ -171,10 +174,12 @@ struct ImageSpec {
   std::string camera;  ///< empty: the first one
   std::string plant;   ///< threshold: whose it is; empty: that of the first one
   std::string caption;
-  std::string letter;           ///< on a contact sheet; empty: A, B, C .. in order
-  char axis = 'y';              ///< section: which way the cut looks
-  double at_m = 0.0;            ///< section: where the cut lies on that axis
-  std::vector<std::string> of;  ///< contact_sheet: names of the images on it, in order
+  std::string letter;            ///< on a contact sheet; empty: A, B, C .. in order
+  char axis = 'y';               ///< section, narrow_band: which way the cut looks
+  double at_m = 0.0;             ///< section, narrow_band: where the cut lies on that axis
+  std::string mesh;              ///< narrow_band: of which of the meshes; empty: of the first one
+  std::optional<int> iteration;  ///< points, graph: what stands after so many iterations; without: at the end
+  std::vector<std::string> of;   ///< contact_sheet: names of the images on it, in order
 };
 
 /// A region that a rule file names, and where.

@@ -1,5 +1,6 @@
 #pragma once
 #include <functional>
+#include <optional>
 #include <string>
 
 #include <glm/vec2.hpp>
@@ -8,6 +9,12 @@
 #include "sim/base/vec.h"
 
 namespace espalier::render {
+
+/// Voxels of a cut as squares of colour (display values) on paper, with thin lines between them. `colour` is
+/// asked for each, (0, 0) being the lower left one; one that has none stays paper. The height follows from
+/// the width and `size`, voxels across and up. Throws InputError where any of these is below 1.
+Image drawCells(glm::ivec2 size, int width_px,
+                const std::function<std::optional<sim::Colour>(glm::ivec2)>& colour);
 
 /// What a voxel of a cut shows.
 struct Cut {

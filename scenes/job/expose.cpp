@@ -137,7 +137,7 @@ ExposeResult exposeScene(const Scene& scene, const RunOptions& options) {
       {kFields, [&](std::ostream& out) {
          render::writeFieldVdb(out, site.world, exposureFields(light, space.get()), report.made_by);
        }}};
-  const std::vector<sim::Attempt> no_attempts;
+  const sim::Growth no_growth;
   const std::vector<render::PlantModel> no_models;
   if (options.pictures) {
     stages.run("drawing", [&] {
@@ -147,7 +147,7 @@ ExposeResult exposeScene(const Scene& scene, const RunOptions& options) {
         wanted.cameras.push_back(overview(site.world.frame(), light.surfaces, site.sun, aspect));
       }
       wanted.images = exposureImages(scene, wanted.cameras, !site.sun.directions.empty());
-      const Finished finished{site.meshes, site.world, no_attempts, light, no_models};
+      const Finished finished{site.meshes, site.world, site.world.occupied(), no_growth, light, no_models};
       auto drawn = inScene(scene, [&] { return drawPictures(wanted, finished); });
       for (OutputFile& file : drawn) files.push_back(std::move(file));
     });

@@ -264,7 +264,7 @@ Report runScene(const Scene& scene, const RunOptions& options, const Keeping& ke
   }
   if (options.pictures) {
     stages.run("drawing", [&] {
-      const Finished finished{site.meshes, world, growth.attempts, light, models};
+      const Finished finished{site.meshes, world, bare, growth, light, models};
       auto pictures =
           inScene(scene, [&] { return drawPictures(picturesOf(scene, report.made_by), finished); });
       for (OutputFile& file : pictures) files.push_back(std::move(file));
@@ -334,7 +334,7 @@ Report renderScene(Scene scene, const std::filesystem::path& from, const RunOpti
   report.light = light.about;
   const auto models = stages.run("modelling", [&] { return modelPlants(site.world.frame(), growth.plants); });
   std::vector<OutputFile> files = stages.run("drawing", [&] {
-    const Finished finished{site.meshes, site.world, growth.attempts, light, models};
+    const Finished finished{site.meshes, site.world, bare, growth, light, models};
     return inScene(scene, [&] { return drawPictures(picturesOf(scene, report.made_by), finished); });
   });
   stages.run("writing", [&] { output.write(files); });

@@ -185,7 +185,8 @@ std::shared_ptr<const Table> imageKeys() {
   for (const auto kind :
        {ImageKind::sun_exposure, ImageKind::sky_exposure, ImageKind::threshold, ImageKind::shadow_matte,
         ImageKind::surface_colour, ImageKind::first_pass, ImageKind::sun_hours, ImageKind::vines,
-        ImageKind::section, ImageKind::attempts, ImageKind::contact_sheet}) {
+        ImageKind::section, ImageKind::attempts, ImageKind::points, ImageKind::graph, ImageKind::narrow_band,
+        ImageKind::contact_sheet}) {
     kinds.emplace_back(nameOf(kind), kind);
   }
   return TableOf<ImageSpec>()
@@ -199,11 +200,18 @@ std::shared_ptr<const Table> imageKeys() {
       .text("letter", &ImageSpec::letter,
             {.meaning = "On a contact sheet, beside the caption; by default A, B, C .. in order."})
       .choice<char>("axis", &ImageSpec::axis, {{"x", 'x'}, {"y", 'y'}, {"z", 'z'}},
-                    {.meaning = "Of a section: the way in which the cut looks."})
+                    {.meaning = "Of a section or a narrow_band: the way in which the cut looks."})
       .metres("at", &ImageSpec::at_m,
               {.unit = kMetres,
                .limits = kCoordinate,
-               .meaning = "Of a section: where on that axis the cut lies."})
+               .meaning = "Of a section or a narrow_band: where on that axis the cut lies."})
+      .text("mesh", &ImageSpec::mesh,
+            {.meaning = "Of a narrow_band: of which of the scene's meshes; without it, of the first."})
+      .whole("iteration", &ImageSpec::iteration,
+             {.unit = "iterations",
+              .limits = {0.0, 100'000.0},
+              .meaning = "Of points or a graph: what stands after so many iterations; without it, or where "
+                         "growth ended before, at the end."})
       .names("of", &ImageSpec::of,
              {.meaning = "Of a contact_sheet: the names of the images on it, in order."})
       .shared();

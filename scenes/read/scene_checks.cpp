@@ -141,7 +141,8 @@ void checkCameras(const Scene& scene, const Given&, const Complain& complain) {
 }
 
 bool needsCamera(ImageKind kind) {
-  return kind != ImageKind::section && kind != ImageKind::attempts && kind != ImageKind::contact_sheet;
+  return kind != ImageKind::section && kind != ImageKind::attempts && kind != ImageKind::narrow_band &&
+         kind != ImageKind::contact_sheet;
 }
 
 void checkImageCameras(const Scene& scene, const Given&, const Complain& complain) {
@@ -168,21 +169,40 @@ void checkImages(const Scene& scene, const Given& given, const Complain& complai
   for (std::size_t i = 0; i < scene.images.size(); ++i) {
     const auto& image = scene.images[i];
     const auto path = fmt::format("images[{}]", i);
-    for (const std::string key : {"axis", "at"}) {
-      if (image.kind == ImageKind::section || !given(path + "." + key)) continue;
-      complain(path + "." + key, fmt::format("{} means nothing to kind: {}; expected it with kind: section",
-                                             key, nameOf(image.kind)));
-    }
-    if (image.kind != ImageKind::threshold && given(path + ".plant"))
-      complain(path + ".plant",
-               fmt::format("plant means nothing to kind: {}; expected it with kind: threshold",
-                           nameOf(image.kind)));
-    const bool is_sheet = image.kind == ImageKind::contact_sheet;
-    if (!is_sheet && given(path + ".of"))
-      complain(path + ".of", fmt::format("of means nothing to kind: {}; expected it with kind: contact_sheet",
-                                         nameOf(image.kind)));
-    if (is_sheet && image.of.empty())
+    const auto belongsTo = [&](const std::string& key, std::initializer_list<ImageKind> kinds) {
+      if (std::find(kinds.begin(), kinds.end(), image.kind) != kinds.end() || !given(path + "." + key))
+        return;
+      std::string expected;
+      for (const ImageKind kind : kinds)
+        expected += (expected.empty() ? "" : " or ") + std::string(nameOf(kind));
+      complain(path + "." + key, fmt::format("{} means nothing to kind: {}; expected it with kind: {}", key,
+                                             nameOf(image.kind), expected));
+    };
+    belongsTo("axis", {ImageKind::section, ImageKind::narrow_band});
+    belongsTo("at", {ImageKind::section, ImageKind::narrow_band});
+    belongsTo("mesh", {ImageKind::narrow_band});
+    belongsTo("iteration", {ImageKind::points, ImageKind::graph});
+    belongsTo("plant", {ImageKind::threshold});
+    belongsTo("of", {ImageKind::contact_sheet});
+    if (image.kind == ImageKind::contact_sheet && image.of.empty())
       complain(path, "a contact_sheet of no images; expected of: [name, ...]");
+  }
+}
+
+void checkImageMeshes(const Scene& scene, const Given&, const Complain& complain) {
+  std::vector<std::string> names;
+  for (const auto& mesh : scene.meshes) names.push_back(mesh.name);
+  for (std::size_t i = 0; i < scene.images.size(); ++i) {
+    const auto& image = scene.images[i];
+    if (image.kind != ImageKind::narrow_band) continue;
+    if (names.empty()) {
+      complain(fmt::format("images[{}]", i),
+               "a narrow_band of no mesh; expected one among the scene's meshes");
+    } else if (!image.mesh.empty() && std::find(names.begin(), names.end(), image.mesh) == names.end()) {
+      complain(fmt::format("images[{}].mesh", i),
+               fmt::format("no mesh is called {}; expected one of {}{}", inQuotes(image.mesh),
+                           listed(names, image.mesh), didYouMean(image.mesh, names)));
+    }
   }
 }
 
@@ -238,6 +258,7 @@ const std::vector<Check>& sceneChecks() {
       check({}, checkCameras),
       check({"cameras"}, checkImageCameras),
       check({"images"}, checkImages),
+      check({"meshes", "images"}, checkImageMeshes),
       check({"plants", "images"}, checkImagePlants),
       check({"images"}, checkSheets),
   };

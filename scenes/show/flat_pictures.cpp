@@ -2,10 +2,13 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <tuple>
 #include <utility>
 #include <vector>
 
 #include "render/voxels/attempts.h"
+#include "render/voxels/narrow_band.h"
 #include "render/voxels/section.h"
 #include "sim/base/error.h"
 #include "sim/base/memory.h"
@@ -35,26 +38,33 @@ void requireFits(const ImageSpec& image, double width_px, glm::ivec2 size) {
                   image.name, size.x, size.y, sim::inGigabytes(bytes)));
 }
 
-}  // namespace
-
-render::Image drawSection(const sim::World& world, const ImageSpec& image) {
-  const int axis = image.axis - 'x';
-  const auto [across, up] = picturePlane(axis);
-  const sim::Frame& frame = world.frame();
+/// Throws where it misses the world.
+render::CutPlane planeOf(const sim::Frame& frame, const ImageSpec& image) {
+  render::CutPlane plane;
+  plane.axis = image.axis - 'x';
+  std::tie(plane.across, plane.up) = picturePlane(plane.axis);
   sim::Vec3 point_m = frame.origin_m;
-  point_m[axis] = image.at_m;
-  const int at = sim::voxelAt(sim::voxelFromWorld(frame, point_m))[axis];
-  if (at < 0 || at >= frame.size[axis]) {
+  point_m[plane.axis] = image.at_m;
+  plane.at = sim::voxelAt(sim::voxelFromWorld(frame, point_m))[plane.axis];
+  if (plane.at < 0 || plane.at >= frame.size[plane.axis]) {
     throw sim::InputError(
         fmt::format("image '{}': a cut at {} = {} m misses the world", image.name, image.axis, image.at_m));
   }
+  return plane;
+}
+
+}  // namespace
+
+render::Image drawSection(const sim::World& world, const ImageSpec& image) {
+  const sim::Frame& frame = world.frame();
+  const auto [axis, across, up, at] = planeOf(frame, image);
   render::SectionLook look;
   look.size = {frame.size[across], frame.size[up]};
   look.layers = world.layers();
   requireFits(image, look.width_px, look.size);
   if (!image.caption.empty()) look.title = image.caption;
   return render::drawSection(
-      [&, across = across, up = up](glm::ivec2 p) {
+      [&, axis = axis, across = across, up = up, at = at](glm::ivec2 p) {
         sim::Voxel v(0);
         v[axis] = at;
         v[across] = p.x;
@@ -69,6 +79,32 @@ render::Image drawSection(const sim::World& world, const ImageSpec& image) {
         return cut;
       },
       look);
+}
+
+render::Image drawNarrowBand(const std::vector<sim::TiledMesh>& meshes, const sim::Frame& frame,
+                             const ImageSpec& image) {
+  const auto found = std::find_if(meshes.begin(), meshes.end(), [&](const sim::TiledMesh& tiled) {
+    return image.mesh.empty() || tiled.mesh.name == image.mesh;
+  });
+  if (found == meshes.end())
+    throw sim::InputError(fmt::format("image '{}': there is no mesh '{}'", image.name, image.mesh));
+  const sim::Mesh& mesh = found->mesh;
+  const render::CutPlane plane = planeOf(frame, image);
+  render::BandLook look;
+  requireFits(image, look.width_px, {frame.size[plane.across], frame.size[plane.up]});
+  const double bytes = render::bandBytes(mesh, frame, plane);
+  if (bytes > 0.3 * sim::memoryBudget()) {
+    throw sim::InputError(
+        fmt::format("image '{}': the level set of '{}' in voxels of {:.3g} m takes {} of memory; expected "
+                    "larger voxels",
+                    image.name, mesh.name, frame.voxel_m, sim::inGigabytes(bytes)));
+  }
+  const render::BandCut cut = render::bandCut(mesh, frame, plane);
+  look.title = image.caption.empty() ? "narrow band of " + mesh.name : image.caption;
+  look.note = fmt::format("signed distance, {} voxels to either side; a voxel is {:.3g} m", render::kBand,
+                          frame.voxel_m);
+  if (!cut.has_inside) look.note += "\nnothing of this cut lies inside";
+  return render::drawNarrowBand(cut, look);
 }
 
 render::Image drawAttempts(const sim::World& world, const std::vector<sim::Attempt>& attempts,

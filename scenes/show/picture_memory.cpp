@@ -43,6 +43,10 @@ int measuredChannels(ImageKind kind) {
   }
 }
 
+bool isGraph(ImageKind kind) {
+  return kind == ImageKind::points || kind == ImageKind::graph;
+}
+
 /// A contact sheet, its pictures reduced, and its bytes.
 double sheetBytes(const ImageSpec& sheet, double width_px, double height_px) {
   const double reduced = render::SheetLook().picture_width_px;
@@ -72,23 +76,29 @@ PicturesWanted fitting(PicturesWanted wanted) {
 double pictureBytes(const PicturesWanted& wanted, double fragments) {
   const double pixels = static_cast<double>(wanted.width_px) * wanted.height_px;
   double kept = 0.0, packed = 0.0;
+  bool graphs = false;
   std::set<std::string> cameras;
   for (const ImageSpec& image : wanted.images) {
     const int measured = measuredChannels(image.kind);
     if (image.kind == ImageKind::contact_sheet) {
       kept += sheetBytes(image, wanted.width_px, wanted.height_px);
-    } else if (measured > 0 || image.kind == ImageKind::vines) {
+    } else if (measured > 0 || image.kind == ImageKind::vines || isGraph(image.kind)) {
       // Pictures stay as they were drawn, and their files' bytes besides, which packing may not make less.
       kept += pixels * (kDisplay + 3 + 2 * kFloat * measured);
       packed = std::max(packed, pixels * (kDisplay + 3 + kFloat * measured));
     }
+    graphs = graphs || isGraph(image.kind);
     if (measured > 0 && cameras.insert(image.camera).second)
       kept += pixels * (sizeof(std::size_t) + kFragment * fragments);
   }
   // Then either a camera is still looking, or each thread packs a picture: with its legend drawn on a copy,
   // into bytes that are copied.
-  const double looking =
-      cameras.empty() ? 0.0 : pixels * (kSeen + static_cast<double>(sizeof(render::Fragment)) * fragments);
+  double looking = 0.0;
+  if (!cameras.empty())
+    looking = pixels * (kSeen + static_cast<double>(sizeof(render::Fragment)) * fragments);
+  // Below points and graphs lies what a camera sees, which only they need, and which they share.
+  if (graphs)
+    looking = pixels * (kSeen + kDisplay + 2 * static_cast<double>(sizeof(render::Fragment)) * fragments);
   return kept + std::max(looking, packed * sim::threadCount());
 }
 

@@ -15,6 +15,7 @@
 #include "render/voxels/visibility.h"
 #include "scenes/lights.h"
 #include "scenes/show/flat_pictures.h"
+#include "scenes/show/graph_pictures.h"
 #include "scenes/show/light_texts.h"
 #include "scenes/show/picture_memory.h"
 #include "sim/base/error.h"
@@ -345,10 +346,21 @@ std::vector<OutputFile> drawPictures(const PicturesWanted& wanted, const Finishe
   // The two that take time, side by side: each has stretches that keep one core alone busy. Panels are packed
   // as soon as they are painted, while there may still be vines to draw.
   sim::parallelInvoke(drawPanels, drawVines);
-  forEach([](ImageKind kind) { return kind == ImageKind::section; },
-          [&](std::size_t i) { keep(i, drawSection(finished.world, wanted.images[i])); });
-  forEach([](ImageKind kind) { return kind == ImageKind::attempts; },
-          [&](std::size_t i) { keep(i, drawAttempts(finished.world, finished.attempts, wanted.images[i])); });
+  const auto drawEach = [&](ImageKind kind, const auto& drawn) {
+    forEach([=](ImageKind other) { return other == kind; },
+            [&](std::size_t i) { keep(i, drawn(wanted.images[i])); });
+  };
+  GraphPictures graphs(wanted, finished);
+  for (const ImageKind kind : {ImageKind::points, ImageKind::graph}) {
+    drawEach(kind, [&](const ImageSpec& image) { return graphs.draw(image, cameraOf(wanted, image)); });
+  }
+  drawEach(ImageKind::section, [&](const ImageSpec& image) { return drawSection(finished.world, image); });
+  drawEach(ImageKind::narrow_band, [&](const ImageSpec& image) {
+    return drawNarrowBand(finished.meshes, finished.world.frame(), image);
+  });
+  drawEach(ImageKind::attempts, [&](const ImageSpec& image) {
+    return drawAttempts(finished.world, finished.growth.attempts, image);
+  });
 
   std::vector<OutputFile> all;
   for (std::vector<OutputFile>& of_image : files) {

@@ -41,7 +41,8 @@ PicturesWanted picturesOf(const Scene& scene, const sim::Provenance& made_by = {
 struct Finished {
   const std::vector<sim::TiledMesh>& meshes;
   const sim::World& world;
-  const std::vector<sim::Attempt>& attempts;
+  const sim::BitVolume& bare;  ///< what the scene alone occupies
+  const sim::Growth& growth;
   const sim::Lighting& light;                     ///< in all of space too, where there is an image of vines
   const std::vector<render::PlantModel>& models;  ///< one a plant
 };

@@ -60,13 +60,12 @@ std::vector<Vec3> verticesIn(const Frame& frame, const Mesh& mesh) {
 
 /// Those that fixed point cannot hold are cut to the world, which would open a solid.
 Triangles trianglesOf(const TiledMesh& tiled, const std::vector<Vec3>& vertices_vx, Voxel size) {
-  constexpr double kFarthest = 16000;
   Triangles triangles;
   triangles.reserve(tiled.mesh.triangles.size());
   for (const auto& t : tiled.mesh.triangles) {
     const std::array<Vec3, 3> corners{vertices_vx[t[0]], vertices_vx[t[1]], vertices_vx[t[2]]};
     const bool far = std::any_of(corners.begin(), corners.end(), [](const Vec3& p) {
-      return !(std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)}) < kFarthest);
+      return !(std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)}) < kFarthestCorner);
     });
     if (!far) {
       triangles.push_back(corners);
@@ -74,7 +73,7 @@ Triangles trianglesOf(const TiledMesh& tiled, const std::vector<Vec3>& vertices_
       throw InputError(
           fmt::format("mesh '{}': too large to fill, it reaches {} voxels beyond the world; expected "
                       "larger voxels, a smaller mesh, or a surface that is not filled",
-                      tiled.mesh.name, kFarthest));
+                      tiled.mesh.name, kFarthestCorner));
     } else {
       CutPolygon polygon;
       for (const Vec3& p : corners) polygon.add(p);

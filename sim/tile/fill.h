@@ -17,8 +17,10 @@ struct Filled {
   std::size_t undecided = 0;  ///< of the doubtful, where neither side has two thirds of all ends
 };
 
-/// `surface` are the voxels that the mesh's own triangles tile. Corners must lie within 16,000 voxels of the
-/// origin.
+/// How far from the origin corners may lie, in voxels: fixed point holds no more.
+inline constexpr double kFarthestCorner = 16000.0;
+
+/// `surface` are the voxels that the mesh's own triangles tile. Corners must lie within kFarthestCorner.
 Filled fillMesh(const Triangles& triangles_vx, const BitVolume& surface, bool solid);
 
 }  // namespace espalier::sim

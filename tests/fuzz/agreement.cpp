@@ -43,10 +43,14 @@ void agreeOnSun(Drawn& sun, tests::Numbers& numbers) {
   if (find(sun, "date") && find(sun, "dates")) takeOut(sun, {numbers.chance(0.5) ? "date" : "dates"});
 }
 
-void agreeOnImages(Drawn& images, const std::vector<std::string>& plants, tests::Numbers& numbers) {
+void agreeOnImages(Drawn& images, const std::vector<std::string>& plants,
+                   const std::vector<std::string>& meshes, tests::Numbers& numbers) {
   for (DrawnEntry& image : images.entries) {
-    for (const auto& [key, only] :
-         {std::pair("plant", "threshold"), {"axis", "section"}, {"of", "contact_sheet"}}) {
+    for (const auto& [key, only] : {std::pair("plant", "threshold"),
+                                    {"axis", "section"},
+                                    {"of", "contact_sheet"},
+                                    {"mesh", "narrow_band"},
+                                    {"iteration", "graph"}}) {
       if (find(image.value, key) && numbers.chance(0.5)) find(image.value, "kind")->text = only;
     }
   }
@@ -54,6 +58,8 @@ void agreeOnImages(Drawn& images, const std::vector<std::string>& plants, tests:
   for (DrawnEntry& image : images.entries) {
     Drawn* const plant = find(image.value, "plant");
     if (plant && !plants.empty()) plant->text = numbers.pick(plants);
+    Drawn* const mesh = find(image.value, "mesh");
+    if (mesh && !meshes.empty()) mesh->text = numbers.pick(meshes);
     Drawn* const of = find(image.value, "of");
     if (of)
       of->text = fmt::format("[{}]", fmt::join(std::vector{numbers.pick(names), numbers.pick(names)}, ", "));
@@ -65,7 +71,7 @@ void agreeOnImages(Drawn& images, const std::vector<std::string>& plants, tests:
 void makeAgree(Drawn& scene, tests::Numbers& numbers) {
   if (Drawn* sun = find(scene, "sun"); sun && numbers.chance(kMostly)) agreeOnSun(*sun, numbers);
   if (Drawn* images = find(scene, "images"); images && numbers.chance(kMostly))
-    agreeOnImages(*images, namesOf(find(scene, "plants"), ""), numbers);
+    agreeOnImages(*images, namesOf(find(scene, "plants"), ""), namesOf(find(scene, "meshes"), ""), numbers);
 }
 
 }  // namespace espalier::fuzz

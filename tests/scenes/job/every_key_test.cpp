@@ -118,6 +118,8 @@ const std::map<std::string, Change>& changes() {
   const std::string sun = "expose: exposure.csv";
   const Edit shadows{kImage, "{kind: shadow_matte, name: a}"};
   const Edit section{kImage, "{kind: section, name: a, axis: y, at: 0.5}"};
+  const Edit band{"regions: group}\n",
+                  "regions: group}\n  - {file: plot.obj, name: twin, translate: [0.2, 0, 0]}\n"};
   const Edit sheet{kImage,
                    "{kind: surface_colour, name: s, caption: one}\n  - {kind: sky_exposure, name: t}\n"
                    "  - {kind: contact_sheet, name: a, of: [s]}"};
@@ -229,6 +231,12 @@ const std::map<std::string, Change>& changes() {
       {"images[].letter", {"a.png", {sheet}, {"caption: one", "caption: one, letter: Z"}}},
       {"images[].axis", {"a.png", {section}, {"axis: y", "axis: x"}}},
       {"images[].at", {"a.png", {section}, {"at: 0.5", "at: 0.1"}}},
+      {"images[].mesh",
+       {"a.png",
+        {band, {kImage, "{kind: narrow_band, name: a, axis: x, at: 0.5, mesh: plot}"}},
+        {"mesh: plot", "mesh: twin"}}},
+      {"images[].iteration",
+       {"a.png", {{kImage, "{kind: graph, name: a}"}}, {"kind: graph", "kind: graph, iteration: 2"}}},
       {"images[].of", {"a.png", {sheet}, {"of: [s]", "of: [t, s]"}}},
   };
   return all;

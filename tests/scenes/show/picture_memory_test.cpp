@@ -31,6 +31,16 @@ TEST(PictureMemory, FollowsFromPixelsPicturesAndFragments) {
   EXPECT_EQ(pictureBytes(PicturesWanted{}, 1.0), 0.0);
 }
 
+TEST(PictureMemory, GraphsShareTheGroundThatTheyAreDrawnOn) {
+  PicturesWanted one = panels(1000, 1000, 1), two = panels(1000, 1000, 2);
+  for (PicturesWanted* wanted : {&one, &two}) {
+    for (ImageSpec& image : wanted->images) image.kind = ImageKind::graph;
+  }
+  EXPECT_GT(pictureBytes(one, 1.0), 1e6 * (12 + 12));  // the picture and the ground
+  EXPECT_DOUBLE_EQ(pictureBytes(two, 1.0) - pictureBytes(one, 1.0), 1e6 * (12 + 3));
+  EXPECT_GT(pictureBytes(one, 8.0), pictureBytes(one, 1.0));
+}
+
 TEST(PictureMemory, WhatIsTooMuchIsNamedWithItsPlaceAndWhatWouldFit) {
   Scene scene;
   scene.file = "garden.yaml";

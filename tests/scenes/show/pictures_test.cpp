@@ -96,11 +96,10 @@ class Ground : public testing::Test {
   }
   std::map<std::string, std::string> draw() const {
     const std::vector<sim::TiledMesh> no_meshes;
-    const std::vector<sim::Attempt> no_attempts;
     const std::vector<render::PlantModel> no_models;
     std::map<std::string, std::string> files;
     for (const OutputFile& file :
-         drawPictures(wanted_, {no_meshes, world_, no_attempts, light_, no_models})) {
+         drawPictures(wanted_, {no_meshes, world_, bare_, growth_, light_, no_models})) {
       std::ostringstream out;
       file.write(out);
       files[file.name] = std::move(out).str();
@@ -109,6 +108,8 @@ class Ground : public testing::Test {
   }
 
   sim::World world_ = world();
+  sim::BitVolume bare_ = world_.occupied();
+  sim::Growth growth_;
   const sim::Lighting light_ = sim::lightOf(world_, sim::makeSky({.directions = 64}));
   PicturesWanted wanted_;
 };

@@ -1,5 +1,6 @@
 #!/usr/bin/env bash
-# The unit tests of sim and rules under sanitizers; any report is a failure. ./run sanitize installs and comes here.
+# The unit tests of every room but cli, whose tests start the program, under sanitizers; any report is a failure.
+# ./run sanitize installs and comes here.
 #
 #   tests/sanitize.sh              both
 #   tests/sanitize.sh asan         AddressSanitizer, with leaks, and UndefinedBehaviorSanitizer
@@ -16,6 +17,13 @@ under_sanitizer() {
     UBSAN_OPTIONS=halt_on_error=1:print_stacktrace=1 \
     TSAN_OPTIONS=exitcode=66:history_size=7:suppressions=tests/tsan.supp "$@"
 }
+
+rooms=(sim rules render scenes)
+# Tests that are left out, as gtest filters.
+declare -A left_out=(
+  # Measure how soon a job ends that is stopped anywhere: a minute each without a sanitizer, and true only there.
+  [scenes]="StoppedJob.*"
+)
 
 [ $# -gt 0 ] || set -- asan tsan
 for preset in "$@"; do
@@ -36,7 +44,7 @@ for preset in "$@"; do
   log=build/$preset/build.log
   {
     [ -f "build/$preset/build.ninja" ] || cmake --preset "$preset" "${launcher[@]}"
-    cmake --build --preset "$preset" --parallel "$(nproc)" --target sim_tests rules_tests
+    cmake --build --preset "$preset" --parallel "$(nproc)" --target "${rooms[@]/%/_tests}"
   } >"$log" 2>&1 || { echo "$preset: FAILED to build" && tail -n 60 "$log" && exit 1; }
   program=build/$preset/tests/sim_tests
   controls=$("$program" --gtest_list_tests --gtest_filter="SanitizerControl.DISABLED_${preset}_*" | sed -n 's/^  //p')
@@ -47,11 +55,11 @@ for preset in "$@"; do
       echo "$preset: FAILED: says nothing of a fault on purpose, $control"
     fi
   done
-  for room in sim rules; do
+  for room in "${rooms[@]}"; do
     log=build/$preset/$room.log
     start=$SECONDS
     status=0
-    under_sanitizer "build/$preset/tests/${room}_tests" --gtest_brief=1 >"$log" 2>&1 || status=$?
+    under_sanitizer "build/$preset/tests/${room}_tests" --gtest_brief=1 --gtest_filter="-${left_out[$room]:-}" >"$log" 2>&1 || status=$?
     if [ $status -eq 0 ]; then
       echo "$preset $room: no report, $(sed -n 's/^\[==========\] \([0-9]* tests\).*/\1/p' "$log" | tail -n 1), $((SECONDS - start)) s"
     else

@@ -11,6 +11,7 @@
 
 #include "render/image/camera.h"
 #include "rules/language/envelope_spec.h"
+#include "rules/front/guide.h"
 #include "rules/language/rule_set.h"
 #include "scenes/problem.h"
 #include "sim/base/provenance.h"
@@ -188,6 +189,14 @@ struct RegionMention {
   Place place;
 };
 
+/// A guide field that bends fronts.
+struct FieldSpec {
+  std::string name;
+  rules::Guide guide;  ///< all but its points and orders; places and lengths in metres
+  std::vector<rules::GuidePoint> points;   ///< its own
+  int order_first = 0, order_last = 1000;  ///< of limbs for which it holds
+};
+
 struct Scene {
   std::string name = "unnamed";
   std::filesystem::path file;                     ///< where it was read from
@@ -199,6 +208,7 @@ struct Scene {
   SunSpec sun;
   ExposureSpec exposure;
   std::vector<AttractorsSpec> attractors;
+  std::vector<FieldSpec> fields;
   std::vector<PlantSpec> plants;
   std::vector<RegionMention> region_mentions;  ///< in the rules of its plants: each place once
   std::vector<Problem> warnings;               ///< what its files say without effect

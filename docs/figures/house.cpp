@@ -28,7 +28,7 @@ const std::map<std::string, Setting>& settings() {
        {{{"grow", "light", "sweep", "tile", "world", "base"}, {"grow", "sense", "tile"}, {"scatter", "tile"}},
         {0.945f, 0.925f, 0.880f},
         {0.56f, 0.47f, 0.30f}}},
-      {"rules", {{{"growth", "language"}}, {0.900f, 0.935f, 0.880f}, {0.33f, 0.50f, 0.27f}}},
+      {"rules", {{{"growth", "front", "language"}}, {0.900f, 0.935f, 0.880f}, {0.33f, 0.50f, 0.27f}}},
       {"render",
        {{{"finish", "files", "model"}, {"finish", "image"}, {"voxels", "image"}},
         {0.890f, 0.920f, 0.950f},

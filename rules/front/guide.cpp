@@ -70,9 +70,7 @@ Whorl whorlAt(const Guide& guide, sim::Vec3 at) {
 
 sim::Vec3 guideAt(const Guide& guide, const GuidePlace& place) {
   const sim::Vec3 none(0.0);
-  if (!guide.orders.empty() &&
-      std::find(guide.orders.begin(), guide.orders.end(), place.order) == guide.orders.end())
-    return none;
+  if (place.order < guide.orders[0] || place.order > guide.orders[1]) return none;
   if (guide.box) {
     for (int axis = 0; axis < 3; ++axis) {
       if (place.at[axis] < (*guide.box)[0][axis] || place.at[axis] > (*guide.box)[1][axis]) return none;

@@ -50,7 +50,7 @@ struct Guide {
   bool follows_normal = false;   ///< strength times the axis' length
   std::vector<GuidePoint> points;
   std::optional<std::array<sim::Vec3, 2>> box;  ///< holds in here alone: least and greatest corner
-  std::vector<std::int32_t> orders;             ///< of segments for which it holds; none: all
+  std::array<std::int32_t, 2> orders{0, 1'000'000};  ///< of segments for which it holds: from, to
   GuideGrid grid;
 };
 

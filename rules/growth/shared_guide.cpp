@@ -25,7 +25,7 @@ sim::Columns columnsOf(const Guide& guide) {
   columns["axis"] = Whole{static_cast<std::int32_t>(guide.axis), guide.follows_normal ? 1 : 0};
   columns["direction"] = Places{guide.direction};
   columns["box_vx"] = guide.box ? Places{(*guide.box)[0], (*guide.box)[1]} : Places{};
-  columns["orders"] = Whole(guide.orders);
+  columns["orders"] = Whole{guide.orders[0], guide.orders[1]};
   Places at;
   Doubles point;
   for (const GuidePoint& p : guide.points) {
@@ -56,7 +56,9 @@ Guide guideIn(const sim::Columns& columns) {
   guide.follows_normal = axis[1] != 0;
   guide.direction = direction[0];
   if (!box.empty()) guide.box = {box[0], box[1]};
-  guide.orders = sim::column<std::int32_t>(columns, "orders");
+  const auto& orders = sim::column<std::int32_t>(columns, "orders");
+  require(orders.size() == 2);
+  guide.orders = {orders[0], orders[1]};
   const auto& at = sim::column<sim::Vec3>(columns, "points_at_vx");
   const auto& point = sim::column<double>(columns, "points");
   require(point.size() == 3 * at.size());

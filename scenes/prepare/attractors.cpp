@@ -151,4 +151,18 @@ sim::Commons commonsOf(const std::vector<NamedPoints>& attractors) {
   return commons;
 }
 
+rules::Guide guideOf(const FieldSpec& field, const sim::Frame& frame) {
+  rules::Guide guide = field.guide;
+  guide.orders = {field.order_first, field.order_last};
+  guide.points = field.points;
+  for (rules::GuidePoint& point : guide.points) {
+    point.at = sim::voxelFromWorld(frame, point.at);
+    point.radius /= frame.voxel_m;
+  }
+  if (guide.box) {
+    for (sim::Vec3& corner : *guide.box) corner = sim::voxelFromWorld(frame, corner);
+  }
+  return guide;
+}
+
 }  // namespace espalier::scenes

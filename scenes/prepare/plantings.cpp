@@ -5,6 +5,7 @@
 #include <bit>
 
 #include "rules/growth/make_process.h"
+#include "rules/growth/shared_guide.h"
 #include "scenes/prepare/in_scene.h"
 #include "scenes/prepare/unknown_regions.h"
 #include "sim/base/error.h"
@@ -94,6 +95,8 @@ sim::GrowthSettings growthSettings(const Scene& scene, const Site& site,
     return sim::makeSkyTable(9, 36, sim::backgroundOf(weighting));  // cells of 10 degrees
   };
   settings.commons = commonsOf(attractors);
+  for (const FieldSpec& field : scene.fields)
+    settings.commons[rules::fieldNamed(field.name)] = rules::columnsOf(guideOf(field, site.world.frame()));
   for (const ImageSpec& image : scene.images) {
     settings.record_attempts = settings.record_attempts || image.kind == ImageKind::attempts;
   }

@@ -81,4 +81,49 @@ void checkAttractors(const Scene& scene, const Check::Given& given, const Check:
   }
 }
 
+namespace {
+
+template <class Named>
+std::vector<std::string> namesOf(const std::vector<Named>& all) {
+  std::vector<std::string> names;
+  for (const Named& one : all) names.push_back(one.name);
+  return names;
+}
+
+/// What is said of a name that the scene has not; empty for one that it has.
+std::string missing(const char* what, const std::string& name, const std::vector<std::string>& names) {
+  if (std::find(names.begin(), names.end(), name) != names.end()) return "";
+  if (names.empty()) return fmt::format("its rules name the {} {}, and the scene has none; expected some under '{}'", what, inQuotes(name), what);
+  return fmt::format("its rules name the {} {}; expected one of {}{}", what, inQuotes(name), listed(names, name),
+                     didYouMean(name, names));
+}
+
+}  // namespace
+
+void checkFronts(const Scene& scene, const rules::Check::Given&, const rules::Check::Complain& complain) {
+  const std::vector<std::string> attractors = namesOf(scene.attractors), fields = namesOf(scene.fields);
+  for (std::size_t i = 0; i < scene.plants.size(); ++i) {
+    const auto& rules = scene.plants[i].rules;
+    if (!rules || rules->propagate != rules::Propagate::colonization) continue;
+    const auto say = [&](const std::string& wrong) {
+      if (!wrong.empty()) complain(fmt::format("plants[{}].rules", i), wrong);
+    };
+    if (!rules->colonization.attractors.empty())
+      say(missing("attractors", rules->colonization.attractors, attractors));
+    for (const std::string& field : rules->colonization.fields) say(missing("fields", field, fields));
+  }
+}
+
+void checkFields(const Scene& scene, const rules::Check::Given&, const rules::Check::Complain& complain) {
+  for (const FieldSpec& field : scene.fields) {
+    const std::string path = fmt::format("fields.{}", field.name);
+    if (field.guide.axis == rules::GuideAxis::direction && field.guide.direction == sim::Vec3(0.0))
+      complain(path + ".direction", "a direction without length; expected one that is not [0, 0, 0]");
+    if (!field.guide.box) continue;
+    const auto& [low, high] = *field.guide.box;
+    if (!(low.x < high.x && low.y < high.y && low.z < high.z))
+      complain(path + ".box", "a box without inside; expected each number of min to be less than that of max");
+  }
+}
+
 }  // namespace espalier::scenes

@@ -2,6 +2,7 @@
 
 #include "rules/language/envelope_keys.h"
 #include "rules/language/key_builder.h"
+#include "scenes/read/field_keys.h"
 #include "scenes/read/light_keys.h"
 #include "scenes/scene.h"
 #include "sim/tile/build_world.h"
@@ -243,6 +244,9 @@ Table makeTable() {
       .list<AttractorsSpec>(
           "attractors", Kind::named, &Scene::attractors, attractorKeys(),
           {.meaning = "Points that plants grow towards, by names that rules use.", .most = kMostEntries})
+      .list<FieldSpec>("fields", Kind::named, &Scene::fields, fieldKeys(),
+                       {.meaning = "Guide fields that bend fronts, by names that rules use.",
+                        .most = kMostEntries})
       .list<PlantSpec>("plants", Kind::entries, &Scene::plants, plantKeys(),
                        {.meaning = "What grows.", .most = kMostEntries})
       .whole("iterations", &Scene::iterations,

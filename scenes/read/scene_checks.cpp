@@ -249,6 +249,8 @@ const std::vector<Check>& sceneChecks() {
       check({}, checkPlants),
       check({"meshes"}, checkUntiled),
       check({"meshes", "attractors"}, checkAttractors),
+      check({"attractors", "fields"}, checkFronts),
+      check({"fields"}, checkFields),
       check({}, [](const Scene& s, const Given&,
                    const Complain& complain) { checkNames(s.meshes, "meshes", complain); }),
       check({}, [](const Scene& s, const Given&,

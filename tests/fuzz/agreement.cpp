@@ -66,10 +66,41 @@ void agreeOnImages(Drawn& images, const std::vector<std::string>& plants,
   }
 }
 
+/// What meshes are called: by their names, or else as their files are.
+std::vector<std::string> meshNames(Drawn* meshes) {
+  std::vector<std::string> names = namesOf(meshes, "file");
+  for (std::string& name : names) name = name.substr(0, name.find(".obj"));
+  return names;
+}
+
+/// Each has one source, and the keys that belong to it.
+void agreeOnAttractors(Drawn& attractors, const std::vector<std::string>& meshes, tests::Numbers& numbers) {
+  const std::set<std::string> of_solids{"at", "spread", "density"};
+  const std::set<std::string> no_sources{"at", "spread", "density", "count", "spacing"};
+  for (DrawnEntry& one : attractors.entries) {
+    if (meshes.empty()) takeOut(one.value, {"surface", "inside"});
+    std::set<std::string> sources;
+    for (const DrawnEntry& entry : one.value.entries) {
+      if (!no_sources.contains(entry.key)) sources.insert(entry.key);
+    }
+    if (sources.empty()) continue;
+    const std::string kept = numbers.pick(std::vector(sources.begin(), sources.end()));
+    sources.erase(kept);
+    takeOut(one.value, sources);
+    const bool on_mesh = kept == "surface" || kept == "inside";
+    if (on_mesh) find(one.value, kept)->text = numbers.pick(meshes);
+    if (on_mesh || kept == "points") takeOut(one.value, of_solids);
+    if (kept == "points") takeOut(one.value, {"count"});
+    if (kept != "surface") takeOut(one.value, {"spacing"});
+  }
+}
+
 }  // namespace
 
 void makeAgree(Drawn& scene, tests::Numbers& numbers) {
   if (Drawn* sun = find(scene, "sun"); sun && numbers.chance(kMostly)) agreeOnSun(*sun, numbers);
+  if (Drawn* attractors = find(scene, "attractors"); attractors && numbers.chance(kMostly))
+    agreeOnAttractors(*attractors, meshNames(find(scene, "meshes")), numbers);
   if (Drawn* images = find(scene, "images"); images && numbers.chance(kMostly))
     agreeOnImages(*images, namesOf(find(scene, "plants"), ""), namesOf(find(scene, "meshes"), ""), numbers);
 }

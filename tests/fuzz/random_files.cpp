@@ -22,6 +22,11 @@ const std::map<std::string, rules::Limits> kUsual = {
     {"random_tree.branch_age_range", {1.0, 6.0}},
     {"random_tree.trials.min", {1.0, 40.0}},
     {"random_tree.trials.max", {1.0, 90.0}},
+    {"colonization.step", {0.1, 8.0}},
+    {"colonization.influence", {1.0, 60.0}},
+    {"colonization.kill", {0.1, 6.0}},
+    {"colonization.trials", {1.0, 60.0}},
+    {"colonization.branching.above", {0.0, 20.0}},
     {"bias.twist.radius", {0.1, 8.0}},
     {"require.proximity.min", {0.0, 4.0}},
     {"require.proximity.max", {0.1, 30.0}},
@@ -58,12 +63,17 @@ const std::set<std::string> kAlways = {"scene:iterations",
                                        "scene:sky.rays",
                                        "scene:sky.directions"};
 
+/// What there must be where plants colonize.
+const std::set<std::string> kOfFronts = {"scene:attractors", "scene:fields", "rules:propagate",
+                                         "rules:colonization", "rules:colonization.attractors"};
+
 }  // namespace
 
 RandomFiles::RandomFiles(std::uint64_t seed, std::filesystem::path folder)
     : numbers_(seed),
       folder_(std::move(folder)),
       world_(drawWorld(numbers_)),
+      colonizes_(numbers_.chance(0.35)),
       values_(numbers_, world_.voxel_m) {
   std::filesystem::create_directories(folder_);
   knowSpecials();
@@ -131,6 +141,17 @@ std::string RandomFiles::writeMesh() {
   return name;
 }
 
+std::string RandomFiles::writePoints() {
+  std::ofstream file(folder_ / "points.csv");
+  file << "x,y,z\n";
+  for (int i = numbers_.whole(1, 40); i > 0; --i) {
+    sim::Vec3 at = world_.middle_m;
+    for (int axis = 0; axis < 3; ++axis) at[axis] += numbers_.uniform(-0.5, 0.5) * world_.extent_m()[axis];
+    file << fmt::format("{},{},{}\n", at.x, at.y, at.z);
+  }
+  return "points.csv";
+}
+
 /// A point in the world, or as far outside of it.
 std::string RandomFiles::place(double beyond) {
   sim::Vec3 at;
@@ -178,6 +199,8 @@ void RandomFiles::knowSpecials() {
   for (const char* const sides : {"ellipsoid.radii", "box.size"})
     text(std::string("attractors.<name>.") + sides,
          [=] { return ValueDrawer::point(side(), side(), side()); });
+  text("attractors.<name>.points", [this] { return writePoints(); });
+  text("attractors.<name>.spacing", [this] { return fmt::format("{}", world_.voxel_m * numbers_.whole(1, 9)); });
   text("attractors.<name>.at", [this] { return place(numbers_.chance(0.9) ? 0.3 : 0.6); });
   text("attractors.<name>.count", [this] { return fmt::format("{}", numbers_.whole(1, 300)); });
   text("plants[].seeds[].at", [this] { return place(numbers_.chance(0.1) ? 0.5 : 0.45); });
@@ -197,6 +220,17 @@ void RandomFiles::knowSpecials() {
   text("iterations", [this] {
     return fmt::format("{}", values_.beyondUsual() ? numbers_.whole(0, 3) : numbers_.whole(0, 24));
   });
+  // All sets of a plant grow in one way; of a front they name what the scene has.
+  const bool colonizes = colonizes_;
+  const auto rule = [this](const std::string& path, std::function<std::string()> draw) {
+    specials_["rules:" + path] = [draw = std::move(draw)](Drawn& drawn) {
+      drawn.text = draw();
+      return !drawn.text.empty();
+    };
+  };
+  rule("propagate", [=] { return std::string(colonizes ? "colonization" : "random_tree"); });
+  rule("colonization.attractors", [] { return std::string("main"); });
+  rule("colonization.fields", [=] { return std::string(colonizes ? "[main]" : "[main, other]"); });
   specials_["rules:espalier"] = [this](Drawn& drawn) {
     drawn.text = numbers_.chance(0.5) ? "rules" : "rules/1";
     return true;
@@ -207,6 +241,7 @@ bool RandomFiles::wanted(const rules::Key& key, const std::string& path) {
   if (key.required || key.kind == Kind::header) return true;
   if (kAlways.contains(path)) return true;
   if (path == "scene:meshes") return world_.meshes;
+  if (colonizes_ && kOfFronts.contains(path)) return true;
   if (path == "scene:plants[].scatter" || path == "scene:meshes[].rotate")
     return world_.meshes && numbers_.chance(0.2);
   const bool holds_others = key.child || key.kind == Kind::rules || key.kind == Kind::regions;

@@ -49,6 +49,7 @@ class RandomFiles {
 
   static World drawWorld(tests::Numbers& numbers);
   std::string writeMesh();
+  std::string writePoints();
   void knowSpecials();
   Drawn table(const rules::Table& table, const std::string& path);
   bool value(const rules::Key& key, const std::string& path, Drawn& drawn);
@@ -63,6 +64,7 @@ class RandomFiles {
   tests::Numbers numbers_;
   std::filesystem::path folder_;
   World world_;
+  bool colonizes_;  // its plants
   ValueDrawer values_;
   std::map<std::string, Special>
       specials_;             ///< keys that must agree with the world or with each other, by path

@@ -114,6 +114,11 @@ Change crown(const std::string& solid, const std::string& from, const std::strin
           {from, to}};
 }
 
+/// A guide field.
+Change bent(const std::string& field, const std::string& from, const std::string& to) {
+  return {"state_hash", {{"seed: 5", "seed: 5\nfields: {main: {" + field + "}}"}}, {from, to}};
+}
+
 const std::map<std::string, Change>& changes() {
   const std::string sun = "expose: exposure.csv";
   const Edit shadows{kImage, "{kind: shadow_matte, name: a}"};
@@ -210,6 +215,23 @@ const std::map<std::string, Change>& changes() {
       {"attractors.<name>.spread", crown("sphere: 30 cm, spread: volume", "volume", "height")},
       {"attractors.<name>.density", crown("sphere: 30 cm, density: [[0, 1], [1, 2]]", "[1, 2]", "[1, 3]")},
       {"attractors.<name>.spacing", strewn("surface: plot, spacing: 30 cm", "spacing: 30", "spacing: 20")},
+      {"fields.<name>.angle", bent("angle: 90", "angle: 90", "angle: 100")},
+      {"fields.<name>.strength", bent("strength: 2", "strength: 2", "strength: 3")},
+      {"fields.<name>.axis", bent("axis: node_normal", "node_normal", "attractor_normal")},
+      {"fields.<name>.direction", bent("direction: [0, 1, 0]", "[0, 1, 0]}", "[1, 1, 0]}")},
+      {"fields.<name>.follow_normal", bent("follow_normal: false", "normal: false", "normal: true")},
+      {"fields.<name>.orders", bent("orders: [0, 1]", "orders: [0, 1]", "orders: [0, 2]")},
+      {"fields.<name>.box.min",
+       bent("box: {min: [0, 0, 0], max: [1, 1, 1]}", "min: [0, 0, 0]", "min: [0, 0.5, 0]")},
+      {"fields.<name>.box.max",
+       bent("box: {min: [0, 0, 0], max: [1, 1, 1]}", "max: [1, 1, 1]", "max: [2, 1, 1]")},
+      {"fields.<name>.points[].at", bent("points: [{at: [0, 1, 0], radius: 1 m}]", "[0, 1, 0]", "[0, 2, 0]")},
+      {"fields.<name>.points[].radius",
+       bent("points: [{at: [0, 1, 0], radius: 1 m}]", "radius: 1 m", "radius: 2 m")},
+      {"fields.<name>.points[].angle",
+       bent("points: [{at: [0, 1, 0], radius: 1 m, angle: 3}]", "angle: 3", "angle: 4")},
+      {"fields.<name>.points[].strength",
+       bent("points: [{at: [0, 1, 0], radius: 1 m, strength: 3}]", "strength: 3", "strength: 4")},
       {"iterations", {"state_hash", {}, {"iterations: 6", "iterations: 4"}}},
       {"seed", {"state_hash", {}, {"seed: 5", "seed: 6"}}},
       {"image.width", {"a.png", {}, {"width: 40", "width: 44"}}},

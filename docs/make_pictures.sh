@@ -51,6 +51,9 @@ done
 oiiotool $work/kept_{12,25,51}/vines.png --mosaic:pad=8 3x1 -o $work/kept_growth.png
 small $work/kept_growth.png kept_growth 1040
 
+grow scenes/library/w_dome.yaml
+small $work/w_dome/steps.png colonization_steps 1600
+
 grow scenes/library/figure_2.yaml
 small $work/figure_2/figure_2.png flat_walk 960
 grow scenes/library/figure_3.yaml

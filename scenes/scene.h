@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "render/image/camera.h"
-#include "rules/language/envelope_spec.h"
 #include "rules/front/guide.h"
+#include "rules/language/envelope_spec.h"
 #include "rules/language/rule_set.h"
 #include "scenes/problem.h"
 #include "sim/base/provenance.h"
@@ -192,7 +192,7 @@ struct RegionMention {
 /// A guide field that bends fronts.
 struct FieldSpec {
   std::string name;
-  rules::Guide guide;  ///< all but its points and orders; places and lengths in metres
+  rules::Guide guide;                      ///< all but its points and orders; places and lengths in metres
   std::vector<rules::GuidePoint> points;   ///< its own
   int order_first = 0, order_last = 1000;  ///< of limbs for which it holds
 };

@@ -4,8 +4,8 @@
 
 namespace espalier::rules {
 
-/// Bits of the curve that attractors are sorted along, for each axis: as many levels has their tree, but where
-/// many lie in one place.
+/// Bits of the curve that attractors are sorted along, for each axis: as many levels has their tree, but
+/// where many lie in one place.
 inline constexpr int kCurveBits = 21;
 
 /// The order of places where nothing else tells them apart: the least x first, then y, then z.

@@ -213,8 +213,8 @@ void meet(Attractors& attractors, std::span<const sim::Vec3> nodes, std::span<co
 
 namespace {
 
-/// What is sought: those of one node alone, if it is not kNobody, and not one that is left out; those that wait,
-/// or all.
+/// What is sought: those of one node alone, if it is not kNobody, and not one that is left out; those that
+/// wait, or all.
 struct Sought {
   std::int32_t of_node = kNobody, but = kNobody;
   bool all = false;

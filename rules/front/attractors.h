@@ -24,9 +24,10 @@ inline constexpr std::int32_t kMostInLeaf = 32;
 /// A squared distance whose bits do not change when axes are exchanged or turned round.
 double distance2(sim::Vec3 a, sim::Vec3 b);
 
-/// Arrays by attractor, sorted along a space-filling curve, and an octree over them whose leaves are runs of a
-/// few; in each leaf those that wait come first. Each remembers the nearest of the nodes so far that were
-/// within reach, and how far that is: nodes are only added and attractors only end, so nothing else changes it.
+/// Arrays by attractor, sorted along a space-filling curve, and an octree over them whose leaves are runs of
+/// a few; in each leaf those that wait come first. Each remembers the nearest of the nodes so far that were
+/// within reach, and how far that is: nodes are only added and attractors only end, so nothing else changes
+/// it.
 struct Attractors {
   std::vector<double> x, y, z;
   std::vector<double> nearest2;       ///< squared distance from its node; infinite where it has none
@@ -38,11 +39,11 @@ struct Attractors {
   std::vector<std::int32_t> place;    ///< by number: where it lies now; they move within their leaves
 
   // The tree, parents before their children.
-  std::vector<std::int32_t> first, last;        ///< the run of a tree node: first, and one behind its end
-  std::vector<std::int32_t> waiting;            ///< of a leaf: how many wait; of others 0
-  std::vector<std::int32_t> child, children;    ///< number of its first child, and how many; 0 for a leaf
-  std::vector<sim::Vec3> low, high;             ///< of a box around all in it
-  std::vector<double> farthest2;                ///< greatest nearest2 of those that wait; below 0: none waits
+  std::vector<std::int32_t> first, last;      ///< the run of a tree node: first, and one behind its end
+  std::vector<std::int32_t> waiting;          ///< of a leaf: how many wait; of others 0
+  std::vector<std::int32_t> child, children;  ///< number of its first child, and how many; 0 for a leaf
+  std::vector<sim::Vec3> low, high;           ///< of a box around all in it
+  std::vector<double> farthest2;              ///< greatest nearest2 of those that wait; below 0: none waits
 
   std::int32_t size() const { return static_cast<std::int32_t>(x.size()); }
   sim::Vec3 at(std::int32_t i) const {
@@ -54,7 +55,8 @@ struct Attractors {
 /// Sorts them, all waiting for nobody. The places must be finite.
 Attractors sortedAttractors(std::span<const sim::Vec3> places);
 
-/// How the nodes that came last act: on attractors nearer than `influence`; those nearer than `kill` are reached.
+/// How the nodes that came last act: on attractors nearer than `influence`; those nearer than `kill` are
+/// reached.
 struct Reach {
   double influence = 0.0, kill = 0.0;
   int iteration = 0;  ///< in which they grew
@@ -70,9 +72,9 @@ struct Pulls {
   std::vector<std::int32_t> count;
 };
 
-/// New nodes take over the attractors to which they are nearer than all before and than their reach; of equally
-/// near ones the first has it. Those within the kill distance end. `fresh`: their numbers, ascending. Parallel
-/// inside.
+/// New nodes take over the attractors to which they are nearer than all before and than their reach; of
+/// equally near ones the first has it. Those within the kill distance end. `fresh`: their numbers, ascending.
+/// Parallel inside.
 void meet(Attractors& attractors, std::span<const sim::Vec3> nodes, std::span<const std::int32_t> fresh,
           Reach reach, Pulls& pulls);
 

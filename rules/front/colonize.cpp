@@ -21,8 +21,8 @@ void requireFinite(std::span<const sim::Vec3> places, const char* what) {
 
 }  // namespace
 
-Colony colonize(std::span<const sim::Vec3> attractors, std::span<const sim::Vec3> starts,
-                FrontRules rules, int iterations) {
+Colony colonize(std::span<const sim::Vec3> attractors, std::span<const sim::Vec3> starts, FrontRules rules,
+                int iterations) {
   requireSound(rules);
   requireFinite(attractors, "attractor");
   requireFinite(starts, "start");

@@ -18,11 +18,12 @@ struct Colony {
   Fates fates;
 };
 
-/// Grows from all starts at once until nothing is in reach, or for so many iterations. The same to the bit for
-/// any order of the attractors (but those in one place) and any number of threads. Throws sim::InputError for rules that are
-/// not positive or not numbers, for places that are not finite, and where there is no start or no attractor.
-Colony colonize(std::span<const sim::Vec3> attractors, std::span<const sim::Vec3> starts,
-                FrontRules rules, int iterations);
+/// Grows from all starts at once until nothing is in reach, or for so many iterations. The same to the bit
+/// for any order of the attractors (but those in one place) and any number of threads. Throws sim::InputError
+/// for rules that are not positive or not numbers, for places that are not finite, and where there is no
+/// start or no attractor.
+Colony colonize(std::span<const sim::Vec3> attractors, std::span<const sim::Vec3> starts, FrontRules rules,
+                int iterations);
 
 /// Why growth ended, in words.
 std::string endingOf(const Fates& fates, bool iterations_left);

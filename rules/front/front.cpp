@@ -137,8 +137,8 @@ void waysOfPickers(Front& front, std::vector<std::int32_t>& active, const OrderR
     }
     const sim::Vec3 to = front.attractors.at(front.attractors.place[number]);
     setGait(front, n, front.tried[n], Gait::straight);
-    ways.push_back({node, 0, front.nodes[n] == to ? sim::Vec3(0, 1, 0) : unitTo(front.nodes[n], to),
-                    front.tried[n]});
+    ways.push_back(
+        {node, 0, front.nodes[n] == to ? sim::Vec3(0, 1, 0) : unitTo(front.nodes[n], to), front.tried[n]});
   }
 }
 
@@ -274,10 +274,18 @@ Fates fatesOf(const Front& front) {
   Fates fates;
   for (const std::int32_t fate : front.attractors.fate) {
     switch (static_cast<Fate>(fate)) {
-      case Fate::waiting: ++fates.waiting; break;
-      case Fate::reached: ++fates.reached; break;
-      case Fate::given_up: ++fates.given_up; break;
-      case Fate::taken: ++fates.taken; break;
+      case Fate::waiting:
+        ++fates.waiting;
+        break;
+      case Fate::reached:
+        ++fates.reached;
+        break;
+      case Fate::given_up:
+        ++fates.given_up;
+        break;
+      case Fate::taken:
+        ++fates.taken;
+        break;
     }
   }
   return fates;

@@ -26,7 +26,7 @@ struct FrontRules {
   double influence = 1.0;  ///< R_m: an attractor acts on nodes that are nearer than this
   double kill = 0.0;       ///< D_k: an attractor ends when a node is nearer than this
   Acts acts = Acts::on_nearest_node;
-  bool onto = false;      ///< new nodes stand on attractors, which are used up by it (Tanaka 4.2)
+  bool onto = false;  ///< new nodes stand on attractors, which are used up by it (Tanaka 4.2)
   /// A node is a start again and again (Tanaka, figure 6): it grows towards each attractor that acts on it;
   /// with on_every_node, all that pick an attractor grow towards it, which is many.
   bool repeated = false;
@@ -70,10 +70,10 @@ struct Front {
 /// Where a node would go.
 struct Way {
   std::int32_t node = 0;
-  std::uint32_t number = 0;           ///< which of its ways
-  sim::Vec3 direction{0.0};           ///< unit
-  std::int32_t attractor = kNobody;   ///< its number, if it goes for one alone
-  bool trunk = false;                 ///< towards a crown that is not in reach yet
+  std::uint32_t number = 0;          ///< which of its ways
+  sim::Vec3 direction{0.0};          ///< unit
+  std::int32_t attractor = kNobody;  ///< its number, if it goes for one alone
+  bool trunk = false;                ///< towards a crown that is not in reach yet
 };
 
 Front frontOf(std::span<const sim::Vec3> attractors);

@@ -36,10 +36,13 @@ sim::Vec3 sampled(const GuideGrid& grid, sim::Vec3 at) {
 
 sim::Vec3 axisAt(const Guide& guide, const GuidePlace& place) {
   switch (guide.axis) {
-    case GuideAxis::direction: return guide.direction;
-    case GuideAxis::grid: return sampled(guide.grid, place.at);
+    case GuideAxis::direction:
+      return guide.direction;
+    case GuideAxis::grid:
+      return sampled(guide.grid, place.at);
     case GuideAxis::node_normal:
-    case GuideAxis::attractor_normal: return place.normal;
+    case GuideAxis::attractor_normal:
+      return place.normal;
   }
   return sim::Vec3(0.0);
 }

@@ -6,21 +6,22 @@
 
 #include "sim/base/vec.h"
 
-/// Guide fields (Tanaka et al. 2022, sections 4.3 and 4.4; Tanaka, Ito and Kikuchi 2020, section 3.6): vectors
-/// that turn the ways of a front about an axis, so that it whorls.
+/// Guide fields (Tanaka et al. 2022, sections 4.3 and 4.4; Tanaka, Ito and Kikuchi 2020, section 3.6):
+/// vectors that turn the ways of a front about an axis, so that it whorls.
 ///
-/// At a place P, with S the start of its plant, X_d = (P - S) / |P - S| (equation 9) and the axis n, the papers
-/// turn X_d about n by the quaternion q of an angle: X_f = q X_d q* (equations 10 to 12), and grow to
-/// P + D n'/|n'| + s X_f (13). Taken literally, a turn by 360 or 720 degrees is none. Here the turn builds up with
-/// the distance r from the start: X_f is X_d + (angle / R) n x (P - S), normalized, R being how far the farthest
-/// attractor of that start is. In a plane about n that is a turn of X_d by atan(angle r / R). So a way that
-/// follows X_f alone has wound about n by `angle` when it comes to R, as an Archimedean spiral: more angle,
-/// tighter whorls, and never back to the start. The step stays D long: the sum of n'/|n'| and s X_f is
+/// At a place P, with S the start of its plant, X_d = (P - S) / |P - S| (equation 9) and the axis n, the
+/// papers turn X_d about n by the quaternion q of an angle: X_f = q X_d q* (equations 10 to 12), and grow to
+/// P + D n'/|n'| + s X_f (13). Taken literally, a turn by 360 or 720 degrees is none. Here the turn builds up
+/// with the distance r from the start: X_f is X_d + (angle / R) n x (P - S), normalized, R being how far the
+/// farthest attractor of that start is. In a plane about n that is a turn of X_d by atan(angle r / R). So a
+/// way that follows X_f alone has wound about n by `angle` when it comes to R, as an Archimedean spiral: more
+/// angle, tighter whorls, and never back to the start. The step stays D long: the sum of n'/|n'| and s X_f is
 /// normalized. With s = 0 it is plain colonization.
 namespace espalier::rules {
 
 enum class GuideAxis : std::int32_t {
-  node_normal,       ///< the surface's normal where the node is: that of the attractor nearest to it, whatever became of it
+  node_normal,  ///< the surface's normal where the node is: that of the attractor nearest to it, whatever
+                ///< became of it
   attractor_normal,  ///< that of the attractor which it pulls most: the nearest that waits for it
   direction,         ///< the same everywhere
   grid               ///< of a grid of vectors
@@ -43,13 +44,14 @@ struct GuideGrid {
 };
 
 struct Guide {
-  double angle_deg = 0.0;  ///< by which ways wind from the start to the farthest attractor; below 0 the other way round
-  double strength = 1.0;   ///< s
+  double angle_deg =
+      0.0;  ///< by which ways wind from the start to the farthest attractor; below 0 the other way round
+  double strength = 1.0;  ///< s
   GuideAxis axis = GuideAxis::direction;
   sim::Vec3 direction{0, 1, 0};  ///< of GuideAxis::direction
   bool follows_normal = false;   ///< strength times the axis' length
   std::vector<GuidePoint> points;
-  std::optional<std::array<sim::Vec3, 2>> box;  ///< holds in here alone: least and greatest corner
+  std::optional<std::array<sim::Vec3, 2>> box;       ///< holds in here alone: least and greatest corner
   std::array<std::int32_t, 2> orders{0, 1'000'000};  ///< of segments for which it holds: from, to
   GuideGrid grid;
 };
@@ -58,13 +60,13 @@ struct Guide {
 struct GuidePlace {
   sim::Vec3 at{0.0};
   sim::Vec3 start{0.0};
-  double farthest = 0.0;         ///< R
-  sim::Vec3 normal{0.0};         ///< of GuideAxis::node_normal and attractor_normal
+  double farthest = 0.0;  ///< R
+  sim::Vec3 normal{0.0};  ///< of GuideAxis::node_normal and attractor_normal
   std::int32_t order = 0;
 };
 
-/// s X_f there; zero where the field says nothing: outside its box or its orders, at the start itself, where no
-/// axis is known. About normals the field lies in the plane that they stand on.
+/// s X_f there; zero where the field says nothing: outside its box or its orders, at the start itself, where
+/// no axis is known. About normals the field lies in the plane that they stand on.
 sim::Vec3 guideAt(const Guide& guide, const GuidePlace& place);
 
 /// The way of a node that is pulled along a unit vector: n'/|n'| + s X_f, normalized; the pull itself, to the

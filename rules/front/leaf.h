@@ -17,7 +17,8 @@ struct PointList {
   const std::int32_t* number;
 };
 
-/// A leaf's attractors while new nodes come by; what lies behind `count` up to a whole vector is not looked at.
+/// A leaf's attractors while new nodes come by; what lies behind `count` up to a whole vector is not looked
+/// at.
 struct Leaf {
   static constexpr std::size_t kPadding = 16, kRoom = kLeaf + kPadding;
   std::size_t count = 0;
@@ -27,8 +28,8 @@ struct Leaf {
   alignas(64) double new2[kRoom];      ///< squared distance from the nearest of the new nodes
 };
 
-/// Lets new nodes come by in their order, `which` of them: an attractor goes over to one to which it is nearer
-/// than to its own, and nearer than the square root of `influence2`. In SIMD lanes; the same bits as
+/// Lets new nodes come by in their order, `which` of them: an attractor goes over to one to which it is
+/// nearer than to its own, and nearer than the square root of `influence2`. In SIMD lanes; the same bits as
 /// distance2.
 void comeBy(Leaf& leaf, std::span<const std::int64_t> which, PointList points, double influence2);
 

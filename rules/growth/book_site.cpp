@@ -11,8 +11,8 @@ using sim::Outcome;
 
 /// Why a set does not grow here; grown if it does, and then the proposal says what.
 Outcome tryToGrow(const sim::SiteView& view, const RuleSet& rules, const sim::Site& site,
-                  const sim::RandomKey& key, unsigned set, const RuleBook& book, int order,
-                  const Step& step, sim::Proposal& proposal) {
+                  const sim::RandomKey& key, unsigned set, const RuleBook& book, int order, const Step& step,
+                  sim::Proposal& proposal) {
   const Exposure seen = view.light != nullptr ? exposureOf(*view.light) : Exposure{1.0, 1.0};
   const Vigour light = vigourOf(seen, rules);
   if (light.exposure < rules.require.exposure_min) return Outcome::too_dark;

@@ -8,11 +8,11 @@
 /// How a site grows by a rule book: the part that all processes of the rule language share.
 namespace espalier::rules {
 
-/// Where one rule set leads a site, if anywhere: `set` numbers those that one site tries, from 0. What it tried
-/// is counted in the proposal.
-using Step = std::function<std::optional<Candidate>(const RuleSet& rules, const Surroundings& around,
-                                                    const Senses& senses, unsigned set,
-                                                    sim::Proposal& proposal)>;
+/// Where one rule set leads a site, if anywhere: `set` numbers those that one site tries, from 0. What it
+/// tried is counted in the proposal.
+using Step =
+    std::function<std::optional<Candidate>(const RuleSet& rules, const Surroundings& around,
+                                           const Senses& senses, unsigned set, sim::Proposal& proposal)>;
 
 /// The site tries the rule set that holds where it is, then those that stand by for it, each with its own
 /// senses, regions and light, and grows by the first that succeeds; where that one would rather rest, it

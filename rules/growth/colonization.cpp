@@ -18,7 +18,7 @@ namespace {
 
 using sim::Outcome;
 
-constexpr const char* kLengths = "front_lengths_vx";  // step, influence, kill; of each order
+constexpr const char* kLengths = "front_lengths_vx";    // step, influence, kill; of each order
 constexpr const char* kFarthest = "front_farthest_vx";  // attractor of each plant, if a field wants to know
 constexpr double kShortestStep_vx = 0.1, kLongestStep_vx = 60.0;
 
@@ -55,7 +55,8 @@ class ColonizationProcess final : public sim::Process {
 };
 
 sim::Columns& ColonizationProcess::home(sim::Commons& commons) const {
-  if (const auto at = commons.find(attractorsNamed(front_.attractors)); at != commons.end()) return at->second;
+  if (const auto at = commons.find(attractorsNamed(front_.attractors)); at != commons.end())
+    return at->second;
   throw sim::InputError(fmt::format("rule set '{}': there are no attractors '{}'; expected some of that name",
                                     book_.top().name, front_.attractors));
 }
@@ -65,8 +66,12 @@ OrderRules ColonizationProcess::rulesIn(const sim::Columns& memory, int iteratio
   if (lengths.size() != 3 * (kTwig + 1)) throw sim::BrokenContract("a front without its lengths");
   OrderRules rules{FrontRules{}};
   for (std::size_t order = 0; order <= kTwig; ++order) {
-    rules.of_order[order] = {lengths[3 * order], lengths[3 * order + 1], lengths[3 * order + 2],
-                             front_.acts,        front_.onto,            front_.repeated,
+    rules.of_order[order] = {lengths[3 * order],
+                             lengths[3 * order + 1],
+                             lengths[3 * order + 2],
+                             front_.acts,
+                             front_.onto,
+                             front_.repeated,
                              iteration};
     try {
       requireSound(rules.of_order[order]);
@@ -185,8 +190,8 @@ std::vector<sim::Site> ColonizationProcess::due(const sim::StandView& stand, sim
     own.active[kept++] = node;
     for (; way != ways.end() && way->node == node.front; ++way) {
       const auto gait = static_cast<Gait>(front.gait[static_cast<std::size_t>(node.front)]);
-      own.errands.push_back({node, way->number, gait, false, way->direction,
-                             endOfWay(front, *way, way->direction, rules)});
+      own.errands.push_back(
+          {node, way->number, gait, false, way->direction, endOfWay(front, *way, way->direction, rules)});
     }
   }
   own.active.resize(kept);
@@ -238,7 +243,8 @@ void ColonizationProcess::settle(const sim::StandView& stand, std::span<const si
   Front& front = lent.front;
   const OrderRules rules = rulesIn(memory, stand.iteration);
   FrontMemory own = frontMemory(memory, stand);
-  if (own.errands.size() != verdicts.size()) throw sim::BrokenContract("a front that was told of other sites");
+  if (own.errands.size() != verdicts.size())
+    throw sim::BrokenContract("a front that was told of other sites");
   own.trunks.clear();
   std::vector<NewNode> joined;
   std::vector<FrontNode> idle;  // unless what they sent out drew something away

@@ -34,9 +34,9 @@ sim::Vec3 guided(const Errand& errand, const Front& front, const sim::Skeleton& 
   const sim::Vec3 at = front.nodes[asIndex(errand.from.front)];
   sim::Vec3 sum(0.0);
   for (const Guide& guide : guidance.guides) {
-    sum += guideAt(guide, {at, skeleton.position_vx.front(), guidance.farthest_vx[asIndex(errand.from.plant)],
-                           normalOf(front, guidance, errand, at, guide.axis),
-                           nextOrder(front, errand.from.front)});
+    sum += guideAt(guide,
+                   {at, skeleton.position_vx.front(), guidance.farthest_vx[asIndex(errand.from.plant)],
+                    normalOf(front, guidance, errand, at, guide.axis), nextOrder(front, errand.from.front)});
   }
   return guidedWay(errand.direction, sum);
 }
@@ -73,7 +73,8 @@ void bend(std::vector<Errand>& errands, const Front& front, const sim::StandView
       const sim::Skeleton& skeleton = stand.plants[asIndex(errand.from.plant)].skeleton;
       const sim::Vec3 from = skeleton.position_vx[asIndex(errand.from.node)];
       sim::Vec3 way = errand.direction;
-      if (errand.gait == Gait::pulled && !guidance.guides.empty()) way = guided(errand, front, skeleton, guidance);
+      if (errand.gait == Gait::pulled && !guidance.guides.empty())
+        way = guided(errand, front, skeleton, guidance);
       const std::int32_t order = nextOrder(front, errand.from.front);
       const Branching& branching = ruleFor(book, order).branching;
       const bool branches = front.sent[asIndex(errand.from.front)] > 0;

@@ -1,9 +1,9 @@
 #pragma once
 #include <vector>
 
+#include "rules/front/guide.h"
 #include "rules/growth/front_memory.h"
 #include "rules/growth/rule_book.h"
-#include "rules/front/guide.h"
 
 /// What bends the ways of a front before the world is asked: guide fields, and the angles at which limbs may
 /// leave each other.
@@ -12,7 +12,7 @@ namespace espalier::rules {
 /// What the fields of a planting follow from.
 struct Guidance {
   std::vector<Guide> guides;
-  std::vector<double> farthest_vx;              ///< of each plant: from its start to the farthest attractor of it
+  std::vector<double> farthest_vx;  ///< of each plant: from its start to the farthest attractor of it
   const std::vector<sim::Vec3>* normals = nullptr;  ///< of the attractors, as they were given; may be empty
 };
 
@@ -27,8 +27,8 @@ void bend(std::vector<Errand>& errands, const Front& front, const sim::StandView
 /// Whether a node may send out another limb, as far as the rules of its own order say where limbs branch.
 bool mayBranch(const sim::StandView& stand, const RuleBook& book, const FrontNode& node, std::int32_t order);
 
-/// The unit vector in the plane of both that is nearest to `way` and whose angle to `heading` lies between two
-/// angles, in degrees; both are unit vectors.
+/// The unit vector in the plane of both that is nearest to `way` and whose angle to `heading` lies between
+/// two angles, in degrees; both are unit vectors.
 sim::Vec3 withinAngles(sim::Vec3 way, sim::Vec3 heading, double least_deg, double most_deg);
 
 }  // namespace espalier::rules

@@ -61,9 +61,9 @@ void requireLengths(const Front& front) {
   require(same(a.first.size(), {a.last.size(), a.waiting.size(), a.child.size(), a.children.size(),
                                 a.low.size(), a.high.size(), a.farthest2.size()}),
           "a tree whose columns differ in length");
-  require(same(front.nodes.size(), {front.pulls.x.size(), front.pulls.y.size(), front.pulls.z.size(),
-                                    front.pulls.count.size(), front.tried.size(), front.gait.size(), front.order.size(),
-                                    front.sent.size()}),
+  require(same(front.nodes.size(),
+               {front.pulls.x.size(), front.pulls.y.size(), front.pulls.z.size(), front.pulls.count.size(),
+                front.tried.size(), front.gait.size(), front.order.size(), front.sent.size()}),
           "nodes whose columns differ in length");
   require(front.picker.size() == front.picked2.size() &&
               (front.picker.empty() || front.picker.size() == a.x.size()),
@@ -84,7 +84,8 @@ void requireSoundTree(const Attractors& a) {
     require(reached[t], "a part of its tree that nothing leads to");
     require(a.first[t] < a.last[t], "an empty part of its tree");
     if (a.children[t] == 0) {
-      require(a.waiting[t] >= 0 && a.waiting[t] <= a.last[t] - a.first[t], "a leaf in which more wait than are");
+      require(a.waiting[t] >= 0 && a.waiting[t] <= a.last[t] - a.first[t],
+              "a leaf in which more wait than are");
       require(a.last[t] - a.first[t] <= kMostInLeaf, "a leaf that is too large");
       for (std::int32_t i = a.first[t]; i < a.last[t]; ++i) {
         const bool waits = a.fate[static_cast<std::size_t>(i)] == static_cast<std::int32_t>(Fate::waiting);
@@ -127,7 +128,8 @@ void requireSoundNumbers(const Front& front) {
   }
   require(pulled == front.pulls.count, "nodes that others pull than say so");
   for (const std::int32_t gait : front.gait) require(between(gait, 0, 3), "a node of no known gait");
-  for (const std::int32_t order : front.order) require(between(order, 0, front.nodes.size()), "a node of no order");
+  for (const std::int32_t order : front.order)
+    require(between(order, 0, front.nodes.size()), "a node of no order");
   for (const std::int32_t node : front.picker)
     require(between(node, kNobody, front.nodes.size()), "a pick of a node that is not there");
   if (!front.picker.empty()) {
@@ -144,8 +146,9 @@ void readNodes(const sim::Columns& memory, const std::string& what, const sim::S
   require(plant.size() == front.size() && node.size() == front.size(), "columns that differ in length");
   for (std::size_t i = 0; i < front.size(); ++i) {
     require(front[i] >= 0 && between(plant[i], 0, stand.plants.size()) &&
-                between(node[i], 0, static_cast<std::size_t>(
-                                        stand.plants[static_cast<std::size_t>(plant[i])].skeleton.size())),
+                between(node[i], 0,
+                        static_cast<std::size_t>(
+                            stand.plants[static_cast<std::size_t>(plant[i])].skeleton.size())),
             "a node that is not there");
     nodes.push_back({front[i], plant[i], node[i]});
   }
@@ -210,7 +213,8 @@ FrontMemory frontMemory(const sim::Columns& memory, const sim::StandView& stand)
           "errands whose columns differ in length");
   for (std::size_t i = 0; i < from.size(); ++i) {
     read.errands.push_back({from[i], static_cast<std::uint32_t>(number[i]),
-                            static_cast<Gait>(how[i] & ~kTrunk), (how[i] & kTrunk) != 0, direction[i], end[i]});
+                            static_cast<Gait>(how[i] & ~kTrunk), (how[i] & kTrunk) != 0, direction[i],
+                            end[i]});
   }
   return read;
 }

@@ -31,8 +31,8 @@ class LentFront {
 
 /// Whether the columns hold a front already.
 bool holdsFront(const sim::Columns& columns);
-/// Throws BrokenContract where a front in the columns is none that growth could have left there: numbers out of
-/// their bounds, a tree that is none.
+/// Throws BrokenContract where a front in the columns is none that growth could have left there: numbers out
+/// of their bounds, a tree that is none.
 void requireSoundFront(const sim::Columns& columns);
 
 /// A node that something may still act on, or in which a trunk ends.

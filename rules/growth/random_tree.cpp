@@ -103,14 +103,14 @@ std::optional<Candidate> bestTrial(const sim::SiteView& view, const RuleSet& rul
   return best;
 }
 
-std::optional<Candidate> bestStep(const sim::SiteView& view, const RuleSet& rules,
-                                  const Surroundings& around, const Senses& senses,
-                                  const sim::RandomKey& key, unsigned set, sim::Proposal& proposal) {
+std::optional<Candidate> bestStep(const sim::SiteView& view, const RuleSet& rules, const Surroundings& around,
+                                  const Senses& senses, const sim::RandomKey& key, unsigned set,
+                                  sim::Proposal& proposal) {
   const RandomTree& tree = rules.random_tree;
-  return bestTrial(
-      view, rules, around, waysOf(rules, around, senses, key, set, view.world.frame().size),
-      {0, tree.trials_min, tree.trials_max, rules.require.clear ? sim::Passage::around : sim::Passage::through},
-      proposal);
+  return bestTrial(view, rules, around, waysOf(rules, around, senses, key, set, view.world.frame().size),
+                   {0, tree.trials_min, tree.trials_max,
+                    rules.require.clear ? sim::Passage::around : sim::Passage::through},
+                   proposal);
 }
 
 }  // namespace espalier::rules

@@ -43,8 +43,8 @@ std::optional<Candidate> bestTrial(const sim::SiteView& view, const RuleSet& rul
 
 /// Greene's walk: the same for a tip or a side under one rule set. `set` numbers the rule sets that one site
 /// tries, from 0.
-std::optional<Candidate> bestStep(const sim::SiteView& view, const RuleSet& rules,
-                                  const Surroundings& around, const Senses& senses,
-                                  const sim::RandomKey& key, unsigned set, sim::Proposal& proposal);
+std::optional<Candidate> bestStep(const sim::SiteView& view, const RuleSet& rules, const Surroundings& around,
+                                  const Senses& senses, const sim::RandomKey& key, unsigned set,
+                                  sim::Proposal& proposal);
 
 }  // namespace espalier::rules

@@ -32,8 +32,8 @@ class RuleBook {
   const RuleSet& ofOrder(int order) const;
   /// Whether limbs are told apart by their orders.
   bool hasOrders() const { return rules_->branches || rules_->twigs; }
-  /// The set that a site in this voxel tries first: of what has an order, the nearest region's, or that order's
-  /// own where it says nothing of that one; null where nothing may grow.
+  /// The set that a site in this voxel tries first: of what has an order, the nearest region's, or that
+  /// order's own where it says nothing of that one; null where nothing may grow.
   const RuleSet* first(const sim::World& world, sim::Voxel v, int order = 0) const;
   /// The set to try where this one has failed; null where there is none, or nothing may grow.
   const RuleSet* next(const RuleSet& failed, const sim::World& world, sim::Voxel v) const;

@@ -39,9 +39,9 @@ void convert(RuleSet& rules, double voxel_m) {
   Length& length = rules.random_tree.length;
   if (length.metres) convert(length.value, voxel_m);
   length.metres = false;
-  for (Distance* distance : {&rules.bias.twist_radius, &rules.require.proximity_min,
-                             &rules.require.proximity_max, &rules.prefer.proximity, &rules.stem_radius,
-                             &rules.colonization.branching.above})
+  for (Distance* distance :
+       {&rules.bias.twist_radius, &rules.require.proximity_min, &rules.require.proximity_max,
+        &rules.prefer.proximity, &rules.stem_radius, &rules.colonization.branching.above})
     convert(*distance, voxel_m);
   for (std::optional<Distance>* distance :
        {&rules.colonization.step, &rules.colonization.influence, &rules.colonization.kill}) {

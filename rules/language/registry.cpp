@@ -54,8 +54,9 @@ std::shared_ptr<const Table> randomTreeKeys() {
 std::shared_ptr<const Table> branchingKeys() {
   const auto angle =
       TableOf<Branching>()
-          .number("min", &Branching::angle_min_deg,
-                  {.unit = kDegrees, .limits = kAngle, .meaning = "Least angle between a branch and its limb."})
+          .number(
+              "min", &Branching::angle_min_deg,
+              {.unit = kDegrees, .limits = kAngle, .meaning = "Least angle between a branch and its limb."})
           .number("max", &Branching::angle_max_deg,
                   {.unit = kDegrees,
                    .limits = {0.0, 180.0, true},
@@ -74,10 +75,10 @@ std::shared_ptr<const Table> branchingKeys() {
 
 std::shared_ptr<const Table> colonizationKeys() {
   const auto derived = [](std::string meaning) {
-    return About{.unit = kVoxels,
-                 .limits = {0.0, 1e6, true},
-                 .meaning = std::move(meaning) +
-                            " Without it, it follows from how far the attractors are apart."};
+    return About{
+        .unit = kVoxels,
+        .limits = {0.0, 1e6, true},
+        .meaning = std::move(meaning) + " Without it, it follows from how far the attractors are apart."};
   };
   return TableOf<Colonization>()
       .text("attractors", &Colonization::attractors,
@@ -290,10 +291,9 @@ Table makeTable() {
           {.meaning = "The kind of this file and, if wanted, the version of the language: rules or rules/1."})
       .text("name", &RuleSet::name, {.meaning = "A name for people."})
       .base({.meaning = "A rule file to build on: what it says holds wherever this file is silent."})
-      .choice<Propagate>(
-          "propagate", &RuleSet::propagate,
-          {{"random_tree", Propagate::random_tree}, {"colonization", Propagate::colonization}},
-          {.meaning = "The process that grows the plant."})
+      .choice<Propagate>("propagate", &RuleSet::propagate,
+                         {{"random_tree", Propagate::random_tree}, {"colonization", Propagate::colonization}},
+                         {.meaning = "The process that grows the plant."})
       .section("random_tree", &RuleSet::random_tree, randomTreeKeys(),
                {.meaning = "Each tip walks at random, and nodes branch when they come of age."})
       .section("colonization", &RuleSet::colonization, colonizationKeys(),
@@ -318,8 +318,9 @@ Table makeTable() {
           [](const RuleSet& r) {
             return r.branches ? Datum{RuleReference{{}, r.branches}} : Datum{};
           },
-          {.meaning = "The rule set of limbs that leave the first one, the trunk; keys written in place change "
-                      "this rule set."})
+          {.meaning =
+               "The rule set of limbs that leave the first one, the trunk; keys written in place change "
+               "this rule set."})
       .custom(
           "twigs", Kind::rules,
           [](RuleSet& r, const Datum& d) { r.twigs = std::get<RuleReference>(d).rules; },

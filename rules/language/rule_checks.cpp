@@ -110,7 +110,8 @@ void checkColonization(const RuleSet& rules, const Check::Given& given, const Ch
     complain("colonization", "no attractors; expected the name of some of the scene's (attractors: NAME)");
   if (front.kill && front.influence && front.kill->metres == front.influence->metres &&
       front.kill->number >= front.influence->number)
-    complain("colonization.kill", "kill is not less than influence: every attractor would end before it acts");
+    complain("colonization.kill",
+             "kill is not less than influence: every attractor would end before it acts");
   static_cast<void>(given);
 }
 

@@ -74,8 +74,8 @@ struct Colonization {
   std::optional<Distance> influence;  ///< attractors act on nodes that are nearer than this
   std::optional<Distance> kill;       ///< attractors end when a node is nearer than this
   Acts acts = Acts::on_nearest_node;
-  bool onto = false;      ///< new nodes stand on attractors
-  bool repeated = false;  ///< a node is a start for each of its attractors
+  bool onto = false;        ///< new nodes stand on attractors
+  bool repeated = false;    ///< a node is a start for each of its attractors
   double avoid_deg = 80.0;  ///< how far a way may turn aside where something stands in it
   int trials = 60;          ///< ways that are tried then
   Branching branching;
@@ -157,8 +157,8 @@ struct RuleSet {
   std::vector<Element> elements;
   std::map<std::string, RegionRule, std::less<>> regions;  ///< by region name
   std::optional<RegionRule> others;                        ///< of every region that is not named
-  std::shared_ptr<const RuleSet> branches;  ///< of limbs that leave the trunk; null: this set
-  std::shared_ptr<const RuleSet> twigs;     ///< of limbs that leave those, and so on; null: as branches
+  std::shared_ptr<const RuleSet> branches;                 ///< of limbs that leave the trunk; null: this set
+  std::shared_ptr<const RuleSet> twigs;      ///< of limbs that leave those, and so on; null: as branches
   std::shared_ptr<const RuleSet> otherwise;  ///< tried where this one fails (Greene's secondary set)
 };
 

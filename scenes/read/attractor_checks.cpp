@@ -93,9 +93,11 @@ std::vector<std::string> namesOf(const std::vector<Named>& all) {
 /// What is said of a name that the scene has not; empty for one that it has.
 std::string missing(const char* what, const std::string& name, const std::vector<std::string>& names) {
   if (std::find(names.begin(), names.end(), name) != names.end()) return "";
-  if (names.empty()) return fmt::format("its rules name the {} {}, and the scene has none; expected some under '{}'", what, inQuotes(name), what);
-  return fmt::format("its rules name the {} {}; expected one of {}{}", what, inQuotes(name), listed(names, name),
-                     didYouMean(name, names));
+  if (names.empty())
+    return fmt::format("its rules name the {} {}, and the scene has none; expected some under '{}'", what,
+                       inQuotes(name), what);
+  return fmt::format("its rules name the {} {}; expected one of {}{}", what, inQuotes(name),
+                     listed(names, name), didYouMean(name, names));
 }
 
 }  // namespace
@@ -122,7 +124,8 @@ void checkFields(const Scene& scene, const rules::Check::Given&, const rules::Ch
     if (!field.guide.box) continue;
     const auto& [low, high] = *field.guide.box;
     if (!(low.x < high.x && low.y < high.y && low.z < high.z))
-      complain(path + ".box", "a box without inside; expected each number of min to be less than that of max");
+      complain(path + ".box",
+               "a box without inside; expected each number of min to be less than that of max");
   }
 }
 

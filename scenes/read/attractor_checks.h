@@ -9,9 +9,11 @@ void checkAttractors(const Scene& scene, const rules::Check::Given& given,
                      const rules::Check::Complain& complain);
 
 /// Plants grow to attractors that the scene has, along fields that it has.
-void checkFronts(const Scene& scene, const rules::Check::Given& given, const rules::Check::Complain& complain);
+void checkFronts(const Scene& scene, const rules::Check::Given& given,
+                 const rules::Check::Complain& complain);
 
 /// Fields have an axis, and boxes an inside.
-void checkFields(const Scene& scene, const rules::Check::Given& given, const rules::Check::Complain& complain);
+void checkFields(const Scene& scene, const rules::Check::Given& given,
+                 const rules::Check::Complain& complain);
 
 }  // namespace espalier::scenes

@@ -47,23 +47,26 @@ std::shared_ptr<const rules::Table> pointKeys() {
 
 std::shared_ptr<const rules::Table> fieldKeys() {
   return TableOf<FieldSpec>()
-      .number("angle", [](auto& f) -> auto& { return f.guide.angle_deg; },
-              {.unit = kDegrees,
-               .limits = kAngle,
-               .meaning = "By which ways wind about the axis from the start to the farthest attractor; below 0 "
-                          "the other way."})
+      .number(
+          "angle", [](auto& f) -> auto& { return f.guide.angle_deg; },
+          {.unit = kDegrees,
+           .limits = kAngle,
+           .meaning = "By which ways wind about the axis from the start to the farthest attractor; below 0 "
+                      "the other way."})
       .number("strength", [](auto& f) -> auto& { return f.guide.strength; },
               {.unit = "factor",
                .limits = kStrength,
                .meaning = "How much it bends, against the pull of attractors as 1; 0 is plain colonization."})
-      .choice<GuideAxis>("axis", [](auto& f) -> auto& { return f.guide.axis; },
-                         {{"direction", GuideAxis::direction},
-                          {"node_normal", GuideAxis::node_normal},
-                          {"attractor_normal", GuideAxis::attractor_normal}},
-                         {.meaning = "What it winds about: one direction, the normal of the attractor nearest "
-                                     "to the node, or of that which pulls it."})
-      .point("direction", [](auto& f) -> auto& { return f.guide.direction; },
-             {.unit = "vector", .limits = {-1e6, 1e6}, .meaning = "Of axis: direction; its length is nothing."})
+      .choice<GuideAxis>(
+          "axis", [](auto& f) -> auto& { return f.guide.axis; },
+          {{"direction", GuideAxis::direction},
+           {"node_normal", GuideAxis::node_normal},
+           {"attractor_normal", GuideAxis::attractor_normal}},
+          {.meaning = "What it winds about: one direction, the normal of the attractor nearest "
+                      "to the node, or of that which pulls it."})
+      .point(
+          "direction", [](auto& f) -> auto& { return f.guide.direction; },
+          {.unit = "vector", .limits = {-1e6, 1e6}, .meaning = "Of axis: direction; its length is nothing."})
       .flag("follow_normal", [](auto& f) -> auto& { return f.guide.follows_normal; },
             {.meaning = "The strength is multiplied by the length of the axis or the normal."})
       .wholeRange("orders", &FieldSpec::order_first, &FieldSpec::order_last,
@@ -72,7 +75,8 @@ std::shared_ptr<const rules::Table> fieldKeys() {
                    .meaning = "Of which limbs: 0 the trunk, 1 its branches, and so on, from and to."})
       .section("box", [](auto& f) -> auto& { return f.guide.box; }, boxKeys(),
                {.meaning = "Holds in here alone."})
-      .list<GuidePoint>("points", rules::Kind::entries, &FieldSpec::points, pointKeys(), {.meaning = "Places about which it is another one.", .most = 1000})
+      .list<GuidePoint>("points", rules::Kind::entries, &FieldSpec::points, pointKeys(),
+                        {.meaning = "Places about which it is another one.", .most = 1000})
       .shared();
 }
 

@@ -244,9 +244,9 @@ Table makeTable() {
       .list<AttractorsSpec>(
           "attractors", Kind::named, &Scene::attractors, attractorKeys(),
           {.meaning = "Points that plants grow towards, by names that rules use.", .most = kMostEntries})
-      .list<FieldSpec>("fields", Kind::named, &Scene::fields, fieldKeys(),
-                       {.meaning = "Guide fields that bend fronts, by names that rules use.",
-                        .most = kMostEntries})
+      .list<FieldSpec>(
+          "fields", Kind::named, &Scene::fields, fieldKeys(),
+          {.meaning = "Guide fields that bend fronts, by names that rules use.", .most = kMostEntries})
       .list<PlantSpec>("plants", Kind::entries, &Scene::plants, plantKeys(),
                        {.meaning = "What grows.", .most = kMostEntries})
       .whole("iterations", &Scene::iterations,

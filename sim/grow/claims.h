@@ -33,7 +33,7 @@ class Claims {
   const Node* takerOf(Voxel v) const;
 
   Voxel size_;
-  std::vector<std::uint64_t> marks_;                 // bits by a hash of the voxel: most are not taken
+  std::vector<std::uint64_t> marks_;               // bits by a hash of the voxel: most are not taken
   std::unordered_map<std::uint64_t, Node> owner_;  // by packed voxel
 };
 

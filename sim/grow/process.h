@@ -157,8 +157,8 @@ class Process {
   /// Plants have been seeded, and nothing has grown: the beginning of memory. Not called for growth that goes
   /// on from a state.
   virtual void begin(const StandView& stand, Columns& memory, Commons& commons) const = 0;
-  /// Growth goes on from a state. Throws BrokenContract where memory or commons are such as this process never
-  /// leaves them, so that what it does with them later cannot go wrong.
+  /// Growth goes on from a state. Throws BrokenContract where memory or commons are such as this process
+  /// never leaves them, so that what it does with them later cannot go wrong.
   virtual void resume(const StandView& stand, const Columns& memory, const Commons& commons) const {
     static_cast<void>(stand), static_cast<void>(memory), static_cast<void>(commons);
   }
@@ -167,9 +167,9 @@ class Process {
   /// What one of them would place. Random numbers must follow from the key alone. A segment's voxels are
   /// those that sim::fit gave, in the world as it is frozen. What stands is the process's own concern: it
   /// asks sim::fit, and view.pieces for what must be exact. What is accepted before it in the same iteration
-  /// is the house's: of pieces that do not go through, a segment is left out (and all of its proposal with it)
-  /// where it shares a voxel with a segment (of another plant, if it goes past its own) or pierces an element
-  /// of another plant, an element where its polygons cross another's or a segment pierces them.
+  /// is the house's: of pieces that do not go through, a segment is left out (and all of its proposal with
+  /// it) where it shares a voxel with a segment (of another plant, if it goes past its own) or pierces an
+  /// element of another plant, an element where its polygons cross another's or a segment pierces them.
   virtual Proposal propose(const SiteView& view, const Site& site, const RandomKey& key) const = 0;
   /// Whether a proposal may stand beside those of its planting that were accepted before it in the same
   /// iteration, `accepted`, when its segment is not hindered: for what the house does not know of.

@@ -14,9 +14,10 @@ Fit fit(const World& world, std::span<const Voxel> piece, std::span<const Voxel>
     if (!contains(occupied.size(), v)) return Fit::outside;
     if (!occupied.at(v) || (!solid.at(v) && own(v))) {
       takes.push_back(v);
-    } else if (passage == Passage::past_own ? !own(v)
-                                            : passage == Passage::around &&
-               std::find(attachment.begin(), attachment.end(), v) == attachment.end()) {
+    } else if (passage == Passage::past_own
+                   ? !own(v)
+                   : passage == Passage::around &&
+                         std::find(attachment.begin(), attachment.end(), v) == attachment.end()) {
       return Fit::blocked;
     }
   }

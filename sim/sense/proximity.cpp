@@ -28,7 +28,8 @@ double meanProximity(const World& world, std::span<const Voxel> voxels) {
   const NearSteps near = world.nearSteps();
   std::int32_t sum = 0;
   for (const Voxel v : voxels) sum += near.at(v);
-  return static_cast<float>(sum) / static_cast<float>(static_cast<std::int32_t>(voxels.size()) * NearSteps::kInVoxel);
+  return static_cast<float>(sum) /
+         static_cast<float>(static_cast<std::int32_t>(voxels.size()) * NearSteps::kInVoxel);
 }
 
 }  // namespace espalier::sim

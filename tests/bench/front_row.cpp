@@ -83,8 +83,7 @@ sim::Growth growIn(sim::World& world, const rules::RuleSet& rules, const std::ve
   settings.iterations = kNoLimit;
   settings.light.sky = skyOf(64);
   settings.light.sun = sim::makeSun({20.0, 180.0, 24}).directions;
-  auto& places =
-      sim::column<Vec3>(settings.commons[rules::attractorsNamed("dome")], rules::kAttractorPlace);
+  auto& places = sim::column<Vec3>(settings.commons[rules::attractorsNamed("dome")], rules::kAttractorPlace);
   for (const Vec3& at : attractors) {
     const Vec3 at_vx = sim::voxelFromWorld(world.frame(), at + root);
     if (world.partAt(sim::voxelAt(at_vx)) == sim::kFree) places.push_back(at_vx);
@@ -112,19 +111,19 @@ void benchOne(int count, double bare_target_s, double world_target_s, Report& re
   const std::vector<Vec3> attractors = dome(count);
   const Vec3 start(0.0);
   rules::Colony colony;
-  const double bare = medianSeconds([&] { colony = rules::colonize(attractors, {&start, 1}, kRules, kNoLimit); });
+  const double bare = medianSeconds([&] {
+    colony = rules::colonize(attractors, {&start, 1}, kRules, kNoLimit);
+  });
   const std::uint64_t state = hashOf(colony.position);
   const std::string row = fmt::format("{} attractors", count);
   report.note(fmt::format("  {}: {} nodes in {} iterations, {} attractors left", row, colony.position.size(),
                           colony.iterations, colony.fates.waiting));
-  const auto target = [](double s) {
-    return s > 0.0 ? std::optional(Target{1e3 * s, false}) : std::nullopt;
-  };
+  const auto target = [](double s) { return s > 0.0 ? std::optional(Target{1e3 * s, false}) : std::nullopt; };
   report.add({"8", "    the front bare", 1e3 * bare, "ms", state, target(bare_target_s)});
   sim::Growth growth;
   const double world = secondsToGrow(Around::nothing, tree(), attractors, growth);
-  report.add({"8", "    as a process in a world", 1e3 * world, "ms", hashOf(growth.plants[0].skeleton.position_vx),
-              target(world_target_s)});
+  report.add({"8", "    as a process in a world", 1e3 * world, "ms",
+              hashOf(growth.plants[0].skeleton.position_vx), target(world_target_s)});
   if (count > 100'000) return;
   rules::RuleSet sensing = tree();
   sensing.bias.light = 0.1;
@@ -155,10 +154,11 @@ void benchFront(int most_attractors, Report& report) {
   const double ours_s = secondsOf([&] { ours = rules::colonize(attractors, {&start, 1}, kRules, kNoLimit); });
   const double peer_s = secondsOf([&] { peer = colonizeByKdTree(attractors, start, kRules, kNoLimit); });
   if (!peer) return report.note("  a kd-tree anew in each iteration: no nanoflann here");
-  report.add({"8", "  a kd-tree of nodes anew in each iteration (nanoflann), 100,000 attractors", 1e3 * peer_s, "ms",
-              hashOf(peer->position)});
+  report.add({"8", "  a kd-tree of nodes anew in each iteration (nanoflann), 100,000 attractors",
+              1e3 * peer_s, "ms", hashOf(peer->position)});
   if (peer->position != ours.position) report.note("    its nodes differ");
-  report.add({"8", "    over the front's", peer_s / ours_s, "times", hashOf(ours.position), Target{10.0, true}});
+  report.add(
+      {"8", "    over the front's", peer_s / ours_s, "times", hashOf(ours.position), Target{10.0, true}});
 }
 
 }  // namespace espalier::bench

@@ -79,7 +79,8 @@ class Peer {
     });
     pulled_.clear();
     for (std::size_t i = 0; i < attractors_.size(); ++i) {
-      if (alive_[i] && nearest_[i] != rules::kNobody) pulled_.push_back({nearest_[i], static_cast<std::int32_t>(i)});
+      if (alive_[i] && nearest_[i] != rules::kNobody)
+        pulled_.push_back({nearest_[i], static_cast<std::int32_t>(i)});
     }
     std::sort(pulled_.begin(), pulled_.end(), [](const Pulled& a, const Pulled& b) {
       return a.node != b.node ? a.node < b.node : a.attractor < b.attractor;
@@ -95,7 +96,8 @@ class Peer {
     for (const Pulled& p : by) left.push_back(p.attractor);
     const auto nearest = [&] {
       return *std::min_element(left.begin(), left.end(), [&](std::int32_t a, std::int32_t b) {
-        return rules::distance2(attractors_[asIndex(a)], from) < rules::distance2(attractors_[asIndex(b)], from);
+        return rules::distance2(attractors_[asIndex(a)], from) <
+               rules::distance2(attractors_[asIndex(b)], from);
       });
     };
     const auto giveUp = [&](std::int32_t attractor) {

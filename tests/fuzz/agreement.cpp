@@ -79,6 +79,7 @@ void agreeOnAttractors(Drawn& attractors, const std::vector<std::string>& meshes
   const std::set<std::string> no_sources{"at", "spread", "density", "count", "spacing"};
   for (DrawnEntry& one : attractors.entries) {
     if (meshes.empty()) takeOut(one.value, {"surface", "inside"});
+    if (numbers.chance(0.7)) takeOut(one.value, {"inside"});  // most drawn meshes have none
     std::set<std::string> sources;
     for (const DrawnEntry& entry : one.value.entries) {
       if (!no_sources.contains(entry.key)) sources.insert(entry.key);

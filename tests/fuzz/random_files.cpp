@@ -103,55 +103,6 @@ RandomFiles::World RandomFiles::drawWorld(tests::Numbers& numbers) {
   return world;
 }
 
-/// A floor, a wall, a box and a sloping quad between -0.5 and 0.5, each a group and a material of its own.
-std::string RandomFiles::writeMesh() {
-  std::string text = "mtllib paint.mtl\n";
-  int vertices = 0;
-  const auto quad = [&](std::array<sim::Vec3, 4> corners) {
-    for (const sim::Vec3& p : corners) text += fmt::format("v {} {} {}\n", p.x, p.y, p.z);
-    text += fmt::format("f {} {} {} {}\n", vertices + 1, vertices + 2, vertices + 3, vertices + 4);
-    vertices += 4;
-  };
-  const auto group = [&](const char* name, const char* material) {
-    text += fmt::format("g {}\nusemtl {}\n", name, material);
-  };
-  group("floor", "stone");
-  quad({sim::Vec3(-0.5, -0.45, -0.5), {-0.5, -0.45, 0.5}, {0.5, -0.45, 0.5}, {0.5, -0.45, -0.5}});
-  if (numbers_.chance(0.7)) {
-    group("wall", "brick");
-    quad({sim::Vec3(-0.5, -0.45, 0.02), {0.5, -0.45, 0.02}, {0.5, 0.4, 0.02}, {-0.5, 0.4, 0.02}});
-  }
-  if (numbers_.chance(0.5)) {
-    group("roof", "brick");
-    quad({sim::Vec3(-0.4, 0.1, -0.4), {-0.4, 0.1, -0.1}, {0.2, 0.33, -0.1}, {0.2, 0.33, -0.4}});
-  }
-  if (numbers_.chance(0.4)) {
-    group("block", "stone");
-    const sim::Vec3 a(0.1, -0.4, -0.4), b(0.4, -0.1, -0.1);
-    quad({sim::Vec3(a.x, a.y, a.z), {b.x, a.y, a.z}, {b.x, a.y, b.z}, {a.x, a.y, b.z}});
-    quad({sim::Vec3(a.x, b.y, a.z), {a.x, b.y, b.z}, {b.x, b.y, b.z}, {b.x, b.y, a.z}});
-    quad({sim::Vec3(a.x, a.y, a.z), {a.x, b.y, a.z}, {b.x, b.y, a.z}, {b.x, a.y, a.z}});
-    quad({sim::Vec3(a.x, a.y, b.z), {b.x, a.y, b.z}, {b.x, b.y, b.z}, {a.x, b.y, b.z}});
-    quad({sim::Vec3(a.x, a.y, a.z), {a.x, a.y, b.z}, {a.x, b.y, b.z}, {a.x, b.y, a.z}});
-    quad({sim::Vec3(b.x, a.y, a.z), {b.x, b.y, a.z}, {b.x, b.y, b.z}, {b.x, a.y, b.z}});
-  }
-  std::ofstream(folder_ / "paint.mtl") << "newmtl stone\nKd 0.5 0.5 0.5\nnewmtl brick\nKd 0.6 0.2 0.1\n";
-  const std::string name = fmt::format("mesh_{}.obj", numbers_.whole(1, 9));
-  std::ofstream(folder_ / name) << text;
-  return name;
-}
-
-std::string RandomFiles::writePoints() {
-  std::ofstream file(folder_ / "points.csv");
-  file << "x,y,z\n";
-  for (int i = numbers_.whole(1, 40); i > 0; --i) {
-    sim::Vec3 at = world_.middle_m;
-    for (int axis = 0; axis < 3; ++axis) at[axis] += numbers_.uniform(-0.5, 0.5) * world_.extent_m()[axis];
-    file << fmt::format("{},{},{}\n", at.x, at.y, at.z);
-  }
-  return "points.csv";
-}
-
 /// A point in the world, or as far outside of it.
 std::string RandomFiles::place(double beyond) {
   sim::Vec3 at;
@@ -200,7 +151,8 @@ void RandomFiles::knowSpecials() {
     text(std::string("attractors.<name>.") + sides,
          [=] { return ValueDrawer::point(side(), side(), side()); });
   text("attractors.<name>.points", [this] { return writePoints(); });
-  text("attractors.<name>.spacing", [this] { return fmt::format("{}", world_.voxel_m * numbers_.whole(1, 9)); });
+  text("attractors.<name>.spacing",
+       [this] { return fmt::format("{}", world_.voxel_m * numbers_.whole(1, 9)); });
   text("attractors.<name>.at", [this] { return place(numbers_.chance(0.9) ? 0.3 : 0.6); });
   text("attractors.<name>.count", [this] { return fmt::format("{}", numbers_.whole(1, 300)); });
   text("plants[].seeds[].at", [this] { return place(numbers_.chance(0.1) ? 0.5 : 0.45); });

@@ -7,8 +7,8 @@
 
 #include "rules/front/colonize.h"
 
-/// The front as rules/front/front.h defines it, written from those words alone: everything is looked for among
-/// all, again in each iteration. Slow, and short.
+/// The front as rules/front/front.h defines it, written from those words alone: everything is looked for
+/// among all, again in each iteration. Slow, and short.
 namespace espalier::tests {
 
 struct Definition {
@@ -38,9 +38,7 @@ struct Definition {
   Vec3 at(int a) const { return attractors[static_cast<std::size_t>(a)]; }
   Vec3 node(int n) const { return nodes[static_cast<std::size_t>(n)]; }
   bool nearerStep(Vec3 from, Vec3 to) const { return 2.0 * away(from, to) > rules.step; }
-  static bool before(Vec3 a, Vec3 b) {
-    return a.x != b.x ? a.x < b.x : a.y != b.y ? a.y < b.y : a.z < b.z;
-  }
+  static bool before(Vec3 a, Vec3 b) { return a.x != b.x ? a.x < b.x : a.y != b.y ? a.y < b.y : a.z < b.z; }
 
   void kill(std::size_t first_new) {
     for (std::size_t a = 0; a < attractors.size(); ++a) {
@@ -194,8 +192,9 @@ struct Definition {
       const double now = away(node(tip), to);
       if (now < rules.influence || !nearerStep(node(tip), to)) continue;
       const Vec3 upright = node(tip) + rules.step * Vec3(0, to.y < node(tip).y ? -1 : 1, 0);
-      steps.push_back({tip, away(upright, to) < now ? upright : node(tip) + rules.step * toward(node(tip), to),
-                       -1, true});
+      steps.push_back({tip,
+                       away(upright, to) < now ? upright : node(tip) + rules.step * toward(node(tip), to), -1,
+                       true});
       left.push_back(static_cast<int>(nodes.size() + steps.size()) - 1);
     }
     trunks = left;

@@ -63,7 +63,8 @@ TEST(FrontDefinition, IsMetInEachReading) {
         if (acts == Acts::on_every_node && repeated && !onto) continue;  // too many: below
         SCOPED_TRACE(::testing::Message() << "every " << (acts == Acts::on_every_node) << " onto " << onto
                                           << " repeated " << repeated);
-        expectTheDefinition(attractors, {{0, 0, 0}, {1, 1, 0}}, {0.3, 2.0, 0.35, acts, onto, repeated}, 200, 90);
+        expectTheDefinition(attractors, {{0, 0, 0}, {1, 1, 0}}, {0.3, 2.0, 0.35, acts, onto, repeated}, 200,
+                            90);
       }
     }
   }

@@ -14,8 +14,8 @@ namespace espalier {
 namespace {
 
 using rules::Acts;
-using rules::Colony;
 using rules::colonize;
+using rules::Colony;
 using rules::FrontRules;
 using sim::Vec3;
 
@@ -114,7 +114,8 @@ TEST(Front, IsNotStalledByOppositeAttractors) {
   EXPECT_EQ(pair.fates.reached, 2U);
   EXPECT_LT(pair.iterations, 20);
   // Three that pull one node every way, and a step that is longer than the way.
-  const Colony over = colonize({{{0.2, 0, 0}, {-0.2, 0, 0}, {0, 0.1, 0}}}, {{{0, 0, 0}}}, {1.0, 10.0, 0.01}, 1000);
+  const Colony over =
+      colonize({{{0.2, 0, 0}, {-0.2, 0, 0}, {0, 0.1, 0}}}, {{{0, 0, 0}}}, {1.0, 10.0, 0.01}, 1000);
   EXPECT_EQ(over.fates.waiting, 0U);
   EXPECT_EQ(over.fates.given_up, 3U);
   EXPECT_LT(over.iterations, 10);
@@ -124,8 +125,7 @@ TEST(Front, EndsWhateverTheRules) {
   for (std::uint64_t stream = 0; stream < 40; ++stream) {
     sim::Draws draws({stream}, sim::Purpose::custom);
     const FrontRules rules{draws.uniform(0.05, 1.5), draws.uniform(0.1, 5.0), draws.uniform(0.0, 1.0)};
-    const Colony colony =
-        colonize(tests::inBox(stream, 200, {0, 3, 0}, {2, 2, 2}), kStart, rules, 100'000);
+    const Colony colony = colonize(tests::inBox(stream, 200, {0, 3, 0}, {2, 2, 2}), kStart, rules, 100'000);
     EXPECT_LT(colony.iterations, 2000) << rules.step << " " << rules.influence << " " << rules.kill;
   }
 }
@@ -141,8 +141,8 @@ TEST(Front, GrowsATrunkUntilTheCrownIsInReach) {
   // Beside it, it turns to it; below ground, down.
   const Colony beside = colonize(high, {{{30, 20, 0}}}, {0.5, 1.5, 0.6}, 1000);
   EXPECT_GT(beside.fates.reached, 50U);
-  const Colony below = colonize(tests::inBox(5, 100, {0, -20, 0}, {2, 2, 2}), {{{0, 0, 0}}},
-                                {0.5, 1.5, 0.6}, 1000);
+  const Colony below =
+      colonize(tests::inBox(5, 100, {0, -20, 0}, {2, 2, 2}), {{{0, 0, 0}}}, {0.5, 1.5, 0.6}, 1000);
   EXPECT_EQ(below.position[5], Vec3(0, -2.5, 0));
 }
 

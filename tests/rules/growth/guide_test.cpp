@@ -47,7 +47,8 @@ double windingOfSpiral(double angle_deg) {
   Vec3 at(1e-3, 0, 0);
   double wound = 0.0;
   while (glm::length(at) < 1.0) {
-    const Vec3 next = at + 1e-4 * rules::guidedWay({0, 0, 0}, rules::guideAt(guide, {at, Vec3(0.0), 1.0, {}, 0}));
+    const Vec3 next =
+        at + 1e-4 * rules::guidedWay({0, 0, 0}, rules::guideAt(guide, {at, Vec3(0.0), 1.0, {}, 0}));
     wound += std::atan2(next.x * at.z - next.z * at.x, next.x * at.x + next.z * at.z);
     at = next;
   }
@@ -225,9 +226,11 @@ TEST(Angles, AreKeptInThePlaneOfBoth) {
   const Vec3 heading(0, 1, 0), way = glm::normalize(Vec3(1, 1, 0));
   EXPECT_EQ(rules::withinAngles(way, heading, 30.0, 60.0), way);
   EXPECT_NEAR(glm::distance(rules::withinAngles(way, heading, 60.0, 90.0),
-                            Vec3(std::sin(kPi / 3), std::cos(kPi / 3), 0)), 0.0, 1e-12);
+                            Vec3(std::sin(kPi / 3), std::cos(kPi / 3), 0)),
+              0.0, 1e-12);
   EXPECT_NEAR(glm::distance(rules::withinAngles(way, heading, 0.0, 30.0),
-                            Vec3(std::sin(kPi / 6), std::cos(kPi / 6), 0)), 0.0, 1e-12);
+                            Vec3(std::sin(kPi / 6), std::cos(kPi / 6), 0)),
+              0.0, 1e-12);
   EXPECT_NEAR(glm::dot(rules::withinAngles(heading, heading, 40.0, 90.0), heading), std::cos(kPi * 40 / 180),
               1e-12);
 }

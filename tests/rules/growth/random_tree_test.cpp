@@ -12,9 +12,9 @@
 #include "sim/base/parallel.h"
 #include "sim/grow/grow.h"
 #include "sim/sense/proximity.h"
-#include "tests/support/plain_tiling.h"
 #include "tests/support/crossings.h"
 #include "tests/support/lively.h"
+#include "tests/support/plain_tiling.h"
 #include "tests/support/plots.h"
 
 namespace espalier {

@@ -37,7 +37,8 @@ const std::vector<BadFile> kBadRules = {
     {"merge key", "bias:\n  <<: {up: 1}\n", {"3:3: unknown key '<<'"}},
     {"unknown process",
      "propagate: random_trees\n",
-     {"2:12: propagate is 'random_trees'; expected one of random_tree, colonization; did you mean 'random_tree'?"}},
+     {"2:12: propagate is 'random_trees'; expected one of random_tree, colonization; did you mean "
+      "'random_tree'?"}},
     // numbers
     {"octal",
      "random_tree: {branch_angle: 010}\n",

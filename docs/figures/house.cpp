@@ -222,7 +222,7 @@ render::Image house() {
     if (!drawn.contains(name) || drawn.at(name) != room.builds_on)
       throw sim::InputError("docs/figures/house.cpp draws other rooms than tests/house/wings.txt says");
   }
-  const float inside = kWide - 2 * kMargin, rules_wide = 0.31f * (inside - kBetween);
+  const float inside = kWide - 2 * kMargin, rules_wide = 0.42f * (inside - kBetween);
   RoomPlan cli("cli", rooms.at("cli"), inside), scenes("scenes", rooms.at("scenes"), inside),
       rules("rules", rooms.at("rules"), rules_wide),
       render("render", rooms.at("render"), inside - kBetween - rules_wide),

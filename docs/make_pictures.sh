@@ -53,6 +53,7 @@ small $work/kept_growth.png kept_growth 1040
 
 grow scenes/library/w_dome.yaml
 small $work/w_dome/steps.png colonization_steps 1600
+small $work/w_dome/vines.png broadleaf 960
 
 grow scenes/library/figure_2.yaml
 small $work/figure_2/figure_2.png flat_walk 960

@@ -130,6 +130,11 @@ struct PlantSpec {
   std::optional<Scatter> scatter;
 };
 
+/// What the attractors of a planting's own crown are called.
+inline std::string crownOf(const std::string& planting) {
+  return "crown of " + planting;
+}
+
 /// Points that plants grow towards, from exactly one source.
 struct AttractorsSpec {
   std::string name;

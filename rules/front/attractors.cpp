@@ -327,22 +327,25 @@ void end(Attractors& attractors, std::int32_t at, Fate fate, int iteration, std:
   leaveLeaf(attractors, leafOf(attractors, at), n, fate, iteration);
 }
 
+void letGoOf(Attractors& attractors, std::int32_t at, std::span<const sim::Vec3> nodes, int iteration,
+             Pulls& pulls) {
+  const auto n = asIndex(at);
+  if (++attractors.let_go[n] == kMostLetGo)
+    return end(attractors, at, Fate::given_up, iteration, nodes, pulls);
+  if (attractors.nearest[n] == kNobody) return;
+  leave(attractors.nearest[n], attractors.at(at), nodes, pulls);
+  attractors.nearest[n] = kNobody;
+  attractors.nearest2[n] = kFar;
+  raiseFarthest(attractors, at);
+}
+
 void letGo(Attractors& attractors, std::int32_t node, std::span<const sim::Vec3> nodes, Reach reach,
            Pulls& pulls) {
   std::vector<std::int32_t> numbers;  // as they change places where one ends
   for (const std::int32_t i : waitingFor(attractors, node, nodes[asIndex(node)], reach.influence))
     numbers.push_back(attractors.number[asIndex(i)]);
-  for (const std::int32_t number : numbers) {
-    const std::int32_t i = attractors.place[asIndex(number)];
-    if (++attractors.let_go[asIndex(i)] == kMostLetGo) {
-      end(attractors, i, Fate::given_up, reach.iteration, nodes, pulls);
-      continue;
-    }
-    leave(node, attractors.at(i), nodes, pulls);
-    attractors.nearest[asIndex(i)] = kNobody;
-    attractors.nearest2[asIndex(i)] = kFar;
-    raiseFarthest(attractors, i);
-  }
+  for (const std::int32_t number : numbers)
+    letGoOf(attractors, attractors.place[asIndex(number)], nodes, reach.iteration, pulls);
 }
 
 }  // namespace espalier::rules

@@ -102,6 +102,11 @@ void end(Attractors& attractors, std::int32_t at, Fate fate, int iteration, std:
 /// try would go on for ever.
 inline constexpr std::int32_t kMostLetGo = 4;
 
+/// An attractor's node, if it has one, lets go of it: it waits for the next that comes within reach. `at` is
+/// its index, and may be another's after this.
+void letGoOf(Attractors& attractors, std::int32_t at, std::span<const sim::Vec3> nodes, int iteration,
+             Pulls& pulls);
+
 /// A node lets go of all its attractors: they wait for the next that comes within reach.
 void letGo(Attractors& attractors, std::int32_t node, std::span<const sim::Vec3> nodes, Reach reach,
            Pulls& pulls);

@@ -48,9 +48,11 @@ Colony colonize(std::span<const sim::Vec3> attractors, std::span<const sim::Vec3
     });
     if (ways.empty()) break;
     joining.clear();
-    for (const Way& way : ways) joining.push_back({endOfWay(front, way, way.direction, rules), way.node});
+    std::vector<Goal> goals;
+    for (const Way& way : ways) goals.push_back(goalOf(front, way, way.direction, rules));
     for (std::size_t i = 0; i < ways.size(); ++i) {
-      if (!ways[i].trunk) taken(front, ways[i].node, joining[i].at, rules);
+      joining.push_back({goals[i].end, ways[i].node});
+      if (!ways[i].trunk) taken(front, goals[i].attractor, rules);
       const auto node = static_cast<std::int32_t>(colony.parent.size());
       colony.parent.push_back(ways[i].node);
       colony.born.push_back(colony.iterations);
@@ -60,17 +62,8 @@ Colony colonize(std::span<const sim::Vec3> attractors, std::span<const sim::Vec3
     join(front, joining, rules);
   }
   colony.position = std::move(front.nodes);
-  colony.fates = fatesOf(front);
+  colony.fates = fatesOf(front.attractors.fate);
   return colony;
-}
-
-std::string endingOf(const Fates& fates, bool iterations_left) {
-  if (fates.waiting == 0 && fates.given_up == 0) return "all attractors were reached";
-  if (iterations_left) {
-    return fmt::format("no attractor is in reach any more: {} of {} wait", fates.waiting,
-                       fates.waiting + fates.reached + fates.given_up + fates.taken);
-  }
-  return fmt::format("all iterations were done while {} attractors wait", fates.waiting);
 }
 
 }  // namespace espalier::rules

@@ -25,7 +25,4 @@ struct Colony {
 Colony colonize(std::span<const sim::Vec3> attractors, std::span<const sim::Vec3> starts, FrontRules rules,
                 int iterations);
 
-/// Why growth ended, in words.
-std::string endingOf(const Fates& fates, bool iterations_left);
-
 }  // namespace espalier::rules

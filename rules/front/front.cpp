@@ -92,25 +92,35 @@ bool waits(const Attractors& attractors, std::int32_t number) {
   return attractors.fate[at] == static_cast<std::int32_t>(Fate::waiting);
 }
 
+/// Of those that pick an attractor the nearest is remembered.
+void compete(Front& front, std::int32_t node) {
+  const std::size_t number = asIndex(front.tried[asIndex(node)]);
+  const sim::Vec3 to = front.attractors.at(front.attractors.place[number]);
+  const double away2 = distance2(front.nodes[asIndex(node)], to);
+  if (away2 > front.picked2[number] || (away2 == front.picked2[number] && node > front.picker[number]))
+    return;
+  front.picked2[number] = away2;
+  front.picker[number] = node;
+}
+
 /// The attractor that is nearest to a node, by number: the same until it ends; kNobody where none is within
 /// reach any more. Those that no step leads nearer to are given up.
 std::int32_t pickOf(Front& front, std::int32_t node, const FrontRules& rules) {
   const std::size_t n = asIndex(node);
-  if (front.tried[n] != kNobody && waits(front.attractors, front.tried[n])) return front.tried[n];
+  if (front.gait[n] == static_cast<std::int32_t>(Gait::spent)) return kNobody;
+  if (front.tried[n] != kNobody && waits(front.attractors, front.tried[n])) {
+    if (front.gait[n] != static_cast<std::int32_t>(Gait::straight)) compete(front, node);
+    return front.tried[n];
+  }
   setGait(front, n, kNobody, Gait::none);
   while (true) {
     const std::int32_t at = nearestWaiting(front.attractors, front.nodes[n], rules.influence);
     if (at == kNobody) return kNobody;
     const sim::Vec3 to = front.attractors.at(at);
     if (rules.onto || leadsNearer(front.nodes[n], to, rules)) {
-      const auto number = asIndex(front.attractors.number[asIndex(at)]);
-      front.tried[n] = static_cast<std::int32_t>(number);
-      const double away2 = distance2(front.nodes[n], to);
-      if (away2 < front.picked2[number] || (away2 == front.picked2[number] && node < front.picker[number])) {
-        front.picked2[number] = away2;
-        front.picker[number] = node;
-      }
-      return static_cast<std::int32_t>(number);
+      front.tried[n] = front.attractors.number[asIndex(at)];
+      compete(front, node);
+      return front.tried[n];
     }
     end(front.attractors, at, Fate::given_up, rules.iteration, front.nodes, front.pulls);
   }
@@ -226,28 +236,43 @@ Way trunkWay(const Front& front, std::int32_t tip, const OrderRules& by_order) {
   return {tip, 0, nearer ? upright : unitTo(from, to), kNobody, true};
 }
 
-sim::Vec3 endOfWay(const Front& front, const Way& way, sim::Vec3 direction, const OrderRules& by_order) {
+Goal goalOf(const Front& front, const Way& way, sim::Vec3 direction, const OrderRules& by_order) {
   const FrontRules& rules = by_order.at(nextOrder(front, way.node));
   const sim::Vec3 end = front.nodes[asIndex(way.node)] + rules.step * direction;
-  if (!rules.onto || way.trunk) return end;
+  if (!rules.onto || way.trunk) return {end, way.attractor};
   const std::int32_t at = way.attractor != kNobody
                               ? front.attractors.place[asIndex(way.attractor)]
                               : nearestWaiting(front.attractors, end, kEverywhere, way.node);
-  return front.attractors.at(at);
+  return {front.attractors.at(at), front.attractors.number[asIndex(at)]};
 }
 
-void taken(Front& front, std::int32_t from, sim::Vec3 at, const OrderRules& by_order) {
+void taken(Front& front, std::int32_t attractor, const OrderRules& by_order) {
   const FrontRules& rules = by_order.trunk();
-  if (!rules.onto) return;
-  const std::int32_t of_node = rules.acts == Acts::on_nearest_node ? from : kNobody;
-  const std::int32_t attractor = nearestWaiting(front.attractors, at, kEverywhere, of_node);
-  if (attractor != kNobody && front.attractors.at(attractor) == at)
-    end(front.attractors, attractor, Fate::taken, rules.iteration, front.nodes, front.pulls);
+  if (!rules.onto || !waits(front.attractors, attractor)) return;
+  end(front.attractors, front.attractors.place[asIndex(attractor)], Fate::taken, rules.iteration, front.nodes,
+      front.pulls);
 }
 
 void giveUp(Front& front, std::int32_t node, const OrderRules& by_order) {
   const FrontRules& rules = by_order.at(front.order[asIndex(node)]);
   letGo(front.attractors, node, front.nodes, {rules.influence, rules.kill, rules.iteration}, front.pulls);
+}
+
+void giveUpOne(Front& front, std::int32_t node, std::int32_t attractor, const OrderRules& by_order) {
+  const FrontRules& rules = by_order.trunk();
+  if (!waits(front.attractors, attractor)) return;
+  const auto number = asIndex(attractor);
+  if (rules.acts == Acts::on_nearest_node) {
+    const std::int32_t at = front.attractors.place[number];
+    if (front.attractors.nearest[asIndex(at)] == node)
+      letGoOf(front.attractors, at, front.nodes, rules.iteration, front.pulls);
+    return;
+  }
+  setGait(front, asIndex(node), kNobody, Gait::spent);
+  if (front.picker[number] != node) return;
+  front.picker[number] = kNobody;
+  front.picked2[number] = kEverywhere;
+  letGoOf(front.attractors, front.attractors.place[number], front.nodes, rules.iteration, front.pulls);
 }
 
 void keepForLater(Front& front, std::int32_t node) {
@@ -270,10 +295,10 @@ void requireSound(const FrontRules& rules) {
   require(std::isfinite(rules.kill) && rules.kill >= 0.0, "kill distance", rules.kill, "a number from 0 on");
 }
 
-Fates fatesOf(const Front& front) {
+Fates fatesOf(std::span<const std::int32_t> fate) {
   Fates fates;
-  for (const std::int32_t fate : front.attractors.fate) {
-    switch (static_cast<Fate>(fate)) {
+  for (const std::int32_t one : fate) {
+    switch (static_cast<Fate>(one)) {
       case Fate::waiting:
         ++fates.waiting;
         break;
@@ -289,6 +314,15 @@ Fates fatesOf(const Front& front) {
     }
   }
   return fates;
+}
+
+std::string endingOf(const Fates& fates, bool moves) {
+  const std::size_t came = fates.reached + fates.taken, all = came + fates.given_up + fates.waiting;
+  if (came == all) return "all attractors were reached";
+  if (fates.waiting == 0)
+    return fmt::format("{} of {} attractors were reached; no way led to the others", came, all);
+  if (moves) return fmt::format("the iterations ended while {} of {} attractors wait", fates.waiting, all);
+  return fmt::format("no attractor is in reach any more; {} of {} wait", fates.waiting, all);
 }
 
 }  // namespace espalier::rules

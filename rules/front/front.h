@@ -49,7 +49,12 @@ struct OrderRules {
 };
 
 /// How a node grew when it last did.
-enum class Gait : std::int32_t { none, pulled, straight };
+enum class Gait : std::int32_t {
+  none,
+  pulled,    ///< by all its attractors
+  straight,  ///< for one of them
+  spent      ///< with on_every_node: its pick cannot be come to from it, and it picks no other
+};
 
 /// All that the front remembers, in plain arrays. A node's number is its place in `nodes`: the older, the
 /// lower.
@@ -65,6 +70,7 @@ struct Front {
   // With on_every_node, by the attractors' numbers: the nearest of those that pick it, and how far that is.
   std::vector<std::int32_t> picker;
   std::vector<double> picked2;
+  std::vector<std::int32_t> moved;  ///< one: the last iteration in which anything was sent anywhere
 };
 
 /// Where a node would go.
@@ -99,16 +105,25 @@ std::vector<Way> waysOf(Front& front, std::vector<std::int32_t>& active, const O
 /// attractor is in reach now, none waits any more, or no step leads nearer.
 Way trunkWay(const Front& front, std::int32_t tip, const OrderRules& rules);
 
-/// Where a way ends that is gone in a direction of its own or another: a step farther, or with rules.onto on
+/// Where a way ends.
+struct Goal {
+  sim::Vec3 end{0.0};
+  std::int32_t attractor = kNobody;  ///< the number of the one that it goes for, if it goes for one alone
+};
+/// That of a way which is gone in a direction of its own or another: a step farther, or with rules.onto on
 /// the attractor of its node that is nearest to there.
-sim::Vec3 endOfWay(const Front& front, const Way& way, sim::Vec3 direction, const OrderRules& rules);
+Goal goalOf(const Front& front, const Way& way, sim::Vec3 direction, const OrderRules& rules);
 
-/// A node stands at the end of a way from another: with rules.onto the attractor there is used up. To be
-/// called before the new one joins.
-void taken(Front& front, std::int32_t from, sim::Vec3 end, const OrderRules& rules);
+/// A node stands at the end of a way: with rules.onto the attractor there is used up. To be called before the
+/// new one joins.
+void taken(Front& front, std::int32_t attractor, const OrderRules& rules);
 
 /// A node cannot grow any more: what it was pulled by waits for the next that comes within reach.
 void giveUp(Front& front, std::int32_t node, const OrderRules& rules);
+
+/// A node went for an attractor alone and cannot come to it: that one waits for another. To be called after
+/// all that grew has joined; nothing happens if another has it by then.
+void giveUpOne(Front& front, std::int32_t node, std::int32_t attractor, const OrderRules& rules);
 
 /// A node has not grown though it could: it will try the same again.
 void keepForLater(Front& front, std::int32_t node);
@@ -123,6 +138,9 @@ void requireSound(const FrontRules& rules);
 struct Fates {
   std::size_t waiting = 0, reached = 0, given_up = 0, taken = 0;
 };
-Fates fatesOf(const Front& front);
+Fates fatesOf(std::span<const std::int32_t> fate);
+
+/// Why growth ended, in words. `moves`: it was still going on.
+std::string endingOf(const Fates& fates, bool moves);
 
 }  // namespace espalier::rules

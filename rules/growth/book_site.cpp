@@ -94,7 +94,7 @@ sim::Plant seedlingOf(const RuleBook& book) {
 }
 
 sim::Wants wantsOf(const RuleBook& book) {
-  // A walk's report and colours show the light that it grew in; fronts grow a hundred times as fast without.
+  // A walk's report and colours show the light that it grew in; fronts grow several times as fast without.
   sim::Wants wants{.light = book.top().propagate == Propagate::random_tree};
   forEachSet(book.top(), [&](const RuleSet& set, const std::string&) {
     wants.light = wants.light || asksForLight(set);

@@ -31,8 +31,6 @@ class ColonizationProcess final : public sim::Process {
   sim::Plant seedling() const override { return seedlingOf(book_); }
 
   void begin(const sim::StandView& stand, sim::Columns& memory, sim::Commons& commons) const override;
-  void resume(const sim::StandView& stand, const sim::Columns& memory,
-              const sim::Commons& commons) const override;
   std::vector<sim::Site> due(const sim::StandView& stand, sim::Columns& memory,
                              sim::Commons& commons) const override;
   sim::Proposal propose(const sim::SiteView& view, const sim::Site& site,
@@ -46,8 +44,9 @@ class ColonizationProcess final : public sim::Process {
  private:
   sim::Columns& home(sim::Commons& commons) const;
   OrderRules rulesIn(const sim::Columns& memory, int iteration) const;
-  FrontLengths lengths(const Attractors& attractors, int order) const;
-  Guidance guidance(const sim::Columns& memory, const sim::Commons& commons) const;
+  FrontLengths lengths(FrontLengths suitable, int order) const;
+  Guidance guidance(const sim::StandView& stand, const sim::Columns& memory,
+                    const sim::Commons& commons) const;
 
   RuleBook book_;
   sim::Wants wants_;
@@ -82,18 +81,15 @@ OrderRules ColonizationProcess::rulesIn(const sim::Columns& memory, int iteratio
   return rules;
 }
 
-FrontLengths ColonizationProcess::lengths(const Attractors& attractors, int order) const {
+/// Of one order: those that it gives, and else the suitable ones.
+FrontLengths ColonizationProcess::lengths(FrontLengths lengths, int order) const {
   const RuleSet& set = book_.ofOrder(order);
   const Colonization& given = set.colonization;
-  FrontLengths lengths;
-  if (!given.step || !given.influence || !given.kill) {
-    lengths = suitableLengths(spacingOf(attractors));
-    if (lengths.step == 0.0) {
-      throw sim::InputError(fmt::format(
-          "rule set '{}': its attractors '{}' are one, or lie in one place, so that no length follows from "
-          "how far they are apart; expected colonization.step, influence and kill",
-          set.name, front_.attractors));
-    }
+  if ((!given.step || !given.influence || !given.kill) && lengths.step == 0.0) {
+    throw sim::InputError(fmt::format(
+        "rule set '{}': its attractors '{}' are one, or lie in one place, so that no length follows from "
+        "how far they are apart; expected colonization.step, influence and kill",
+        set.name, front_.attractors));
   }
   if (given.step) lengths.step = given.step->number;
   if (given.influence) lengths.influence = given.influence->number;
@@ -109,7 +105,8 @@ FrontLengths ColonizationProcess::lengths(const Attractors& attractors, int orde
   return lengths;
 }
 
-Guidance ColonizationProcess::guidance(const sim::Columns& memory, const sim::Commons& commons) const {
+Guidance ColonizationProcess::guidance(const sim::StandView& stand, const sim::Columns& memory,
+                                       const sim::Commons& commons) const {
   Guidance guidance;
   for (const std::string& name : front_.fields) {
     const auto at = commons.find(fieldNamed(name));
@@ -119,8 +116,12 @@ Guidance ColonizationProcess::guidance(const sim::Columns& memory, const sim::Co
     }
     guidance.guides.push_back(guideIn(at->second));
   }
+  if (guidance.guides.empty()) return guidance;
   guidance.farthest_vx = sim::column<double>(memory, kFarthest);
-  guidance.normals = &sim::column<sim::Vec3>(commons.at(attractorsNamed(front_.attractors)), "normal");
+  if (guidance.farthest_vx.size() != stand.plants.size())
+    throw sim::BrokenContract("a front that does not know how far its attractors are");
+  guidance.normals =
+      &sim::column<sim::Vec3>(commons.at(attractorsNamed(front_.attractors)), kAttractorNormal);
   return guidance;
 }
 
@@ -130,13 +131,14 @@ void ColonizationProcess::begin(const sim::StandView& stand, sim::Columns& memor
   if (!holdsFront(columns)) {
     const auto& places = sim::column<sim::Vec3>(columns, kAttractorPlace);
     Front fresh = frontOf(places);
-    LentFront lent(columns);
-    lent.front = std::move(fresh);
+    fresh.moved = {stand.iteration};
+    const LentFront kept(columns, std::move(fresh));
   }
   LentFront lent(columns);
+  const FrontLengths suitable = suitableLengths(spacingOf(lent.front.attractors));
   auto& all = sim::column<double>(memory, kLengths);
   for (int order = 0; order <= kTwig; ++order) {
-    const FrontLengths found = lengths(lent.front.attractors, order);
+    const FrontLengths found = lengths(suitable, order);
     all.insert(all.end(), {found.step, found.influence, found.kill});
   }
   FrontMemory own;
@@ -151,22 +153,10 @@ void ColonizationProcess::begin(const sim::StandView& stand, sim::Columns& memor
   own.trunks = own.active;
   if (!front_.fields.empty()) {
     sim::column<double>(memory, kFarthest) = farthestOf(lent.front.attractors, starts);
-    guidance(memory, commons);  // says at once what is not there
+    guidance(stand, memory, commons);  // says at once what is not there
   }
   join(lent.front, joining, rulesIn(memory, stand.iteration));
   keep(own, memory);
-}
-
-void ColonizationProcess::resume(const sim::StandView& stand, const sim::Columns& memory,
-                                 const sim::Commons& commons) const {
-  const auto at = commons.find(attractorsNamed(front_.attractors));
-  if (at == commons.end()) throw sim::BrokenContract("a front without its attractors");
-  requireSoundFront(at->second);
-  rulesIn(memory, stand.iteration);
-  frontMemory(memory, stand);
-  if (!front_.fields.empty() && sim::column<double>(memory, kFarthest).size() != stand.plants.size())
-    throw sim::BrokenContract("a front that does not know how far its attractors are");
-  guidance(memory, commons);
 }
 
 std::vector<sim::Site> ColonizationProcess::due(const sim::StandView& stand, sim::Columns& memory,
@@ -190,8 +180,7 @@ std::vector<sim::Site> ColonizationProcess::due(const sim::StandView& stand, sim
     own.active[kept++] = node;
     for (; way != ways.end() && way->node == node.front; ++way) {
       const auto gait = static_cast<Gait>(front.gait[static_cast<std::size_t>(node.front)]);
-      own.errands.push_back(
-          {node, way->number, gait, false, way->direction, endOfWay(front, *way, way->direction, rules)});
+      aim(own.errands.emplace_back(Errand{node, way->number, gait}), front, *way, rules);
     }
   }
   own.active.resize(kept);
@@ -199,11 +188,14 @@ std::vector<sim::Site> ColonizationProcess::due(const sim::StandView& stand, sim
     requireNodes(front, {&tip.front, 1});
     const Way up = trunkWay(front, tip.front, rules);
     if (up.node != kNobody)
-      own.errands.push_back(
-          {tip, 0, Gait::straight, true, up.direction, endOfWay(front, up, up.direction, rules)});
+      aim(own.errands.emplace_back(Errand{tip, 0, Gait::straight, true}), front, up, rules);
     return up.node == kNobody;
   });
-  bend(own.errands, front, stand, book_, guidance(memory, commons));
+  if (!own.errands.empty()) front.moved = {stand.iteration};
+  // Nodes that pick an attractor wait for another to come to it. If none of those that share it goes
+  // anywhere, they would wait for ever.
+  if (stand.iteration > front.moved.front() + 1) own.active.clear();
+  bend(own.errands, front, stand, book_, rules, guidance(stand, memory, commons));
   const auto place = [](const Errand& e) { return std::tuple(e.from.plant, e.from.node, e.number); };
   std::sort(own.errands.begin(), own.errands.end(),
             [&](const Errand& a, const Errand& b) { return place(a) < place(b); });
@@ -237,6 +229,34 @@ bool waitsForNext(const sim::Verdict& verdict) {
   return verdict.outcome == Outcome::resting || verdict.outcome == Outcome::claimed;
 }
 
+/// Whether what a node goes for alone is not all that it could go for.
+bool goesForOneOfMany(const FrontRules& rules) {
+  return rules.onto || rules.repeated || rules.acts == Acts::on_every_node;
+}
+
+/// Whether a step aside served: where all of a node's attractors count, that shows when the step has joined.
+bool cameNearer(const Errand& errand, sim::Vec3 at, const Front& front, const FrontRules& rules) {
+  if (errand.attractor == kNobody) return true;
+  if (!goesForOneOfMany(rules)) return false;
+  const sim::Vec3 to =
+      front.attractors.at(front.attractors.place[static_cast<std::size_t>(errand.attractor)]);
+  return distance2(at, to) < distance2(front.nodes[static_cast<std::size_t>(errand.from.front)], to);
+}
+
+/// A node found no way, or may not grow. One that all its attractors pulled goes straight for one of them
+/// next.
+void failed(const Errand& errand, Outcome outcome, Front& front, const OrderRules& rules) {
+  const bool no_way = outcome == Outcome::no_trial;
+  const bool picks = rules.trunk().acts == Acts::on_every_node;
+  if (errand.attractor == kNobody) {
+    if (!no_way) giveUp(front, errand.from.front, rules);
+  } else if (picks || (no_way && goesForOneOfMany(rules.trunk()))) {
+    giveUpOne(front, errand.from.front, errand.attractor, rules);
+  } else {
+    giveUp(front, errand.from.front, rules);
+  }
+}
+
 void ColonizationProcess::settle(const sim::StandView& stand, std::span<const sim::Verdict> verdicts,
                                  sim::Columns& memory, sim::Commons& commons) const {
   LentFront lent(home(commons));
@@ -247,31 +267,36 @@ void ColonizationProcess::settle(const sim::StandView& stand, std::span<const si
     throw sim::BrokenContract("a front that was told of other sites");
   own.trunks.clear();
   std::vector<NewNode> joined;
-  std::vector<FrontNode> idle;  // unless what they sent out drew something away
+  std::vector<Errand> aside;  // those idled that did not come nearer to what they went for
   for (std::size_t i = 0; i < verdicts.size(); ++i) {
     const sim::Verdict& verdict = verdicts[i];
     const Errand& errand = own.errands[i];
     if (verdict.node != sim::kNoNode) {
       const sim::Vec3 at = stand.plants[static_cast<std::size_t>(errand.from.plant)]
                                .skeleton.position_vx[static_cast<std::size_t>(verdict.node)];
-      if (!errand.trunk) taken(front, errand.from.front, at, rules);
+      if (!errand.trunk) taken(front, errand.attractor, rules);
       const FrontNode fresh{static_cast<std::int32_t>(front.nodes.size() + joined.size()), errand.from.plant,
                             verdict.node};
       joined.push_back({at, errand.from.front});
       own.active.push_back(fresh);
       if (errand.trunk) own.trunks.push_back(fresh);
-      if (!errand.trunk && errand.gait == Gait::straight && at != errand.end_vx) idle.push_back(errand.from);
+      if (!errand.trunk && at != errand.end_vx && !cameNearer(errand, at, front, rules.trunk()))
+        aside.push_back(errand);
     } else if (waitsForNext(verdict)) {
       if (errand.trunk) own.trunks.push_back(errand.from);
       if (!errand.trunk) keepForLater(front, errand.from.front);
-    } else if (!errand.trunk && (errand.gait == Gait::straight || verdict.outcome != Outcome::no_trial)) {
-      giveUp(front, errand.from.front, rules);
+    } else if (!errand.trunk) {
+      failed(errand, verdict.outcome, front, rules);
     }
   }
   join(front, joined, rules);
-  for (const FrontNode& node : idle) {
-    const auto n = static_cast<std::size_t>(node.front);
-    if (front.pulls.count[n] == front.tried[n]) giveUp(front, node.front, rules);
+  for (const Errand& errand : aside) {
+    const auto n = static_cast<std::size_t>(errand.from.front);
+    if (goesForOneOfMany(rules.trunk())) {
+      giveUpOne(front, errand.from.front, errand.attractor, rules);
+    } else if (front.pulls.count[n] == front.tried[n]) {
+      giveUp(front, errand.from.front, rules);
+    }
   }
   own.errands.clear();
   keep(own, memory);

@@ -64,8 +64,15 @@ std::vector<double> farthestOf(const Attractors& attractors, const std::vector<s
   return farthest;
 }
 
+void aim(Errand& errand, const Front& front, const Way& way, const OrderRules& rules) {
+  const Goal goal = goalOf(front, way, way.direction, rules);
+  errand.direction = way.direction;
+  errand.end_vx = goal.end;
+  errand.attractor = goal.attractor;
+}
+
 void bend(std::vector<Errand>& errands, const Front& front, const sim::StandView& stand, const RuleBook& book,
-          const Guidance& guidance) {
+          const OrderRules& rules, const Guidance& guidance) {
   sim::parallelFor(errands.size(), 64, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       Errand& errand = errands[i];
@@ -82,6 +89,10 @@ void bend(std::vector<Errand>& errands, const Front& front, const sim::StandView
       if (least > 0.0 || branching.angle_max_deg < 180.0)
         way = withinAngles(way, headingOf(skeleton, errand.from.node), least, branching.angle_max_deg);
       if (way == errand.direction) continue;
+      if (book.top().colonization.onto) {  // it ends on an attractor: perhaps on another one
+        if (errand.gait == Gait::pulled) aim(errand, front, {errand.from.front, errand.number, way}, rules);
+        continue;
+      }
       errand.end_vx = from + glm::length(errand.end_vx - from) * way;
       errand.direction = way;
     }

@@ -19,10 +19,13 @@ struct Guidance {
 /// How far the farthest of the attractors is that have each start as their nearest.
 std::vector<double> farthestOf(const Attractors& attractors, const std::vector<sim::Vec3>& starts);
 
+/// Sends an errand a way.
+void aim(Errand& errand, const Front& front, const Way& way, const OrderRules& rules);
+
 /// Turns errands, and where they end. Those of nodes that go straight for an attractor keep to the angles
-/// alone. Parallel inside.
+/// alone; where ways end on attractors, what is turned decides on which. Parallel inside.
 void bend(std::vector<Errand>& errands, const Front& front, const sim::StandView& stand, const RuleBook& book,
-          const Guidance& guidance);
+          const OrderRules& rules, const Guidance& guidance);
 
 /// Whether a node may send out another limb, as far as the rules of its own order say where limbs branch.
 bool mayBranch(const sim::StandView& stand, const RuleBook& book, const FrontNode& node, std::int32_t order);

@@ -44,6 +44,7 @@ void forEachArray(Front_& front, Visit visit) {
   visit("node_sent", front.sent);
   visit("pick_node", front.picker);
   visit("pick_nearest2", front.picked2);
+  visit("front_moved", front.moved);
 }
 
 void require(bool sound, const char* what) {
@@ -68,6 +69,14 @@ void requireLengths(const Front& front) {
   require(front.picker.size() == front.picked2.size() &&
               (front.picker.empty() || front.picker.size() == a.x.size()),
           "picks whose columns differ in length");
+  require(front.moved.size() == 1, "no word of when it last moved");
+}
+
+bool holds(const Attractors& a, std::size_t t, sim::Vec3 p) {
+  for (int axis = 0; axis < 3; ++axis) {
+    if (!(a.low[t][axis] <= p[axis] && p[axis] <= a.high[t][axis])) return false;
+  }
+  return true;
 }
 
 bool between(std::int32_t value, std::int32_t low, std::size_t end) {
@@ -90,6 +99,9 @@ void requireSoundTree(const Attractors& a) {
       for (std::int32_t i = a.first[t]; i < a.last[t]; ++i) {
         const bool waits = a.fate[static_cast<std::size_t>(i)] == static_cast<std::int32_t>(Fate::waiting);
         require(waits == (i < a.first[t] + a.waiting[t]), "attractors out of their order");
+        require(holds(a, t, a.at(i)), "an attractor outside of its leaf");
+        require(!waits || a.farthest2[t] >= a.nearest2[static_cast<std::size_t>(i)],
+                "an attractor that is farther than its leaf says");
       }
       continue;
     }
@@ -101,6 +113,8 @@ void requireSoundTree(const Attractors& a) {
     for (std::int32_t c = a.child[t]; c < a.child[t] + a.children[t]; ++c) {
       const auto n = static_cast<std::size_t>(c);
       require(!reached[n] && a.first[n] == at, "children that do not follow each other");
+      require(holds(a, t, a.low[n]) && holds(a, t, a.high[n]), "a part that sticks out of its parent");
+      require(a.farthest2[t] >= a.farthest2[n], "a part that is farther than its parent says");
       reached[n] = true;
       at = a.last[n];
     }
@@ -127,15 +141,15 @@ void requireSoundNumbers(const Front& front) {
       ++pulled[static_cast<std::size_t>(a.nearest[i])];
   }
   require(pulled == front.pulls.count, "nodes that others pull than say so");
-  for (const std::int32_t gait : front.gait) require(between(gait, 0, 3), "a node of no known gait");
+  for (const std::int32_t gait : front.gait) require(between(gait, 0, 4), "a node of no known gait");
   for (const std::int32_t order : front.order)
     require(between(order, 0, front.nodes.size()), "a node of no order");
   for (const std::int32_t node : front.picker)
     require(between(node, kNobody, front.nodes.size()), "a pick of a node that is not there");
-  if (!front.picker.empty()) {
-    for (const std::int32_t tried : front.tried)
-      require(between(tried, kNobody, a.x.size()), "a pick of an attractor that is not there");
-  }
+  // Of nodes that pick an attractor its number, of others how many pulled.
+  const std::size_t most = a.x.size() + (front.picker.empty() ? 1 : 0);
+  for (const std::int32_t tried : front.tried)
+    require(between(tried, kNobody, most), "a node that tried what is not there");
 }
 
 void readNodes(const sim::Columns& memory, const std::string& what, const sim::StandView& stand,
@@ -191,11 +205,25 @@ bool holdsFront(const sim::Columns& columns) {
   return columns.contains("front_x");
 }
 
-void requireSoundFront(const sim::Columns& columns) {
-  sim::Columns copy = columns;
-  const LentFront lent(copy);
-  requireSoundTree(lent.front.attractors);
-  requireSoundNumbers(lent.front);
+Fates fatesIn(const sim::Columns& columns) {
+  if (holdsFront(columns)) return fatesOf(sim::column<std::int32_t>(columns, "front_fate"));
+  return {.waiting = sim::column<sim::Vec3>(columns, kAttractorPlace).size()};
+}
+
+std::string endingIn(const sim::Columns& columns, int iterations, bool by_itself) {
+  if (!holdsFront(columns)) return "nothing grows to them";
+  const auto& moved = sim::column<std::int32_t>(columns, "front_moved");
+  return endingOf(fatesIn(columns), !by_itself && !moved.empty() && moved.front() >= iterations - 1);
+}
+
+void requireSoundFronts(const sim::Commons& commons) {
+  for (const auto& [name, columns] : commons) {
+    if (!holdsFront(columns)) continue;
+    sim::Columns copy = columns;
+    const LentFront lent(copy);
+    requireSoundTree(lent.front.attractors);
+    requireSoundNumbers(lent.front);
+  }
 }
 
 FrontMemory frontMemory(const sim::Columns& memory, const sim::StandView& stand) {
@@ -208,13 +236,14 @@ FrontMemory frontMemory(const sim::Columns& memory, const sim::StandView& stand)
   const Whole& how = sim::column<std::int32_t>(memory, "errand_how");
   const auto& direction = sim::column<sim::Vec3>(memory, "errand_direction");
   const auto& end = sim::column<sim::Vec3>(memory, "errand_end");
-  require(number.size() == from.size() && how.size() == from.size() && direction.size() == from.size() &&
-              end.size() == from.size(),
+  const Whole& attractor = sim::column<std::int32_t>(memory, "errand_attractor");
+  require(attractor.size() == from.size() && number.size() == from.size() && how.size() == from.size() &&
+              direction.size() == from.size() && end.size() == from.size(),
           "errands whose columns differ in length");
   for (std::size_t i = 0; i < from.size(); ++i) {
     read.errands.push_back({from[i], static_cast<std::uint32_t>(number[i]),
-                            static_cast<Gait>(how[i] & ~kTrunk), (how[i] & kTrunk) != 0, direction[i],
-                            end[i]});
+                            static_cast<Gait>(how[i] & ~kTrunk), (how[i] & kTrunk) != 0, direction[i], end[i],
+                            attractor[i]});
   }
   return read;
 }
@@ -231,6 +260,7 @@ void keep(const FrontMemory& memory, sim::Columns& columns) {
         [](const Errand& e) { return static_cast<std::int32_t>(e.gait) | (e.trunk ? kTrunk : 0); });
   write(columns, "errand_direction", memory.errands, [](const Errand& e) { return e.direction; });
   write(columns, "errand_end", memory.errands, [](const Errand& e) { return e.end_vx; });
+  write(columns, "errand_attractor", memory.errands, [](const Errand& e) { return e.attractor; });
 }
 
 Errand errandOf(const sim::Columns& memory, const sim::Site& site) {
@@ -255,7 +285,8 @@ Errand errandOf(const sim::Columns& memory, const sim::Site& site) {
           static_cast<Gait>(how & ~kTrunk),
           (how & kTrunk) != 0,
           sim::column<sim::Vec3>(memory, "errand_direction")[low],
-          sim::column<sim::Vec3>(memory, "errand_end")[low]};
+          sim::column<sim::Vec3>(memory, "errand_end")[low],
+          sim::column<std::int32_t>(memory, "errand_attractor")[low]};
 }
 
 std::size_t countFront(const sim::Columns& memory) {

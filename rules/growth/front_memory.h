@@ -11,14 +11,18 @@ namespace espalier::rules {
 
 /// Where the scene's attractors of a name lie among the commons.
 std::string attractorsNamed(const std::string& name);
-/// Their columns: places in voxel space (sim::Vec3).
+/// Their columns (sim::Vec3): places in voxel space, and the unit normals of the surface that each was strewn
+/// on, zero elsewhere.
 inline constexpr const char* kAttractorPlace = "at_vx";
+inline constexpr const char* kAttractorNormal = "normal";
 
 /// A front out of columns and back: nothing is copied. While it is lent the columns lack it.
 class LentFront {
  public:
   /// Throws BrokenContract where the columns do not fit together.
   explicit LentFront(sim::Columns& columns);
+  /// A new one, to be put there.
+  LentFront(sim::Columns& columns, Front fresh) : front(std::move(fresh)), columns_(columns) {}
   ~LentFront();
   LentFront(const LentFront&) = delete;
   LentFront& operator=(const LentFront&) = delete;
@@ -31,9 +35,13 @@ class LentFront {
 
 /// Whether the columns hold a front already.
 bool holdsFront(const sim::Columns& columns);
-/// Throws BrokenContract where a front in the columns is none that growth could have left there: numbers out
-/// of their bounds, a tree that is none.
-void requireSoundFront(const sim::Columns& columns);
+/// What became of the attractors there; all wait where none has begun.
+Fates fatesIn(const sim::Columns& columns);
+/// Why growth to them ended after so many iterations, in words. `by_itself`: nothing at all was alive then.
+std::string endingIn(const sim::Columns& columns, int iterations, bool by_itself);
+/// Throws BrokenContract where a front among the commons is none that growth could have left there: numbers
+/// out of their bounds, a tree that is none.
+void requireSoundFronts(const sim::Commons& commons);
 
 /// A node that something may still act on, or in which a trunk ends.
 struct FrontNode {
@@ -48,8 +56,9 @@ struct Errand {
   std::uint32_t number = 0;  ///< which of the node's ways
   Gait gait = Gait::none;
   bool trunk = false;
-  sim::Vec3 direction{0.0};  ///< unit
-  sim::Vec3 end_vx{0.0};     ///< where it leads if nothing bends it
+  sim::Vec3 direction{0.0};          ///< unit
+  sim::Vec3 end_vx{0.0};             ///< where it leads if nothing in its way bends it
+  std::int32_t attractor = kNobody;  ///< the number of the one that it goes for alone
 };
 
 /// A planting's own part.

@@ -48,7 +48,8 @@ std::optional<Candidate> frontStep(const sim::SiteView& view, const RuleSet& rul
   ways.narrowly = 0.0f;
   ways.narrow = 1;
   ways.widest = front.trials;
-  if (errand.gait == Gait::pulled) bendBy(rules, around, senses, view.world.frame().size, ways);
+  if (errand.gait == Gait::pulled && !front.onto)
+    bendBy(rules, around, senses, view.world.frame().size, ways);
   int first = 0;
   if (ways.pull_count == 0) {
     if (auto straight = theWayItself(view, rules, around, errand, passage, proposal)) return straight;

@@ -141,8 +141,8 @@ std::shared_ptr<const Table> crownKeys() {
   addSolids(table, &CrownSpec::shape);
   table.metres("trunk", &CrownSpec::trunk_m,
                {.unit = kMetres,
-                .limits = {0.0, kMostOfEnvelope_m},
-                .meaning = "From the seed up to the crown's foot."});
+                .limits = {-kMostOfEnvelope_m, kMostOfEnvelope_m},
+                .meaning = "From the seed up to the crown's foot; below 0 down, as for roots."});
   addStrewing(table, &CrownSpec::strewing);
   return table.shared();
 }

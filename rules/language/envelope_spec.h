@@ -42,7 +42,7 @@ struct StrewingSpec {
 /// A crown that stands over each seed.
 struct CrownSpec {
   EnvelopeSpec shape;
-  double trunk_m = 0.0;  ///< from the seed up to the crown's foot
+  double trunk_m = 0.0;  ///< from the seed up to the crown's foot; below 0 down
   StrewingSpec strewing;
 };
 

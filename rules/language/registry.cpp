@@ -1,5 +1,6 @@
 #include "rules/language/registry.h"
 
+#include "rules/language/envelope_keys.h"
 #include "rules/language/key_builder.h"
 
 // Greene's names are those of figure 4 and section 6 of: Ned Greene, Voxel Space Automata, SIGGRAPH 1989.
@@ -84,6 +85,9 @@ std::shared_ptr<const Table> colonizationKeys() {
       .text("attractors", &Colonization::attractors,
             {.meaning = "Which of the scene's attractors it grows to; plants that name the same compete.",
              .most = 100})
+      .section("crown", &Colonization::crown, crownKeys(),
+               {.meaning = "Or attractors of its own, strewn in a solid over each seed; those who grow from "
+                           "one entry of plants compete for them."})
       .distance("step", &Colonization::step, derived("How far a new node stands from the one it grew from."))
       .distance("influence", &Colonization::influence,
                 derived("An attractor acts on nodes that are nearer than this."))

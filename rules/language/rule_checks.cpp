@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "rules/language/envelope_keys.h"
 #include "rules/language/registry.h"
 
 namespace espalier::rules {
@@ -106,8 +107,12 @@ void checkElements(const RuleSet& rules, const Check::Given&, const Check::Compl
 
 void checkColonization(const RuleSet& rules, const Check::Given& given, const Check::Complain& complain) {
   const Colonization& front = rules.colonization;
-  if (rules.propagate == Propagate::colonization && front.attractors.empty())
-    complain("colonization", "no attractors; expected the name of some of the scene's (attractors: NAME)");
+  if (front.crown) checkCrown(*front.crown, "colonization.crown", complain);
+  if (front.crown && !front.attractors.empty())
+    complain("colonization.crown", "a crown beside attractors; expected one of them");
+  if (rules.propagate == Propagate::colonization && !front.crown && front.attractors.empty())
+    complain("colonization",
+             "no attractors; expected the name of some of the scene's (attractors: NAME), or a crown");
   if (front.kill && front.influence && front.kill->metres == front.influence->metres &&
       front.kill->number >= front.influence->number)
     complain("colonization.kill",

@@ -8,6 +8,7 @@
 #include <string_view>
 #include <vector>
 
+#include "rules/language/envelope_spec.h"
 #include "rules/language/value.h"
 #include "sim/base/vec.h"
 
@@ -68,7 +69,8 @@ struct Branching {
 
 /// Space colonization: attractors pull what grows their way, and end where it comes near.
 struct Colonization {
-  std::string attractors;  ///< those of the scene that have this name
+  std::string attractors;          ///< those of the scene that have this name
+  std::optional<CrownSpec> crown;  ///< or its own, about each seed: all plants of a planting compete for them
   // Where they are not given, they follow from how far the attractors are apart (rules/front/lengths.h).
   std::optional<Distance> step;       ///< of a new node from the one that it grew from
   std::optional<Distance> influence;  ///< attractors act on nodes that are nearer than this

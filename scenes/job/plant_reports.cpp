@@ -4,6 +4,7 @@
 #include <span>
 #include <utility>
 
+#include "rules/growth/front_memory.h"
 #include "sim/base/provenance.h"
 
 namespace espalier::scenes {
@@ -24,13 +25,30 @@ Report::Growth::Plant plantReport(const PlantSpec& spec, const sim::Frame& frame
   return report;
 }
 
+std::vector<Report::Growth::Attractors> attractorReports(const Scene& scene, const sim::Growth& growth) {
+  std::vector<Report::Growth::Attractors> reports;
+  const std::string prefix = rules::attractorsNamed("");
+  const bool by_itself = growth.iterations < scene.iterations && growth.cut_short.empty();
+  for (const auto& [name, columns] : growth.commons) {
+    if (!name.starts_with(prefix)) continue;
+    reports.push_back({name.substr(prefix.size()), rules::fatesIn(columns),
+                       rules::endingIn(columns, growth.iterations, by_itself)});
+  }
+  return reports;
+}
+
 }  // namespace
 
 Report::Growth growthReport(const Scene& scene, const sim::World& grown, const sim::BitVolume& scene_voxels,
                             const sim::Growth& growth, const std::vector<rules::Exposure>& lights) {
   const sim::Tally tally = sim::total(growth);
-  Report::Growth report{growth.iterations, {}, tally.sites, tally.trials, sim::stateHash(grown, growth),
-                        growth.cut_short};
+  Report::Growth report;
+  report.iterations = growth.iterations;
+  report.buds = tally.sites;
+  report.trials = tally.trials;
+  report.attractors = attractorReports(scene, growth);
+  report.state_hash = sim::stateHash(grown, growth);
+  report.cut_short = growth.cut_short;
   for (std::size_t i = 0; i < growth.stands.size(); ++i) {
     const PlantSpec& spec = scene.plants[i];
     const auto [first, count] = std::pair(growth.stands[i].first, growth.stands[i].count);

@@ -50,11 +50,20 @@ Json plant(const Report::Growth::Plant& plant) {
 Json growth(const Report::Growth& growth) {
   Json plants = Json::array();
   for (const Report::Growth::Plant& one : growth.plants) plants.push_back(plant(one));
-  return {{"iterations", growth.iterations},
-          {"state_hash", fmt::format("{:016x}", growth.state_hash)},
-          {"buds", outcomes(growth.buds)},
-          {"trials", outcomes(growth.trials)},
-          {"plants", plants}};
+  Json json = {{"iterations", growth.iterations},
+               {"state_hash", fmt::format("{:016x}", growth.state_hash)},
+               {"buds", outcomes(growth.buds)},
+               {"trials", outcomes(growth.trials)}};
+  for (const Report::Growth::Attractors& one : growth.attractors) {
+    json["attractors"].push_back({{"name", one.name},
+                                  {"waiting", one.fates.waiting},
+                                  {"reached", one.fates.reached},
+                                  {"given_up", one.fates.given_up},
+                                  {"taken", one.fates.taken},
+                                  {"ending", one.ending}});
+  }
+  json["plants"] = plants;
+  return json;
 }
 
 /// The most memory that this process has held so far. Not what getrusage() calls so: that begins with what

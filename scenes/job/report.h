@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "rules/front/front.h"
 #include "scenes/accuracy/certificate.h"
 #include "scenes/foretell/foretell.h"
 #include "scenes/job/seed_failure.h"
@@ -43,6 +44,12 @@ struct Report {
     int iterations = 0;
     std::vector<Plant> plants;
     sim::OutcomeCounts buds{}, trials{};
+    struct Attractors {
+      std::string name;
+      rules::Fates fates;
+      std::string ending;  ///< why those that grew to them ended, in words
+    };
+    std::vector<Attractors> attractors;  ///< the scene's, by their names
     std::uint64_t state_hash = 0;
     std::string cut_short;  ///< sim::Growth::cut_short; among the warnings too
   };

@@ -15,10 +15,12 @@
 #include "scenes/job/seed_failure_words.h"
 #include "scenes/job/stages.h"
 #include "scenes/job/warnings.h"
+#include "scenes/prepare/front_warnings.h"
 #include "scenes/prepare/in_scene.h"
 #include "scenes/prepare/plantings.h"
 #include "scenes/prepare/site.h"
 #include "scenes/prepare/unknown_regions.h"
+#include "scenes/problem.h"
 #include "scenes/show/light_fields.h"
 #include "scenes/show/picture_memory.h"
 #include "scenes/show/pictures.h"
@@ -110,12 +112,16 @@ Prepared prepare(const Scene& scene, const RunOptions& options, Report& report, 
     auto plantings = makePlantings(scene, site);
     requireCamerasInTheOpen(scene, site.world);
     auto attractors = attractorsOf(scene, site, &of_attractors);
+    for (NamedPoints& crown : crownsOf(scene, site, plantings, &of_attractors))
+      attractors.push_back(std::move(crown));
     auto lights = lightOfSeeds(plantings, site.world, growthSettings(scene, site, {}).light);
     return Prepared{std::move(site), std::move(plantings), std::move(attractors), std::move(lights)};
   });
   describeWorld(report, scene, prepared.site);
   std::vector<Problem> warnings = scene.warnings;
-  for (const auto& more : {prepared.site.warnings, of_attractors, unknownRegions(scene, prepared.site.world)})
+  for (const auto& more : {prepared.site.warnings, of_attractors,
+                           frontWarnings(scene, prepared.site.world.frame(), prepared.attractors),
+                           unknownRegions(scene, prepared.site.world)})
     warnings.insert(warnings.end(), more.begin(), more.end());
   warn(warnings, scene.file, options, report);
   return prepared;
@@ -153,8 +159,7 @@ void requireMemories(const sim::Growing& growing, const std::filesystem::path& f
     static_cast<void>(growing.alive());
     static_cast<void>(growing.due());
   } catch (const sim::BrokenContract& error) {
-    throw sim::InputError(
-        fmt::format("{}: the state is damaged: {}", (folder / kStateFile).string(), error.what()));
+    throw damaged(folder, error);
   }
 }
 
@@ -351,6 +356,8 @@ std::string fates(const Report::Growth& report) {
       fmt::format("buds that ended: {} found no way, {} too dark, {} too bright, {} in forbidden regions\n",
                   of(sim::Outcome::no_trial), of(sim::Outcome::too_dark), of(sim::Outcome::too_bright),
                   of(sim::Outcome::forbidden));
+  for (const Report::Growth::Attractors& one : report.attractors)
+    text += fmt::format("attractors {}: {}\n", inQuotes(one.name), one.ending);
   return text + poorPlants(report.plants);
 }
 

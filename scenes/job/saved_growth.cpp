@@ -8,9 +8,9 @@
 #include <iterator>
 #include <map>
 
+#include "rules/growth/front_memory.h"
 #include "scenes/problem.h"
 #include "scenes/read/settings.h"
-#include "sim/base/error.h"
 #include "sim/base/hasher.h"
 
 namespace espalier::scenes {
@@ -97,6 +97,11 @@ sim::Inputs inputsOf(const Scene& scene, const Site& site) {
   return inputs;
 }
 
+sim::InputError damaged(const std::filesystem::path& folder, const sim::BrokenContract& how) {
+  return sim::InputError(
+      fmt::format("{}: the state is damaged: {}", (folder / kStateFile).string(), how.what()));
+}
+
 void dropState(const std::filesystem::path& folder) {
   const std::filesystem::path path = folder / kStateFile;
   std::error_code error;
@@ -151,6 +156,11 @@ sim::Growth takeUp(sim::State state, const std::filesystem::path& folder, const 
   if (!trials_wanted) {  // as a run of this scene keeps none
     state.growth.recorded = false;
     state.growth.attempts.clear();
+  }
+  try {
+    rules::requireSoundFronts(state.growth.commons);
+  } catch (const sim::BrokenContract& error) {
+    throw damaged(folder, error);
   }
   return sim::restore(std::move(state), site.world, plantings, path.string());
 }

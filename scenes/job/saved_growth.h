@@ -7,6 +7,7 @@
 
 #include "scenes/prepare/site.h"
 #include "scenes/scene.h"
+#include "sim/base/error.h"
 #include "sim/grow/state.h"
 
 /// Growth kept in the output folder, and what it was grown from.
@@ -37,6 +38,9 @@ std::optional<std::uint64_t> seedOf(const sim::State& state);
 /// grown from something else, with what differs.
 sim::Growth takeUp(sim::State state, const std::filesystem::path& folder, const Scene& scene, Site& site,
                    const std::vector<sim::Planting>& plantings, Same same);
+
+/// The error that a folder's state is damaged, and how.
+sim::InputError damaged(const std::filesystem::path& folder, const sim::BrokenContract& how);
 
 /// Removes a folder's state, if it has one. Throws sim::InputError where that cannot be done.
 void dropState(const std::filesystem::path& folder);

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "rules/growth/front_memory.h"
 #include "sim/base/error.h"
 #include "sim/base/random.h"
 #include "sim/scatter/inside_points.h"
@@ -12,20 +13,93 @@
 namespace espalier::scenes {
 namespace {
 
+/// What is said of some attractors, and what is left of them in the world.
+class Naming {
+ public:
+  Naming(std::string name, const Place& place, const Scene& scene, const sim::World& world,
+         std::vector<Problem>* warnings)
+      : name_(std::move(name)), place_(place), scene_(scene), world_(world), warnings_(warnings) {}
+
+  NamedPoints clipped(const sim::PointSet& points) const {
+    NamedPoints kept{name_, {}, {}};
+    std::size_t outside = 0, blocked = 0;
+    for (std::size_t i = 0; i < points.at.size(); ++i) {
+      const sim::Vec3 at_vx = freed(sim::voxelFromWorld(world_.frame(), points.at[i]), points.normal[i]);
+      const sim::Voxel v = voxelOf(at_vx);
+      if (!sim::contains(world_.frame().size, v)) {
+        ++outside;
+      } else if (world_.occupied().at(v)) {
+        ++blocked;
+      } else {
+        kept.at_vx.push_back(at_vx);
+        kept.normal.push_back(points.normal[i]);
+      }
+    }
+    const std::string lost = fmt::format("of {} points {} lie beyond the world and {} in what stands there",
+                                         points.at.size(), outside, blocked);
+    if (kept.at_vx.empty()) fail(lost + ": none is left; expected a place in the open, inside the world");
+    if (outside > 0) warn(lost);
+    return kept;
+  }
+
+  /// So many that what follows them fits into memory.
+  void requireFew(double count) const {
+    if (count > rules::kMostPoints)
+      fail(fmt::format("{:.0f} points with those before it; expected at most {:.0f} in a scene", count,
+                       rules::kMostPoints));
+  }
+
+  void warn(const std::string& text) const {
+    if (warnings_ != nullptr) warnings_->push_back(problem(text));
+  }
+  [[noreturn]] void fail(const std::string& text) const { throw sim::InputError(format(problem(text))); }
+
+ private:
+  /// Far outside of the world for what no voxel's number can reach.
+  static sim::Voxel voxelOf(sim::Vec3 p_vx) {
+    return sim::voxelAt(glm::clamp(p_vx, sim::Vec3(-1e8), sim::Vec3(1e8)));
+  }
+
+  /// A point on a mesh that is tiled lies in one of its voxels: it steps out of them.
+  sim::Vec3 freed(sim::Vec3 at_vx, sim::Vec3 normal) const {
+    constexpr double kSteps[] = {0.5, 1.0, 1.5, 2.0};
+    if (normal == sim::Vec3(0.0) || !world_.occupied().at(voxelOf(at_vx))) return at_vx;
+    for (const double side : {1.0, -1.0}) {
+      for (const double step : kSteps) {
+        const sim::Vec3 moved = at_vx + side * step * normal;
+        const sim::Voxel v = voxelOf(moved);
+        if (sim::contains(world_.frame().size, v) && !world_.occupied().at(v)) return moved;
+      }
+    }
+    return at_vx;
+  }
+
+  Problem problem(const std::string& text) const {
+    return {place_.path ? *place_.path : scene_.file.string(), place_.line, place_.column,
+            fmt::format("attractors {}: {}", inQuotes(name_), text)};
+  }
+
+  std::string name_;
+  Place place_;
+  const Scene& scene_;
+  const sim::World& world_;
+  std::vector<Problem>* warnings_;
+};
+
 /// The attractors of one entry, while they come into being.
 class Making {
  public:
   Making(const AttractorsSpec& spec, const Scene& scene, const Site& site, std::vector<Problem>* warnings)
-      : spec_(spec), scene_(scene), site_(site), warnings_(warnings) {}
+      : spec_(spec), scene_(scene), site_(site), say_(spec.name, spec.place, scene, site.world, warnings) {}
 
   NamedPoints make(const std::vector<sim::Vec3>& listed_m) const {
     sim::PointSet points;
     try {
       points = strewn(listed_m);
     } catch (const sim::InputError& error) {  // of a mesh, without its place
-      fail(error.what());
+      say_.fail(error.what());
     }
-    return clipped(points);
+    return say_.clipped(points);
   }
 
  private:
@@ -44,7 +118,7 @@ class Making {
   sim::PointSet within(std::size_t count, std::uint64_t stream) const {
     sim::InsidePoints found = sim::scatterWithin(mesh(spec_.inside), count, stream);
     if (found.doubtful > 0.0) {
-      warn(
+      say_.warn(
           fmt::format("the mesh '{}' leaks: for {:.2g} % of its inside lines along the axes contradict each "
                       "other and a vote decides, which is close for {:.2g} %",
                       spec_.inside, 100.0 * found.doubtful, 100.0 * found.undecided));
@@ -57,52 +131,10 @@ class Making {
         static_cast<std::size_t>(spec_.strewing.count.value_or(static_cast<int>(rules::kMostPoints)));
     sim::PointSet points = sim::scatterApart(mesh(spec_.surface), most, *spec_.spacing_m, stream);
     if (spec_.strewing.count && points.at.size() < most) {
-      warn(fmt::format("{} of {} points find room on '{}' with {} m between any two", points.at.size(), most,
-                       spec_.surface, *spec_.spacing_m));
+      say_.warn(fmt::format("{} of {} points find room on '{}' with {} m between any two", points.at.size(),
+                            most, spec_.surface, *spec_.spacing_m));
     }
     return points;
-  }
-
-  NamedPoints clipped(const sim::PointSet& points) const {
-    const sim::World& world = site_.world;
-    NamedPoints kept{spec_.name, {}, {}};
-    std::size_t outside = 0, blocked = 0;
-    for (std::size_t i = 0; i < points.at.size(); ++i) {
-      const sim::Vec3 at_vx = freed(sim::voxelFromWorld(world.frame(), points.at[i]), points.normal[i]);
-      const sim::Voxel v = voxelOf(at_vx);
-      if (!sim::contains(world.frame().size, v)) {
-        ++outside;
-      } else if (world.occupied().at(v)) {
-        ++blocked;
-      } else {
-        kept.at_vx.push_back(at_vx);
-        kept.normal.push_back(points.normal[i]);
-      }
-    }
-    const std::string lost = fmt::format("of {} points {} lie beyond the world and {} in what stands there",
-                                         points.at.size(), outside, blocked);
-    if (kept.at_vx.empty()) fail(lost + ": none is left; expected a place in the open, inside the world");
-    if (outside > 0) warn(lost);
-    return kept;
-  }
-
-  /// Far outside of the world for what no voxel's number can reach.
-  static sim::Voxel voxelOf(sim::Vec3 p_vx) {
-    return sim::voxelAt(glm::clamp(p_vx, sim::Vec3(-1e8), sim::Vec3(1e8)));
-  }
-
-  /// A point on a mesh that is tiled lies in one of its voxels: it steps out of them.
-  sim::Vec3 freed(sim::Vec3 at_vx, sim::Vec3 normal) const {
-    constexpr double kSteps[] = {0.5, 1.0, 1.5, 2.0};
-    if (normal == sim::Vec3(0.0) || !site_.world.occupied().at(voxelOf(at_vx))) return at_vx;
-    for (const double side : {1.0, -1.0}) {
-      for (const double step : kSteps) {
-        const sim::Vec3 moved = at_vx + side * step * normal;
-        const sim::Voxel v = voxelOf(moved);
-        if (sim::contains(site_.world.frame().size, v) && !site_.world.occupied().at(v)) return moved;
-      }
-    }
-    return at_vx;
   }
 
   const sim::Mesh& mesh(const std::string& name) const {
@@ -115,38 +147,59 @@ class Making {
     throw sim::InputError(fmt::format("no mesh is called {}", inQuotes(name)));
   }
 
-  Problem problem(const std::string& text) const {
-    const Place& at = spec_.place;
-    return {at.path ? *at.path : scene_.file.string(), at.line, at.column,
-            fmt::format("attractors {}: {}", inQuotes(spec_.name), text)};
-  }
-  void warn(const std::string& text) const {
-    if (warnings_ != nullptr) warnings_->push_back(problem(text));
-  }
-
-  [[noreturn]] void fail(const std::string& text) const { throw sim::InputError(format(problem(text))); }
-
   const AttractorsSpec& spec_;
   const Scene& scene_;
   const Site& site_;
-  std::vector<Problem>* warnings_;
+  Naming say_;
 };
 
 }  // namespace
 
 std::vector<NamedPoints> attractorsOf(const Scene& scene, const Site& site, std::vector<Problem>* warnings) {
   std::vector<NamedPoints> all;
-  for (std::size_t i = 0; i < scene.attractors.size(); ++i)
-    all.push_back(Making(scene.attractors[i], scene, site, warnings).make(site.listed_m.at(i)));
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < scene.attractors.size(); ++i) {
+    const AttractorsSpec& spec = scene.attractors[i];
+    all.push_back(Making(spec, scene, site, warnings).make(site.listed_m.at(i)));
+    count += all.back().at_vx.size();
+    Naming(spec.name, spec.place, scene, site.world, warnings).requireFew(static_cast<double>(count));
+  }
+  return all;
+}
+
+std::vector<NamedPoints> crownsOf(const Scene& scene, const Site& site,
+                                  const std::vector<sim::Planting>& plantings,
+                                  std::vector<Problem>* warnings) {
+  std::vector<NamedPoints> all;
+  double count = 0.0;
+  for (std::size_t i = 0; i < scene.plants.size(); ++i) {
+    const PlantSpec& plant = scene.plants[i];
+    const auto& crown = plant.rules->colonization.crown;
+    if (!crown || plant.rules->propagate != rules::Propagate::colonization) continue;
+    const Naming say(crownOf(plant.name), plant.rules_place, scene, site.world, warnings);
+    const sim::Strewing strewing = rules::strewingOf(crown->strewing);
+    count += static_cast<double>(strewing.count) * static_cast<double>(plantings.at(i).seeds.size());
+    say.requireFew(count);
+    sim::PointSet points;
+    for (const sim::Seed& seed : plantings.at(i).seeds) {
+      const sim::Vec3 at_m = sim::worldFromVoxel(site.world.frame(), seed.at_vx);
+      const sim::PointSet one =
+          sim::scatterInside(rules::envelopeOf(crown->shape, at_m + sim::Vec3(0.0, crown->trunk_m, 0.0)),
+                             strewing, sim::streamOf(scene.seed, crownOf(plant.name), seed.key));
+      points.at.insert(points.at.end(), one.at.begin(), one.at.end());
+      points.normal.insert(points.normal.end(), one.normal.begin(), one.normal.end());
+    }
+    all.push_back(say.clipped(points));
+  }
   return all;
 }
 
 sim::Commons commonsOf(const std::vector<NamedPoints>& attractors) {
   sim::Commons commons;
   for (const NamedPoints& points : attractors) {
-    sim::Columns& columns = commons["attractors " + points.name];
-    columns["at_vx"] = points.at_vx;
-    columns["normal"] = points.normal;
+    sim::Columns& columns = commons[rules::attractorsNamed(points.name)];
+    columns[rules::kAttractorPlace] = points.at_vx;
+    columns[rules::kAttractorNormal] = points.normal;
   }
   return commons;
 }

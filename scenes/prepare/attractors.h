@@ -4,7 +4,7 @@
 
 #include "scenes/prepare/site.h"
 #include "scenes/scene.h"
-#include "sim/grow/process.h"
+#include "sim/grow/growth.h"
 
 namespace espalier::scenes {
 
@@ -24,7 +24,13 @@ struct NamedPoints {
 std::vector<NamedPoints> attractorsOf(const Scene& scene, const Site& site,
                                       std::vector<Problem>* warnings = nullptr);
 
-/// The same as growth has them: under "attractors NAME" the columns "at_vx" and "normal".
+/// The crowns of those plants whose rules state one, each strewn about its seeds: by the names that
+/// crownOf gives. The same of what lies beyond the world and in what stands there.
+std::vector<NamedPoints> crownsOf(const Scene& scene, const Site& site,
+                                  const std::vector<sim::Planting>& plantings,
+                                  std::vector<Problem>* warnings = nullptr);
+
+/// The same as growth has them: by rules::attractorsNamed and the columns of such.
 sim::Commons commonsOf(const std::vector<NamedPoints>& attractors);
 
 /// A scene's field as growth has it: its lengths in voxel widths.

@@ -70,8 +70,16 @@ std::vector<sim::Seed> seedsOf(const PlantSpec& spec, const Site& site, std::uin
   return seeds;
 }
 
+/// Its rules, which name the attractors of its own crown if they state one.
+std::shared_ptr<const rules::RuleSet> rulesOf(const PlantSpec& spec) {
+  if (!spec.rules->colonization.crown) return spec.rules;
+  rules::RuleSet own = *spec.rules;
+  own.colonization.attractors = crownOf(spec.name);
+  return std::make_shared<const rules::RuleSet>(std::move(own));
+}
+
 sim::Planting plant(const PlantSpec& spec, const Site& site, std::uint64_t seed) {
-  return {spec.name, rules::makeProcess(spec.rules, site.world.frame()), seedsOf(spec, site, seed)};
+  return {spec.name, rules::makeProcess(rulesOf(spec), site.world.frame()), seedsOf(spec, site, seed)};
 }
 
 }  // namespace

@@ -107,6 +107,11 @@ void checkFronts(const Scene& scene, const rules::Check::Given&, const rules::Ch
   for (std::size_t i = 0; i < scene.plants.size(); ++i) {
     const auto& rules = scene.plants[i].rules;
     if (!rules || rules->propagate != rules::Propagate::colonization) continue;
+    const std::string own = crownOf(scene.plants[i].name);
+    if (rules->colonization.crown && std::find(attractors.begin(), attractors.end(), own) != attractors.end())
+      complain("attractors." + own,
+               fmt::format("the crown of the plants {} is called so; expected another name",
+                           inQuotes(scene.plants[i].name)));
     const auto say = [&](const std::string& wrong) {
       if (!wrong.empty()) complain(fmt::format("plants[{}].rules", i), wrong);
     };

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <set>
 #include <system_error>
 
 #include "rules/language/registry.h"
@@ -164,7 +165,35 @@ RulesPointer RuleLoader::within(const YamlNode& node, const std::string& path, c
                               "set; expected it there",
                               path));
   }
-  return reference(node, path, enclosing);
+  warnOfFront(node, path);
+  RulesPointer set = reference(node, path, enclosing);
+  if (set && set->propagate != enclosing.propagate) {
+    const auto* says = node.entry("propagate");
+    problems_.add(
+        says ? says->value.place : node.place,
+        fmt::format("{} propagates otherwise than the rule set that it belongs to; expected the same "
+                    "for all of a plant",
+                    path));
+  }
+  return set;
+}
+
+void RuleLoader::warnOfFront(const YamlNode& node, const std::string& path) {
+  const auto* front = node.entry("colonization");
+  if (!front || front->value.kind != YamlNode::Kind::map) return;
+  static const std::set<std::string_view> of_plant = {"attractors", "acts", "onto", "repeated", "fields"};
+  static const std::set<std::string_view> of_site = {"avoid", "trials"};
+  const bool of_order = path == "branches" || path == "twigs";
+  const auto& known = *rules::find(rules::ruleTable(), "colonization")->child;
+  for (const auto& entry : front->value.entries) {
+    const bool moot = of_order ? of_plant.contains(entry.key) : !of_site.contains(entry.key);
+    if (!moot || !rules::find(known, entry.key)) continue;
+    warnings_.add(entry.place,
+                  fmt::format("{}.colonization.{} has no effect: {}; expected it there", path, entry.key,
+                              of_order ? "a plant has one, that of its outermost rule set"
+                                       : "limbs have it of the trunk's, the branches' or the "
+                                         "twigs' rule set, wherever they are"));
+  }
 }
 
 rules::RegionRule RuleLoader::region(const YamlNode& node, const std::string& path,

@@ -126,8 +126,6 @@ Growing::Growing(World& world, std::vector<Planting> plantings, GrowthSettings s
       elements_ += plant.elements.size();
     }
   }
-  for (std::size_t i = 0; i < plantings_.size() && !growth_.stands[i].memory.empty(); ++i)
-    plantings_[i].process->resume(view(i), growth_.stands[i].memory, growth_.commons);
 }
 
 namespace {

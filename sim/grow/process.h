@@ -157,11 +157,6 @@ class Process {
   /// Plants have been seeded, and nothing has grown: the beginning of memory. Not called for growth that goes
   /// on from a state.
   virtual void begin(const StandView& stand, Columns& memory, Commons& commons) const = 0;
-  /// Growth goes on from a state. Throws BrokenContract where memory or commons are such as this process
-  /// never leaves them, so that what it does with them later cannot go wrong.
-  virtual void resume(const StandView& stand, const Columns& memory, const Commons& commons) const {
-    static_cast<void>(stand), static_cast<void>(memory), static_cast<void>(commons);
-  }
   /// The sites that propose in this iteration, in ascending order of (plant, node, number), each once.
   virtual std::vector<Site> due(const StandView& stand, Columns& memory, Commons& commons) const = 0;
   /// What one of them would place. Random numbers must follow from the key alone. A segment's voxels are

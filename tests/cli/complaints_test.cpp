@@ -79,6 +79,22 @@ TEST_F(Plot, AStemThatHasNoEffectIsAWarningWithItsPlace) {
   EXPECT_EQ(grow("--no-pictures --strict", "strict").status, 2);
 }
 
+TEST_F(Plot, KeysOfAFrontThatHaveNoEffectAreWarnings) {
+  scratch_.write("vine.yaml",
+                 "espalier: rules\npropagate: colonization\ncolonization:\n  crown: {sphere: 20 cm, trunk: 5 cm, count: 9}\n"
+                 "branches: {colonization: {onto: true, step: 2, trials: 9}}\n"
+                 "regions: {wall: {colonization: {step: 3, avoid: 20}}}\n");
+  const auto ran = grow("--no-pictures", "told");
+  EXPECT_EQ(ran.status, 0) << ran.output;
+  EXPECT_NE(ran.output.find(":5:27: warning: branches.colonization.onto has no effect: a plant has one"),
+            std::string::npos)
+      << ran.output;
+  EXPECT_NE(ran.output.find(":6:33: warning: regions.wall.colonization.step has no effect: limbs have it"),
+            std::string::npos)
+      << ran.output;
+  EXPECT_EQ(report("told")["warnings"].size(), 2u) << report("told")["warnings"];
+}
+
 TEST_F(Plot, AWarningInTheReportIsTheSameHoweverTheFilesAreNamed) {
   scratch_.write("vine.yaml", tests::fileText(scratch_.path("vine.yaml")) + "\nregions: {wal: forbid}\n");
   const std::string folder = scratch_.path("").string();

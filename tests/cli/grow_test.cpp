@@ -43,6 +43,30 @@ TEST_F(Plot, WritesTheModelTheWorldThePicturesAndTheReport) {
   EXPECT_GT(r["run"]["peak_memory_bytes"].get<double>(), 1e6);
 }
 
+TEST_F(Plot, SaysWhatBecameOfAttractorsAndWhyGrowthEnded) {
+  scratch_.write(
+      "vine.yaml",
+      "espalier: rules\npropagate: colonization\ncolonization: {crown: {sphere: 30 cm, trunk: 10 cm, count: "
+      "40}}\n");
+  const auto attractors = [&](const std::string& options, const std::string& folder) {
+    const auto ran = grow("--no-pictures " + options, folder);
+    EXPECT_EQ(ran.status, 0) << ran.output;
+    const json all = report(folder)["growth"]["attractors"];
+    EXPECT_EQ(all.size(), 1u);
+    EXPECT_EQ(all[0]["name"], "crown of vine");
+    EXPECT_NE(ran.output.find("attractors 'crown of vine': " + all[0]["ending"].get<std::string>() + "\n"),
+              std::string::npos)
+        << ran.output;
+    return all[0];
+  };
+  const json whole = attractors("--iterations 300", "whole");
+  EXPECT_GT(whole["reached"].get<int>(), 30) << whole;
+  EXPECT_EQ(whole["ending"].get<std::string>().find("iterations ended"), std::string::npos) << whole;
+  const json part = attractors("--iterations 2", "part");
+  EXPECT_GT(part["waiting"].get<int>(), 10) << part;
+  EXPECT_EQ(part["ending"].get<std::string>().find("the iterations ended while "), 0u) << part;
+}
+
 TEST_F(Plot, EveryByteIsTheSameOnOneTwoAndFiveThreads) {
   for (const int threads : {1, 2, 5}) {
     const std::string folder = "out" + std::to_string(threads);

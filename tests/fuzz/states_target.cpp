@@ -4,11 +4,13 @@
 #include <xxhash.h>
 
 #include "render/model/plant_model.h"
+#include "rules/growth/front_memory.h"
 #include "scenes/job/saved_growth.h"
 #include "sim/base/error.h"
 #include "sim/base/hasher.h"
 #include "sim/grow/state.h"
 #include "tests/fuzz/target.h"
+#include "tests/support/colonies.h"
 #include "tests/support/lively.h"
 #include "tests/support/plots.h"
 
@@ -29,6 +31,8 @@ const std::vector<sim::Planting>& plantings() {
     through.require.clear = false;
     const auto more = tests::planting(plot(), through, {{9, 2, 3}}, "through");
     vines.insert(vines.end(), more.begin(), more.end());
+    const auto trees = tests::planting(plot(), tests::tree(), {{4, 2, 5}, {15, 2, 5}}, "trees");
+    vines.insert(vines.end(), trees.begin(), trees.end());
     return vines;
   }();
   return planted;
@@ -43,6 +47,7 @@ sim::GrowthSettings settings(int iterations) {
   }();
   sim::GrowthSettings s = bright;
   s.iterations = iterations;
+  s.commons = tests::settings(tests::inBox(21, 60, {10, 10, 8}, {8, 6, 6})).commons;
   return s;
 }
 
@@ -98,6 +103,11 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   try {
     sim::State state = sim::readState(bytes, "f");
     scenes::seedOf(state);
+    try {
+      rules::requireSoundFronts(state.growth.commons);
+    } catch (const sim::BrokenContract&) {
+      return 0;
+    }
     sim::World world = fuzz::plot();
     fuzz::goOn(world, sim::restore(std::move(state), world, fuzz::plantings(), "f"));
   } catch (const sim::InputError& error) {

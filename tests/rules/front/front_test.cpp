@@ -176,7 +176,7 @@ TEST(Front, AnAttractorThatIsLetGoIsTakenByTheNextNode) {
     rules::giveUp(front, node, rules);
     rules::join(front, {{rules::NewNode{kStart[0]}}}, rules);
   }
-  EXPECT_EQ(rules::fatesOf(front).given_up, 1U);
+  EXPECT_EQ(rules::fatesOf(front.attractors.fate).given_up, 1U);
   EXPECT_EQ(front.pulls.count.back(), 0);
 }
 

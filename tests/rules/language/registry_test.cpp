@@ -37,8 +37,7 @@ TEST(Registry, StatesUnitAndRangeOfEveryNumber) {
   forEach(ruleTable(), "", [&](const std::string& path, const Key& key) {
     const bool number = key.kind == Kind::whole || key.kind == Kind::whole_range ||
                         key.kind == Kind::number || key.kind == Kind::value || key.kind == Kind::length ||
-                        key.kind == Kind::metres || key.kind == Kind::distance ||
-                        key.kind == Kind::size;
+                        key.kind == Kind::metres || key.kind == Kind::distance || key.kind == Kind::size;
     if (!number) return;
     EXPECT_FALSE(key.unit.empty()) << path;
     EXPECT_TRUE(std::isfinite(key.limits.min) && std::isfinite(key.limits.max)) << path;

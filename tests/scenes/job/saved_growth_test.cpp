@@ -6,6 +6,7 @@
 #include <functional>
 #include <limits>
 
+#include "rules/growth/front_memory.h"
 #include "scenes/job/run.h"
 #include "scenes/prepare/plantings.h"
 #include "scenes/read/read_scene.h"
@@ -120,6 +121,51 @@ TEST(KeptAttractors, AreThoseThatItGoesOnWith) {
   scratch.write("points.csv", "1,1.5,1\n");
   EXPECT_NE(goesOnWith(scratch, table, table).find("attractors.crown.contents are others"),
             std::string::npos);
+}
+
+TEST(KeptFront, ThatIsNoneIsADamagedStateToRunsAndPictures) {
+  const tests::Scratch scratch;
+  const std::string text =
+      "espalier: scene\nworld: {voxel: 10 cm, bounds: {min: [0, 0, 0], max: [2, 2, 2]}}\n"
+      "plants: [{seeds: [[1, 0.1, 1]], rules: {propagate: colonization, "
+      "colonization: {crown: {sphere: 70 cm, trunk: 40 cm, count: 40}}}}]\n"
+      "cameras: {main: {eye: [4, 1, 4], target: [1, 1, 1]}}\nimages: [points]\n"
+      "image: {width: 32, height: 32}\niterations: ";
+  const auto read = [&](const std::string& iterations) {
+    auto scene = readScene(scratch.write("scene.yaml", text + iterations + "\n"));
+    EXPECT_TRUE(scene) << format(scene.problems());
+    return *scene;
+  };
+  RunOptions options;
+  options.folder = scratch.path("out");
+  const Scene half = read("3");
+  const auto said = [&](const std::function<void(sim::Columns&)>& change, bool pictures) {
+    runScene(half, options, {.keep = true});
+    Site site = makeSite(half);
+    const sim::BitVolume bare = site.world.occupied();
+    sim::Growth growth = takeUp(*readKept(options.folder), options.folder, half, site,
+                                makePlantings(half, site), Same::everything);
+    change(growth.commons.at(rules::attractorsNamed("crown of plant_1")));
+    scratch.write("out/growth.state", sim::stateBytes(inputsOf(half, site), site.world, bare, growth));
+    try {
+      if (pictures) {
+        renderScene(half, options.folder, options);
+      } else {
+        runScene(read("6"), options, {.resume = true});
+      }
+    } catch (const sim::InputError& error) {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  for (const bool pictures : {false, true}) {
+    EXPECT_EQ(said([](sim::Columns&) {}, pictures), "");
+    for (const char* name : {"front_number", "front_fate", "front_nearest", "node_tried"}) {
+      const std::string told =
+          said([&](sim::Columns& front) { sim::column<std::int32_t>(front, name)[0] = 999'999; }, pictures);
+      EXPECT_NE(told.find("growth.state: the state is damaged: "), std::string::npos) << name << ": " << told;
+    }
+  }
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "scenes/prepare/plantings.h"
 #include "scenes/read/read_scene.h"
 #include "sim/base/error.h"
 #include "tests/support/messages.h"
@@ -167,6 +168,78 @@ TEST_F(Attractors, AreColumnsOfWhatPlantingsShare) {
   const sim::Columns& columns = commons.at("attractors main");
   EXPECT_EQ(sim::column<sim::Vec3>(columns, "at_vx"), all[0].at_vx);
   EXPECT_EQ(sim::column<sim::Vec3>(columns, "normal"), all[0].normal);
+}
+
+class Crowns : public testing::Test {
+ protected:
+  std::vector<NamedPoints> made(const std::string& seeds, const std::string& crown) {
+    const auto path = scratch_.write(
+        "scene.yaml",
+        "espalier: scene\nworld: {voxel: 10 cm, bounds: {min: [-4, 0, -4], max: [4, 8, 4]}}\nplants:\n  - "
+        "{name: "
+        "tree, seeds: " +
+            seeds + ", rules: {propagate: colonization, colonization: {crown: " + crown + "}}}\n");
+    auto read = readScene(path);
+    if (!read) throw sim::InputError(format(read.problems()));
+    scene_ = *read;
+    site_.emplace(makeSite(scene_));
+    warnings_.clear();
+    return crownsOf(scene_, *site_, makePlantings(scene_, *site_), &warnings_);
+  }
+  sim::Vec3 metres(sim::Vec3 at_vx) const { return sim::worldFromVoxel(site_->world.frame(), at_vx); }
+
+  tests::Scratch scratch_;
+  Scene scene_;
+  std::optional<Site> site_;
+  std::vector<Problem> warnings_;
+};
+
+TEST_F(Crowns, StandOverTheirSeeds) {
+  const auto all = made("[[-2, 0.5, 0], [2, 1.5, 1]]", "{sphere: 1 m, trunk: 2 m, count: 300}");
+  ASSERT_EQ(all.size(), 1u);
+  EXPECT_EQ(all[0].name, "crown of tree");
+  ASSERT_EQ(all[0].at_vx.size(), 600u);
+  for (std::size_t i = 0; i < 600; ++i) {
+    const sim::Vec3 middle = i < 300 ? sim::Vec3(-2, 3.5, 0) : sim::Vec3(2, 4.5, 1);
+    EXPECT_LT(glm::distance(metres(all[0].at_vx[i]), middle), 1.0 + 1e-9);
+  }
+  EXPECT_TRUE(warnings_.empty());
+}
+
+TEST_F(Crowns, OfOneKeyAreTheSameWhereverTheyStand) {
+  const std::string crown = "{dome: 1 m, trunk: 1 m, count: 50}";
+  const auto here = made("[{at: [-2, 0.5, 0], key: oak}]", crown);
+  const auto first = metres(here[0].at_vx[7]) - sim::Vec3(-2, 0.5, 0);
+  const auto there = made("[{at: [1, 0.7, 1], key: oak}]", crown);
+  EXPECT_LT(glm::distance(metres(there[0].at_vx[7]) - sim::Vec3(1, 0.7, 1), first), 1e-9);
+  const auto other = made("[{at: [1, 0.7, 1], key: elm}]", crown);
+  EXPECT_GT(glm::distance(other[0].at_vx[7], there[0].at_vx[7]), 1e-3);
+}
+
+TEST_F(Crowns, BelowGroundAreRootsToGrowTo) {
+  const auto all = made("[[0, 6, 0]]", "{cylinder: {radius: 2, height: 3}, trunk: -3.5 m, count: 100}");
+  for (const sim::Vec3& at : all[0].at_vx) {
+    EXPECT_GE(metres(at).y, 2.5 - 1e-9);
+    EXPECT_LE(metres(at).y, 5.5 + 1e-9);
+  }
+}
+
+TEST_F(Crowns, SayWhatIsWrongWithPlaceAndRemedy) {
+  const auto refusal = [&](const std::string& crown) {
+    return tests::messageOf([&] { made("[[0, 0.5, 0]]", crown); }).substr(scratch_.path("").string().size());
+  };
+  EXPECT_EQ(
+      refusal("{dome: 1 m, trunk: 20 m}"),
+      "scene.yaml:4:40: attractors 'crown of tree': of 500 points 500 lie beyond the world and 0 in what "
+      "stands there: none is left; expected a place in the open, inside the world");
+  EXPECT_NE(refusal("{dome: 1 m, count: 10000001}").find("count is '10000001'"), std::string::npos);
+  made("[[0, 0.5, 0]]", "{dome: 1 m, trunk: 7 m}");
+  ASSERT_EQ(warnings_.size(), 1u);
+  EXPECT_NE(warnings_[0].text.find("lie beyond the world"), std::string::npos);
+  EXPECT_NE(tests::messageOf([&] {
+              made("[[0, 1, 0], [0, 2, 0]]", "{dome: 1 m, count: 6000000}");
+            }).find("12000000 points with those before it; expected at most 10000000 in a scene"),
+            std::string::npos);
 }
 
 }  // namespace

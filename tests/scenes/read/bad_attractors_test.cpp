@@ -85,6 +85,29 @@ const std::vector<BadFile> kBadAttractors = {
     {"a table of points of another kind",
      "attractors: {crown: {points: points.xyz}}\n",
      {"3:30: 'points.xyz' is no table of points; expected a .csv file"}},
+    {"rules that name other attractors",
+     "attractors: {crown: {dome: 1, at: [0, 0, 0]}}\n"
+     "plants: [{seeds: [[0, 0, 0]], rules: {propagate: colonization, colonization: {attractors: crowns}}}]\n",
+     {"4:31: its rules name the attractors 'crowns'; expected one of crown; did you mean 'crown'?"}},
+    {"rules that name attractors where there are none",
+     "plants: [{seeds: [[0, 0, 0]], rules: {propagate: colonization, colonization: {attractors: crown}}}]\n",
+     {"3:31: its rules name the attractors 'crown', and the scene has none; expected some under "
+      "'attractors'"}},
+    {"rules that name a field where there is none",
+     "attractors: {crown: {dome: 1, at: [0, 0, 0]}}\n"
+     "plants: [{seeds: [[0, 0, 0]], rules: {propagate: colonization, colonization: {attractors: crown, "
+     "fields: [wind]}}}]\n",
+     {"4:31: its rules name the fields 'wind', and the scene has none; expected some under 'fields'"}},
+    {"attractors that are called as a crown is",
+     "attractors: {crown of plant_1: {dome: 1, at: [0, 0, 0]}}\n"
+     "plants: [{seeds: [[0, 0, 0]], rules: {propagate: colonization, colonization: {crown: {dome: 1}}}}]\n",
+     {"3:14: the crown of the plants 'plant_1' is called so; expected another name"}},
+    {"a field without a direction",
+     "fields: {wind: {direction: [0, 0, 0]}}\n",
+     {"3:17: a direction without length; expected one that is not [0, 0, 0]"}},
+    {"a field in an empty box",
+     "fields: {wind: {box: {min: [0, 1, 0], max: [1, 1, 1]}}}\n",
+     {"3:17: a box without inside; expected each number of min to be less than that of max"}},
 };
 
 class BadAttractors : public testing::TestWithParam<BadFile> {};

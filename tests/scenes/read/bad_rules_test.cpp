@@ -35,6 +35,23 @@ const std::vector<BadFile> kBadRules = {
     {"a key in the wrong place", "branch_angle: 60\n", {"...did you mean 'random_tree.branch_angle'?"}},
     {"a scene's key", "meshes: []\n", {"2:1: unknown key 'meshes'"}},
     {"merge key", "bias:\n  <<: {up: 1}\n", {"3:3: unknown key '<<'"}},
+    {"a front without attractors",
+     "propagate: colonization\n",
+     {"1:1: no attractors; expected the name of some of the scene's (attractors: NAME), or a crown"}},
+    {"a crown beside attractors",
+     "propagate: colonization\ncolonization: {attractors: a, crown: {dome: 6 m}}\n",
+     {"3:31: a crown beside attractors; expected one of them"}},
+    {"a crown without a shape",
+     "propagate: colonization\ncolonization: {crown: {count: 5}}\n",
+     {"3:16: a crown without a shape; expected one, such as dome: {radius: 6 m}"}},
+    {"a region that propagates otherwise",
+     "propagate: colonization\ncolonization: {attractors: a}\nregions:\n  wall: {propagate: random_tree}\n",
+     {"5:21: regions.wall propagates otherwise than the rule set that it belongs to; expected the same for "
+      "all "
+      "of a plant"}},
+    {"branches that propagate otherwise",
+     "branches: {propagate: colonization, colonization: {attractors: a}}\n",
+     {"2:23: branches propagates otherwise than the rule set that it belongs to"}},
     {"unknown process",
      "propagate: random_trees\n",
      {"2:12: propagate is 'random_trees'; expected one of random_tree, colonization; did you mean "

@@ -7,11 +7,10 @@
 #include <cmath>
 
 #include "rules/growth/front_memory.h"
-#include "rules/growth/make_process.h"
 #include "scenes/show/flat_pictures.h"
 #include "scenes/show/growth_graph.h"
 #include "sim/base/parallel.h"
-#include "tests/rules/front/points.h"
+#include "tests/support/colonies.h"
 #include "tests/support/lively.h"
 #include "tests/support/meshes.h"
 #include "tests/support/messages.h"
@@ -22,31 +21,18 @@ namespace {
 
 using sim::Vec3;
 
-rules::RuleSet tree(bool onto) {
-  rules::RuleSet rules;
-  rules.name = "tree";
-  rules.propagate = rules::Propagate::colonization;
-  rules.colonization.attractors = "crown";
-  rules.colonization.step = {2.0};
-  rules.colonization.influence = {14.0};
-  rules.colonization.kill = {3.0};
-  rules.colonization.onto = onto;
-  return rules;
-}
-
 /// Two trees that share a crown, and a vine.
 sim::Growth grown(sim::World& world, int iterations, bool onto = false) {
-  sim::GrowthSettings settings = tests::brightSettings(iterations);
-  sim::column<Vec3>(settings.commons[rules::attractorsNamed("crown")], rules::kAttractorPlace) =
-      tests::inBox(21, 500, {32, 42, 32}, {18, 14, 18});
-  std::vector<sim::Planting> plantings =
-      tests::planting(world, tree(onto), {{22, 4, 32}, {44, 4, 32}}, "tree");
+  rules::RuleSet tree = tests::tree();
+  tree.colonization.onto = onto;
+  std::vector<sim::Planting> plantings = tests::planting(world, tree, {{22, 4, 32}, {44, 4, 32}}, "tree");
   plantings.push_back(tests::planting(world, tests::lively(), {{32, 2, 50}}, "vine").front());
-  return sim::grow(world, plantings, settings);
+  return sim::grow(world, plantings,
+                   tests::settings(tests::inBox(21, 500, {32, 42, 32}, {18, 14, 18}), iterations));
 }
 
 sim::World open() {
-  sim::World world({Vec3(0.0), 0.05, {64, 64, 64}});
+  sim::World world = tests::open();
   tests::addBox(world, "ground", {0, 0, 0}, {63, 0, 63});
   world.setLayers(4);
   return world;

@@ -1,0 +1,102 @@
+#include <gtest/gtest.h>
+
+#include "rules/growth/front_memory.h"
+#include "tests/support/colonies.h"
+#include "tests/support/plots.h"
+
+namespace espalier {
+namespace {
+
+using rules::Acts;
+using sim::Vec3;
+using tests::open;
+
+constexpr int kMany = 2000;  // iterations: far more than any of these need
+
+/// Two voxels thick, across the whole world above the seeds.
+sim::World shut() {
+  sim::World world = open();
+  tests::addBox(world, "slab", {0, 24, 0}, {63, 26, 63});
+  world.setLayers(4);
+  return world;
+}
+
+std::vector<Vec3> above() {
+  return tests::inBox(21, 120, {32, 46, 32}, {20, 16, 20});
+}
+
+struct Way {
+  const char* name;
+  Acts acts;
+  bool onto, repeated;
+};
+const Way kWays[] = {{"nearest", Acts::on_nearest_node, false, false},
+                     {"nearest_repeated", Acts::on_nearest_node, false, true},
+                     {"nearest_onto", Acts::on_nearest_node, true, false},
+                     {"nearest_onto_repeated", Acts::on_nearest_node, true, true},
+                     {"every", Acts::on_every_node, false, false},
+                     {"every_repeated", Acts::on_every_node, false, true},
+                     {"every_onto", Acts::on_every_node, true, false},
+                     {"every_onto_repeated", Acts::on_every_node, true, true}};
+
+class Ends : public testing::TestWithParam<Way> {
+ protected:
+  Ends() {
+    rules_.colonization.acts = GetParam().acts;
+    rules_.colonization.onto = GetParam().onto;
+    rules_.colonization.repeated = GetParam().repeated;
+    if (GetParam().repeated) rules_.colonization.influence = {10.0};  // or it has thousands of ways
+  }
+  rules::RuleSet rules_ = tests::tree();
+};
+
+TEST_P(Ends, WhereNothingLeadsToTheCrown) {
+  sim::World world = shut();
+  const sim::Growth growth = tests::grown(world, rules_, {{32, 20, 32}}, above(), kMany);
+  EXPECT_LT(growth.iterations, kMany / 4);
+  const sim::Columns& crown = growth.commons.at(rules::attractorsNamed("crown"));
+  EXPECT_EQ(rules::fatesIn(crown).reached + rules::fatesIn(crown).taken, 0u);
+  EXPECT_EQ(rules::endingIn(crown, growth.iterations, true).find("iterations"), std::string::npos)
+      << rules::endingIn(crown, growth.iterations, true);
+}
+
+TEST_P(Ends, WhereAllIsOpen) {
+  sim::World world = open();
+  const sim::Growth growth = tests::grown(world, rules_, {{32, 18, 32}}, above(), kMany);
+  EXPECT_LT(growth.iterations, kMany / 4);
+  const rules::Fates fates = rules::fatesIn(growth.commons.at(rules::attractorsNamed("crown")));
+  EXPECT_GT(fates.reached + fates.taken, 30u);
+  EXPECT_GT(growth.plants[0].skeleton.size(), 15);
+}
+
+TEST_P(Ends, WhereABiasPulls) {
+  rules_.bias.up = 0.3;
+  sim::World world = open();
+  const sim::Growth growth = tests::grown(world, rules_, {{32, 18, 32}}, above(), kMany);
+  EXPECT_LT(growth.iterations, kMany / 4);
+  EXPECT_GT(growth.plants[0].skeleton.size(), 15);
+}
+
+TEST_P(Ends, WhereTreesCompeteInTheDark) {
+  rules_.require.exposure_min = 0.6;
+  sim::World world = shut();
+  const sim::Growth growth =
+      tests::grown(world, rules_, {{20, 30, 20}, {44, 30, 44}, {32, 20, 32}}, above(), kMany);
+  EXPECT_LT(growth.iterations, kMany / 4);
+}
+
+INSTANTIATE_TEST_SUITE_P(Fronts, Ends, testing::ValuesIn(kWays),
+                         [](const auto& way) { return std::string(way.param.name); });
+
+TEST(Ending, IsToldInWords) {
+  EXPECT_EQ(rules::endingOf({.reached = 3, .taken = 2}, false), "all attractors were reached");
+  EXPECT_EQ(rules::endingOf({.reached = 3, .given_up = 1}, false),
+            "3 of 4 attractors were reached; no way led to the others");
+  EXPECT_EQ(rules::endingOf({.waiting = 2, .reached = 3, .given_up = 1}, false),
+            "no attractor is in reach any more; 2 of 6 wait");
+  EXPECT_EQ(rules::endingOf({.waiting = 2, .reached = 3}, true),
+            "the iterations ended while 2 of 5 attractors wait");
+}
+
+}  // namespace
+}  // namespace espalier

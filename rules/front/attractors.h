@@ -100,7 +100,7 @@ void end(Attractors& attractors, std::int32_t at, Fate fate, int iteration, std:
 
 /// How often an attractor waits for another node before it is given up: where none can come to it, those that
 /// try would go on for ever.
-inline constexpr std::int32_t kMostLetGo = 4;
+inline constexpr std::int32_t kMostLetGo = 16;
 
 /// An attractor's node, if it has one, lets go of it: it waits for the next that comes within reach. `at` is
 /// its index, and may be another's after this.

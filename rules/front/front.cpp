@@ -258,6 +258,12 @@ void giveUp(Front& front, std::int32_t node, const OrderRules& by_order) {
   letGo(front.attractors, node, front.nodes, {rules.influence, rules.kill, rules.iteration}, front.pulls);
 }
 
+void handOver(Front& front, std::int32_t node, std::int32_t to, const OrderRules& by_order) {
+  giveUp(front, node, by_order);
+  const FrontRules& rules = by_order.at(front.order[asIndex(to)]);
+  meet(front.attractors, front.nodes, {&to, 1}, {rules.influence, rules.kill, rules.iteration}, front.pulls);
+}
+
 void giveUpOne(Front& front, std::int32_t node, std::int32_t attractor, const OrderRules& by_order) {
   const FrontRules& rules = by_order.trunk();
   if (!waits(front.attractors, attractor)) return;

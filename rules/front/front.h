@@ -121,6 +121,10 @@ void taken(Front& front, std::int32_t attractor, const OrderRules& rules);
 /// A node cannot grow any more: what it was pulled by waits for the next that comes within reach.
 void giveUp(Front& front, std::int32_t node, const OrderRules& rules);
 
+/// A node could only grow aside, and what pulls it is no nearer to the new one: the new one has a try at all
+/// of it that is within its reach. To be called after that has joined.
+void handOver(Front& front, std::int32_t node, std::int32_t to, const OrderRules& rules);
+
 /// A node went for an attractor alone and cannot come to it: that one waits for another. To be called after
 /// all that grew has joined; nothing happens if another has it by then.
 void giveUpOne(Front& front, std::int32_t node, std::int32_t attractor, const OrderRules& rules);

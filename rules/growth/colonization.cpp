@@ -267,7 +267,8 @@ void ColonizationProcess::settle(const sim::StandView& stand, std::span<const si
     throw sim::BrokenContract("a front that was told of other sites");
   own.trunks.clear();
   std::vector<NewNode> joined;
-  std::vector<Errand> aside;  // those idled that did not come nearer to what they went for
+  std::vector<std::pair<Errand, std::int32_t>>
+      aside;  // that came no nearer to what they went for, and whereto
   for (std::size_t i = 0; i < verdicts.size(); ++i) {
     const sim::Verdict& verdict = verdicts[i];
     const Errand& errand = own.errands[i];
@@ -281,7 +282,7 @@ void ColonizationProcess::settle(const sim::StandView& stand, std::span<const si
       own.active.push_back(fresh);
       if (errand.trunk) own.trunks.push_back(fresh);
       if (!errand.trunk && at != errand.end_vx && !cameNearer(errand, at, front, rules.trunk()))
-        aside.push_back(errand);
+        aside.push_back({errand, fresh.front});
     } else if (waitsForNext(verdict)) {
       if (errand.trunk) own.trunks.push_back(errand.from);
       if (!errand.trunk) keepForLater(front, errand.from.front);
@@ -290,12 +291,12 @@ void ColonizationProcess::settle(const sim::StandView& stand, std::span<const si
     }
   }
   join(front, joined, rules);
-  for (const Errand& errand : aside) {
+  for (const auto& [errand, to] : aside) {
     const auto n = static_cast<std::size_t>(errand.from.front);
     if (goesForOneOfMany(rules.trunk())) {
       giveUpOne(front, errand.from.front, errand.attractor, rules);
     } else if (front.pulls.count[n] == front.tried[n]) {
-      giveUp(front, errand.from.front, rules);
+      handOver(front, errand.from.front, to, rules);
     }
   }
   own.errands.clear();

@@ -78,7 +78,7 @@ struct Colonization {
   Acts acts = Acts::on_nearest_node;
   bool onto = false;        ///< new nodes stand on attractors
   bool repeated = false;    ///< a node is a start for each of its attractors
-  double avoid_deg = 80.0;  ///< how far a way may turn aside where something stands in it
+  double avoid_deg = 110.0;  ///< how far a way may turn aside where something stands in it
   int trials = 60;          ///< ways that are tried then
   Branching branching;
   std::vector<std::string> fields;  ///< guide fields of the scene that bend it

@@ -107,6 +107,25 @@ TEST(Colonization, GrowsAroundWhatStandsInTheWay) {
   EXPECT_GT(crossings(scene, grown(other, ghost, {{40, 2, 40}}, attractors)), 10U);
 }
 
+TEST(Colonization, GoesAlongARoofToItsEdge) {
+  for (const bool derived : {false, true}) {
+    sim::World world = open();
+    tests::addBox(world, "roof", {0, 24, 0}, {63, 26, 44});  // open towards the greatest z
+    world.setLayers(4);
+    rules::RuleSet rules = tree();
+    if (derived) {
+      rules.colonization = {};
+      rules.colonization.attractors = "crown";
+    }
+    // All of the crown is above the roof, some of it beyond the roof's edge.
+    const auto attractors = tests::inBox(3, 400, {32, 44, 38}, {16, 12, 22});
+    const sim::Growth growth = grown(world, rules, {{32, 4, 32}}, attractors, 600);
+    const rules::Fates fates = rules::fatesIn(growth.commons.at(rules::attractorsNamed("crown")));
+    EXPECT_GT(fates.reached, 380U) << derived;
+    EXPECT_LT(growth.iterations, 300) << derived;
+  }
+}
+
 TEST(Colonization, IsBentByWhatBendsVines) {
   const auto middleHeight = [](const rules::RuleSet& rules) {
     sim::World world = open();

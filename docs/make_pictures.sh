@@ -54,6 +54,19 @@ small $work/kept_growth.png kept_growth 1040
 grow scenes/library/w_dome.yaml
 small $work/w_dome/steps.png colonization_steps 1600
 small $work/w_dome/vines.png broadleaf 960
+grow scenes/library/four_crowns.yaml
+small $work/four_crowns/vines.png four_crowns 1100
+grow scenes/library/tree_and_wall.yaml
+small $work/tree_and_wall/vines.png tree_and_wall 860
+grow scenes/library/hedge.yaml
+small $work/hedge/vines.png hedge 860
+grow scenes/library/roots.yaml
+small $work/roots/vines.png roots 640
+grow scenes/library/whorls.yaml
+small $work/whorls/figure_7.png whorls 1100
+small $work/whorls/figure_8.png whorls_on_a_body 1100
+grow scenes/library/whorls_volume.yaml
+small $work/whorls_volume/graph.png whorls_volume 1000
 
 grow scenes/library/figure_2.yaml
 small $work/figure_2/figure_2.png flat_walk 960

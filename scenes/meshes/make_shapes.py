@@ -78,12 +78,11 @@ def wren():
         return math.log(total)
 
     def radius(d):
-        low, high, step = 0.0, 0.0, 0.01
-        for i in range(1, 100):  # the farthest way out
-            if inside(tuple(i * step * c for c in d)) > 0:
-                low = i * step
-        high = low + step
-        for _ in range(30):
+        high = 0.9
+        while inside(tuple((high - 0.02) * c for c in d)) <= 0:  # from outside, for the farthest way out
+            high -= 0.02
+        low = high - 0.02
+        for _ in range(12):
             mid = 0.5 * (low + high)
             low, high = (mid, high) if inside(tuple(mid * c for c in d)) > 0 else (low, mid)
         return low

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Grows the library's scenes and makes the pictures of docs/images from what the program drew: reduced by oiiotool
-# (Debian: openimageio-tools) and brought to 256 colours by pngquant. Nothing else is done to them.
+# (Debian: openimageio-tools) and brought to 256 colours or fewer by pngquant. Nothing else is done to them.
 #
 #   docs/make_pictures.sh                                  with the program that ./run builds
 #   ESPALIER=build/release/espalier docs/make_pictures.sh  with one that is built already
@@ -26,12 +26,12 @@ work_through() {  # work_through COMMAND SCENE: into a folder of the scene's nam
 grow() { work_through grow "$1"; }
 expose() { work_through expose "$1"; }
 
-small() {  # small PICTURE NAME WIDTH: docs/images/NAME.png, at most WIDTH pixels wide
+small() {  # small PICTURE NAME WIDTH [COLOURS]: docs/images/NAME.png, at most WIDTH pixels wide
   local width
   width=$(oiiotool "$1" --echo '{TOP.width}' | tail -n 1)
   [ "$width" -le "$3" ] && width=0 || width=$3
   oiiotool "$1" $([ "$width" = 0 ] || echo "--resize ${width}x0") -d uint8 -o "$work/reduced.png"
-  pngquant 256 --speed 1 --strip --force "$work/reduced.png" -o "$images/$2.png"
+  pngquant "${4:-256}" --speed 1 --strip --force "$work/reduced.png" -o "$images/$2.png"
   rm "$work/reduced.png"
   ls -l "$images/$2.png" | awk '{print "  " $NF ": " $5 " bytes"}'
 }
@@ -54,6 +54,19 @@ small $work/kept_growth.png kept_growth 1040
 grow scenes/library/w_dome.yaml
 small $work/w_dome/steps.png colonization_steps 1600
 small $work/w_dome/vines.png broadleaf 960
+grow scenes/library/four_crowns.yaml
+small $work/four_crowns/vines.png four_crowns 1100
+grow scenes/library/tree_and_wall.yaml
+small $work/tree_and_wall/vines.png tree_and_wall 720
+grow scenes/library/hedge.yaml
+small $work/hedge/vines.png hedge 700
+grow scenes/library/roots.yaml
+small $work/roots/vines.png roots 600
+grow scenes/library/whorls.yaml
+small $work/whorls/figure_7.png whorls 960 32
+small $work/whorls/figure_8.png whorls_on_a_body 1100
+grow scenes/library/whorls_volume.yaml
+small $work/whorls_volume/graph.png whorls_volume 1000
 
 grow scenes/library/figure_2.yaml
 small $work/figure_2/figure_2.png flat_walk 960

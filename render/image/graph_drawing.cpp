@@ -106,8 +106,9 @@ GraphSizes sizesFor(const PointGraph& all, const Camera& camera, int width_px, i
   const auto look = [&](const SpacePoint& point) {
     const double depth = projection.depth_m(point.at_m);
     if (!(depth > nearestOf(camera))) return;
+    const glm::vec2 at = projection.pixel(point.at_m);
+    if (at != glm::clamp(at, glm::vec2(0.0f), last)) return;
     depths.push_back(depth);
-    const glm::vec2 at = glm::clamp(projection.pixel(point.at_m), glm::vec2(0.0f), last);
     low = glm::min(low, at);
     high = glm::max(high, at);
   };

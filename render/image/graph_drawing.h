@@ -40,7 +40,7 @@ struct GraphSizes {
 };
 
 /// Sizes that suit a picture of so many pixels and all that is ever drawn in it: by how closely it lies
-/// there.
+/// there. What lies beside the picture has no say.
 GraphSizes sizesFor(const PointGraph& all, const Camera& camera, int width_px, int height_px);
 
 /// Nodes red, attractors that wait blue, those that have ended pale and below all others.

@@ -7,6 +7,8 @@
 namespace espalier::scenes {
 namespace {
 
+constexpr std::size_t kSetsNamed = 3;  // a legend with more names would be wider than its picture
+
 void addPlant(GrowthGraph& whole, const sim::Skeleton& skeleton, const sim::Frame& frame) {
   const auto first = static_cast<std::int32_t>(whole.nodes.size());
   for (std::size_t n = 0; n < skeleton.parent.size(); ++n) {
@@ -38,13 +40,16 @@ GrowthGraph growthGraph(const sim::Growth& growth, const sim::Frame& frame) {
   GrowthGraph whole;
   for (const sim::Plant& plant : growth.plants) addPlant(whole, plant.skeleton, frame);
   const std::string prefix = rules::attractorsNamed("");
+  std::size_t sets = 0;
   for (const auto& [name, columns] : growth.commons) {
     if (!name.starts_with(prefix)) continue;
     const std::size_t before = whole.attractors.size();
     addAttractors(whole, columns, frame);
+    ++sets;
     whole.sets += fmt::format("{}{}, {}", whole.sets.empty() ? "" : "; ", name.substr(prefix.size()),
                               whole.attractors.size() - before);
   }
+  if (sets > kSetsNamed) whole.sets = fmt::format("{} in {} sets", whole.attractors.size(), sets);
   return whole;
 }
 

@@ -22,7 +22,8 @@ struct GrowthGraph {
   std::vector<render::SpaceNode> nodes;   ///< of all plants, whatever they grow by
   std::vector<std::int32_t> born;         ///< of each node: the iteration
   std::vector<SeenAttractor> attractors;  ///< of all sets, in the order of their names and as they were given
-  std::string sets;  ///< their names, and how many are in each: "crown, 1000; hedge, 200"
+  /// Their names, and how many are in each: "crown, 1000; hedge, 200"; of more than three: "1200 in 8 sets".
+  std::string sets;
 };
 
 /// Nothing in it is hidden yet.

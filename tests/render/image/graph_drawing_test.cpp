@@ -170,6 +170,12 @@ TEST(GraphDrawing, SizesSuitHowMuchThereIs) {
   EXPECT_GT(sizesFor(few, kCamera, 640, 480).point_m, 2.0 * sizesFor(many, kCamera, 640, 480).point_m);
   EXPECT_GT(sizesFor(tree(), kCamera, 640, 480).node_m, 0.0);
   EXPECT_EQ(sizesFor({}, kCamera, 640, 480).point_m, 0.0);
+  PointGraph neighbours = tree();
+  for (const SpacePoint& p : many.waiting) neighbours.waiting.push_back({p.at_m + Vec3(20, 0, 0)});
+  const GraphSizes alone = sizesFor(tree(), kCamera, 640, 480),
+                   beside = sizesFor(neighbours, kCamera, 640, 480);
+  EXPECT_EQ(beside.point_m, alone.point_m) << "what lies beside the picture has no say";
+  EXPECT_EQ(beside.farthest_m, alone.farthest_m);
 }
 
 TEST(Golden, PointsOfATree) {

@@ -1,4 +1,7 @@
+#include <algorithm>
+#include <array>
 #include <cstdlib>
+#include <map>
 
 #include "scenes/import/mesh_import.h"
 #include "tests/scenes/import/mesh_files.h"
@@ -27,15 +30,38 @@ TEST_F(OwnMeshes, HaveTheRegionsThatScenesName) {
   EXPECT_EQ(importMesh(kMeshes / "street.obj", RegionsFrom::group).regions,
             (Names{"arcade", "facade_south", "facade_north", "facade_east", "facade_west", "roofs", "tower",
                    "street", "square", "pavement"}));
+  EXPECT_EQ(importMesh(kMeshes / "lean_to.obj", RegionsFrom::group).regions,
+            (Names{"wall", "coping", "roof", "timber", "bed", "paving"}));
+}
+
+TEST_F(OwnMeshes, BodiesAreClosed) {
+  for (const char* name : {"sphere", "wren", "cut_earth", "lawn"}) {
+    const auto body = importMesh(kMeshes / (std::string(name) + ".obj"), RegionsFrom::group);
+    using Place = std::array<double, 3>;
+    std::map<std::pair<Place, Place>, int> ways;  // along an edge, one way and back
+    for (const auto& corners : body.triangles) {
+      for (std::size_t i = 0; i < 3; ++i) {
+        const auto place = [&](std::size_t k) {
+          const sim::Vec3 at = body.vertices_m[corners[k % 3]];
+          return Place{at.x, at.y, at.z};
+        };
+        const Place a = place(i), b = place(i + 1);
+        ways[std::minmax(a, b)] += a < b ? 1 : -1;
+      }
+    }
+    for (const auto& [edge, way] : ways) ASSERT_EQ(way, 0) << name;
+  }
 }
 
 TEST_F(OwnMeshes, AreWhatTheirScriptMakes) {
   if (std::system("python3 --version >/dev/null 2>&1") != 0) GTEST_SKIP() << "python3 is not here";
-  for (const char* script : {"make_courtyard.py", "make_street.py"}) {  // the second uses the first
+  for (const char* script :
+       {"make_courtyard.py", "make_street.py", "make_lean_to.py", "make_shapes.py"}) {  // all use the first
     fs::copy_file(kMeshes / script, folder_ / script);
     ASSERT_EQ(std::system(("python3 '" + (folder_ / script).string() + "' >/dev/null").c_str()), 0);
   }
-  for (const char* name : {"courtyard", "column", "maze_walls", "street"}) {
+  for (const char* name :
+       {"courtyard", "column", "maze_walls", "street", "lean_to", "sphere", "wren", "lawn", "cut_earth"}) {
     for (const char* ending : {".obj", ".mtl"}) {
       const auto made = folder_ / (std::string(name) + ending);
       EXPECT_TRUE(testing::readAll(made) == testing::readAll(kMeshes / made.filename())) << made.filename();

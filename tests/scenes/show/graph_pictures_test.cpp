@@ -86,6 +86,9 @@ TEST(GrowthGraph, OfAttractorsThatNobodyAskedForShowsThemAllWaiting) {
   const render::PointGraph graph = graphAfter(whole, 3);
   ASSERT_EQ(graph.waiting.size(), 3u);
   EXPECT_EQ(graph.waiting[0].at_m, Vec3(1.5, 2.0, 2.5));
+  for (const char* more : {"c", "d"})
+    sim::column<Vec3>(growth.commons[rules::attractorsNamed(more)], rules::kAttractorPlace) = {{1, 2, 6}};
+  EXPECT_EQ(growthGraph(growth, {Vec3(1.0), 0.5, {8, 8, 8}}).sets, "5 in 4 sets") << "no legend is so wide";
 }
 
 /// Trees behind a wall.

@@ -121,6 +121,13 @@ struct SeedSpec {
   std::string key;  ///< what its random numbers hang on; empty: its place
 };
 
+/// A table of points in a file, if its path is not empty.
+struct PointTable {
+  std::filesystem::path file;
+  std::string told;         ///< what reports call it
+  std::optional<int> type;  ///< of the points that are meant, in the fourth column; without it all are
+};
+
 struct PlantSpec {
   std::string name;
   std::filesystem::path rules_file;
@@ -128,6 +135,7 @@ struct PlantSpec {
   Place rules_place = {};  ///< where the scene file names them; without a path where none does
   std::vector<SeedSpec> seeds;
   std::optional<Scatter> scatter;
+  PointTable table;  ///< of more seeds
 };
 
 /// What the attractors of a planting's own crown are called.
@@ -142,8 +150,7 @@ struct AttractorsSpec {
   std::optional<sim::Vec3> at_m;    ///< its foot
   std::string surface;              ///< or the name of a mesh that they lie on
   std::string inside;               ///< or of one that they lie in
-  std::filesystem::path points;     ///< or a file that lists them
-  std::string told;                 ///< what reports call that file
+  PointTable table;                 ///< or a file that lists them
   rules::StrewingSpec strewing;     ///< spread and density: of a solid
   std::optional<double> spacing_m;  ///< on a surface: the least between two
   Place place = {};                 ///< where a scene file has it
@@ -226,5 +233,14 @@ struct Scene {
   std::vector<NamedCamera> cameras;
   std::vector<ImageSpec> images;
 };
+
+/// Calls visit(table, "attractors.crown") for the tables of attractors, then of plants, with the path of what
+/// has them; also for those that are not there.
+template <class Scene_, class Visit>
+void forEachTable(Scene_& scene, Visit visit) {
+  for (auto& attractors : scene.attractors) visit(attractors.table, "attractors." + attractors.name);
+  for (std::size_t i = 0; i < scene.plants.size(); ++i)
+    visit(scene.plants[i].table, "plants[" + std::to_string(i) + "]");
+}
 
 }  // namespace espalier::scenes

@@ -47,6 +47,13 @@ sim::Vec3 headingOf(const sim::Skeleton& skeleton, sim::NodeId node) {
   return glm::normalize(skeleton.position_vx[asIndex(node)] - skeleton.position_vx[asIndex(parent)]);
 }
 
+/// Whether the errand comes nearer to what it goes for alone, another way too: or it would stall.
+bool leadsNearer(const Errand& errand, sim::Vec3 from, sim::Vec3 way, const Front& front) {
+  const sim::Vec3 to = front.attractors.at(front.attractors.place[asIndex(errand.attractor)]);
+  const sim::Vec3 end = from + glm::length(errand.end_vx - from) * way;
+  return distance2(end, to) < distance2(from, to);
+}
+
 }  // namespace
 
 std::vector<double> farthestOf(const Attractors& attractors, const std::vector<sim::Vec3>& starts) {
@@ -80,8 +87,10 @@ void bend(std::vector<Errand>& errands, const Front& front, const sim::StandView
       const sim::Skeleton& skeleton = stand.plants[asIndex(errand.from.plant)].skeleton;
       const sim::Vec3 from = skeleton.position_vx[asIndex(errand.from.node)];
       sim::Vec3 way = errand.direction;
-      if (errand.gait == Gait::pulled && !guidance.guides.empty())
+      if (!guidance.guides.empty()) {
         way = guided(errand, front, skeleton, guidance);
+        if (errand.gait != Gait::pulled && !leadsNearer(errand, from, way, front)) way = errand.direction;
+      }
       const std::int32_t order = nextOrder(front, errand.from.front);
       const Branching& branching = ruleFor(book, order).branching;
       const bool branches = front.sent[asIndex(errand.from.front)] > 0;

@@ -22,8 +22,9 @@ std::vector<double> farthestOf(const Attractors& attractors, const std::vector<s
 /// Sends an errand a way.
 void aim(Errand& errand, const Front& front, const Way& way, const OrderRules& rules);
 
-/// Turns errands, and where they end. Those of nodes that go straight for an attractor keep to the angles
-/// alone; where ways end on attractors, what is turned decides on which. Parallel inside.
+/// Turns errands, and where they end. Those of nodes that go straight for an attractor follow fields only
+/// where they come nearer to it even so; where ways end on attractors, what is turned decides on which.
+/// Parallel inside.
 void bend(std::vector<Errand>& errands, const Front& front, const sim::StandView& stand, const RuleBook& book,
           const OrderRules& rules, const Guidance& guidance);
 

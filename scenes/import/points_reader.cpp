@@ -46,15 +46,19 @@ std::string_view takeColumn(std::string_view& line) {
   return column;
 }
 
-/// A point, or false.
-bool parsePoint(std::string_view line, sim::Vec3& point) {
+template <class Number>
+bool parseNumber(std::string_view column, Number& number) {
+  const char* const end = column.data() + column.size();
+  const auto [stopped, error] = std::from_chars(column.data(), end, number);
+  return error == std::errc() && stopped == end;
+}
+
+/// A point, or false; its type too, where that is asked for.
+bool parsePoint(std::string_view line, sim::Vec3& point, int* type) {
   for (int axis = 0; axis < 3; ++axis) {
-    const std::string_view column = takeColumn(line);
-    const char* const end = column.data() + column.size();
-    const auto [stopped, error] = std::from_chars(column.data(), end, point[axis]);
-    if (error != std::errc() || stopped != end || !(std::abs(point[axis]) <= kFarthest_m)) return false;
+    if (!parseNumber(takeColumn(line), point[axis]) || !(std::abs(point[axis]) <= kFarthest_m)) return false;
   }
-  return true;
+  return type == nullptr || parseNumber(takeColumn(line), *type);
 }
 
 bool namesColumns(std::string_view line) {
@@ -64,7 +68,8 @@ bool namesColumns(std::string_view line) {
 
 }  // namespace
 
-std::vector<sim::Vec3> readPoints(const std::filesystem::path& file, sim::InputFile& read) {
+std::vector<sim::Vec3> readPoints(const std::filesystem::path& file, std::optional<int> type,
+                                  sim::InputFile& read) {
   const std::string bytes = bytesOf(file);
   read = {file.filename().string(), "points", sim::hashOf(bytes)};
   std::vector<sim::Vec3> points;
@@ -76,17 +81,20 @@ std::vector<sim::Vec3> readPoints(const std::filesystem::path& file, sim::InputF
     rest.remove_prefix(std::min(end + 1, rest.size()));
     if (line.empty() || line.front() == '#') continue;
     sim::Vec3 point(0.0);
-    if (parsePoint(line, point)) {
-      points.push_back(point);
+    int of_type = 0;
+    if (parsePoint(line, point, type ? &of_type : nullptr)) {
+      if (!type || of_type == *type) points.push_back(point);
     } else if (!first || !namesColumns(line)) {
       throw sim::InputError(
-          fmt::format("{}:{}: {} is no point; expected x, y, z in metres, each from {} to {}", file.string(),
-                      number, inQuotes(line.substr(0, 60)), -kFarthest_m, kFarthest_m));
+          fmt::format("{}:{}: {} is no point{}; expected x, y, z in metres, each from {} to {}{}",
+                      file.string(), number, inQuotes(line.substr(0, 60)), type ? " with a type" : "",
+                      -kFarthest_m, kFarthest_m, type ? ", and a whole number" : ""));
     }
     first = false;
   }
   if (points.empty())
-    throw sim::InputError(fmt::format("{}: has no points; expected x, y, z on each line", file.string()));
+    throw sim::InputError(fmt::format("{}: has no points{}; expected x, y, z on each line", file.string(),
+                                      type ? fmt::format(" of type {}", *type) : ""));
   return points;
 }
 

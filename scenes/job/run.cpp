@@ -372,9 +372,9 @@ std::string summary(const Report& report, const std::filesystem::path& folder) {
   }
   const auto& size = report.frame.size;
   return fmt::format(
-             "{}: {} x {} x {} voxels of {:.4g} m; {} plants, {} segments, {} leaves in {} iterations\n",
-             report.scene, size.x, size.y, size.z, report.frame.voxel_m, growth.plants.size(), segments,
-             elements, growth.iterations) +
+             "{}: {} x {} x {} voxels of {:.4g} m; {} plant{}, {} segments, {} leaves in {} iterations\n",
+             report.scene, size.x, size.y, size.z, report.frame.voxel_m, growth.plants.size(),
+             growth.plants.size() == 1 ? "" : "s", segments, elements, growth.iterations) +
          (growth.cut_short.empty() ? "" : "note: " + growth.cut_short + "\n") + fates(growth) +
          endOfSummary(report, folder);
 }

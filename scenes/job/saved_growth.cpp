@@ -26,7 +26,7 @@ bool startsWith(std::string_view path, std::initializer_list<std::string_view> k
 /// Where a mesh or a table of points lies does not matter, what it holds does.
 bool namesAFile(std::string_view path) {
   return (path.starts_with("meshes[") && (path.ends_with("].file") || path.ends_with("].optional"))) ||
-         (path.starts_with("attractors.") && path.ends_with(".points"));
+         ((path.starts_with("attractors.") || path.starts_with("plants[")) && path.ends_with(".points"));
 }
 
 std::string difference(const std::string& path, const std::string* was, const std::string* is) {
@@ -87,13 +87,14 @@ sim::Inputs inputsOf(const Scene& scene, const Site& site) {
     inputs.emplace_back(fmt::format("meshes[{}].contents", i),
                         fmt::format("{:016x}", sim::contentHash(mesh)));
   }
-  for (std::size_t i = 0; i < scene.attractors.size(); ++i) {
-    if (scene.attractors[i].points.empty()) continue;
+  auto listed = site.listed_m.begin();
+  forEachTable(scene, [&](const PointTable& table, const std::string& path) {
+    const std::vector<sim::Vec3>& points = *listed++;
+    if (table.file.empty()) return;
     sim::Hasher hash;
-    hash.add(site.listed_m[i]);
-    inputs.emplace_back(fmt::format("attractors.{}.contents", scene.attractors[i].name),
-                        fmt::format("{:016x}", hash.digest()));
-  }
+    hash.add(points);
+    inputs.emplace_back(path + ".contents", fmt::format("{:016x}", hash.digest()));
+  });
   return inputs;
 }
 

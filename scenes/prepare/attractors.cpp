@@ -104,7 +104,7 @@ class Making {
 
  private:
   sim::PointSet strewn(const std::vector<sim::Vec3>& listed_m) const {
-    if (!spec_.points.empty()) return {listed_m, std::vector<sim::Vec3>(listed_m.size(), sim::Vec3(0.0))};
+    if (!spec_.table.file.empty()) return {listed_m, std::vector<sim::Vec3>(listed_m.size(), sim::Vec3(0.0))};
     const std::uint64_t stream = sim::streamOf(scene_.seed, "attractors " + spec_.name);
     const sim::Strewing strewing = rules::strewingOf(spec_.strewing);
     if (!spec_.inside.empty()) return within(strewing.count, stream);

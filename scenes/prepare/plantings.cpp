@@ -49,13 +49,15 @@ std::vector<sim::Vec3> scatter(const sim::World& world, const Scatter& spec, std
   return seeds;
 }
 
-/// Those that were given, in their order, then those that were strewn.
-std::vector<sim::Seed> seedsOf(const PlantSpec& spec, const Site& site, std::uint64_t seed) {
+/// Those that were given, in their order, then those of a table, then those that were strewn.
+std::vector<sim::Seed> seedsOf(const PlantSpec& spec, const std::vector<sim::Vec3>& listed_m,
+                               const Site& site, std::uint64_t seed) {
   const sim::Frame& frame = site.world.frame();
   std::vector<sim::Vec3> unnamed_vx;
   for (const SeedSpec& s : spec.seeds) {
     if (s.key.empty()) unnamed_vx.push_back(sim::voxelFromWorld(frame, s.at_m));
   }
+  for (const sim::Vec3& at_m : listed_m) unnamed_vx.push_back(sim::voxelFromWorld(frame, at_m));
   if (spec.scatter) {
     const auto strewn_vx = scatter(site.world, *spec.scatter, sim::streamOf(seed, spec.name));
     unnamed_vx.insert(unnamed_vx.end(), strewn_vx.begin(), strewn_vx.end());
@@ -78,8 +80,10 @@ std::shared_ptr<const rules::RuleSet> rulesOf(const PlantSpec& spec) {
   return std::make_shared<const rules::RuleSet>(std::move(own));
 }
 
-sim::Planting plant(const PlantSpec& spec, const Site& site, std::uint64_t seed) {
-  return {spec.name, rules::makeProcess(rulesOf(spec), site.world.frame()), seedsOf(spec, site, seed)};
+sim::Planting plant(const PlantSpec& spec, const std::vector<sim::Vec3>& listed_m, const Site& site,
+                    std::uint64_t seed) {
+  return {spec.name, rules::makeProcess(rulesOf(spec), site.world.frame()),
+          seedsOf(spec, listed_m, site, seed)};
 }
 
 }  // namespace
@@ -88,7 +92,9 @@ std::vector<sim::Planting> makePlantings(const Scene& scene, const Site& site) {
   std::vector<sim::Planting> plantings;
   inScene(scene, [&] {
     requireRegionsToScatterOver(scene, site.world);
-    for (const PlantSpec& spec : scene.plants) plantings.push_back(plant(spec, site, scene.seed));
+    for (std::size_t i = 0; i < scene.plants.size(); ++i)
+      plantings.push_back(
+          plant(scene.plants[i], site.listed_m.at(scene.attractors.size() + i), site, scene.seed));
   });
   return plantings;
 }

@@ -80,16 +80,16 @@ Meshes readMeshes(const Scene& scene, MeshFiles& files, std::vector<Problem>& wa
 
 std::vector<std::vector<sim::Vec3>> readListed(const Scene& scene, MeshFiles& files) {
   std::vector<std::vector<sim::Vec3>> all;
-  for (const AttractorsSpec& spec : scene.attractors) {
+  forEachTable(scene, [&](const PointTable& table, const std::string&) {
     all.emplace_back();
-    if (spec.points.empty()) continue;
+    if (table.file.empty()) return;
     sim::InputFile read;
-    all.back() = readPoints(spec.points, read);
-    if (!spec.told.empty()) read.name = spec.told;
-    files.paths.push_back(spec.points);
+    all.back() = readPoints(table.file, table.type, read);
+    if (!table.told.empty()) read.name = table.told;
+    files.paths.push_back(table.file);
     if (std::find(files.files.begin(), files.files.end(), read) == files.files.end())
       files.files.push_back(std::move(read));
-  }
+  });
   return all;
 }
 

@@ -25,7 +25,7 @@ class MeshMissing : public std::runtime_error {
 struct Site {
   std::vector<sim::TiledMesh> meshes;  ///< as placed, world metres
   std::vector<sim::Mesh> shapes;       ///< placed likewise, but no part of the world: for attractors
-  std::vector<std::vector<sim::Vec3>> listed_m;  ///< of each of the scene's attractors, what its file lists
+  std::vector<std::vector<sim::Vec3>> listed_m;  ///< what tables of points list, as forEachTable has them
   std::vector<sim::FillReport> fills;            ///< of the solid ones
   sim::World world;                              ///< with nothing but the meshes in it
   sim::Sky sky;

@@ -18,7 +18,7 @@ std::vector<std::string> sourcesOf(const AttractorsSpec& spec) {
   std::vector<std::string> sources = rules::solidsIn(spec.solid);
   if (!spec.surface.empty()) sources.emplace_back("surface");
   if (!spec.inside.empty()) sources.emplace_back("inside");
-  if (!spec.points.empty()) sources.emplace_back("points");
+  if (!spec.table.file.empty()) sources.emplace_back("points");
   return sources;
 }
 
@@ -50,6 +50,7 @@ void checkMeaning(const AttractorsSpec& spec, const std::string& source, const s
   needs("density", solid, "a solid");
   needs("spacing", surface, "a surface");
   needs("count", !points, "a solid or a mesh");
+  needs("type", points, "points");
   if (solid && !spec.at_m)
     complain(path,
              fmt::format("a {} that stands nowhere; expected at: [x, y, z], where its foot is", source));

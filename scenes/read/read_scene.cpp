@@ -59,19 +59,19 @@ void findMeshes(Scene& scene, const YamlNode& root, const rules::Check::Complain
 
 /// The same for tables of points.
 void findPoints(Scene& scene, const YamlNode& root, const rules::Check::Complain& complain) {
-  for (AttractorsSpec& attractors : scene.attractors) {
-    if (attractors.points.empty()) continue;
-    const auto key = fmt::format("attractors.{}.points", attractors.name);
-    const auto written = attractors.points.string();
-    attractors.points = beside(root, written);
-    attractors.told = toldFrom(scene.file, attractors.points, fs::path(written).is_absolute());
+  forEachTable(scene, [&](PointTable& table, const std::string& path) {
+    if (table.file.empty()) return;
+    const auto key = path + ".points";
+    const auto written = table.file.string();
+    table.file = beside(root, written);
+    table.told = toldFrom(scene.file, table.file, fs::path(written).is_absolute());
     std::error_code error;
-    if (attractors.points.extension() != ".csv") {
+    if (table.file.extension() != ".csv") {
       complain(key, fmt::format("{} is no table of points; expected a .csv file", inQuotes(written)));
-    } else if (!fs::is_regular_file(attractors.points, error)) {
-      complain(key, fmt::format("there is no table of points {}; expected one", attractors.points.string()));
+    } else if (!fs::is_regular_file(table.file, error)) {
+      complain(key, fmt::format("there is no table of points {}; expected one", table.file.string()));
     }
-  }
+  });
 }
 
 Scene sceneOf(const Document& document, const fs::path& path, Problems& problems) {

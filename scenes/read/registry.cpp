@@ -20,6 +20,7 @@ using rules::TableOf;
 
 constexpr Limits kPositive{0.0, 1e6, true};
 constexpr Limits kCoordinate{-1e6, 1e6};
+constexpr Limits kTypes{0.0, 1e6};
 constexpr std::size_t kMostEntries = 1000;
 const char* const kMetres = "metres";
 const char* const kDegrees = "degrees";
@@ -144,6 +145,12 @@ std::shared_ptr<const Table> plantKeys() {
                       {.meaning = "Where it starts, once for each."}, "at")
       .section("scatter", &PlantSpec::scatter, scatter,
                {.meaning = "Seeds strewn at random, beside those that are given."})
+      .file(
+          "points", [](auto& p) -> auto& { return p.table.file; },
+          {.meaning = "More seeds from a table of points, .csv: x, y, z in metres on each line, and perhaps "
+                      "their type."})
+      .whole("type", [](auto& p) -> auto& { return p.table.type; },
+             {.limits = kTypes, .meaning = "Those points of the table that are of this type alone."})
       .shared();
 }
 
@@ -159,8 +166,11 @@ std::shared_ptr<const Table> attractorKeys() {
             {.meaning = "Or the name of one of the meshes: on its surface, even by area.", .most = 100})
       .text("inside", &AttractorsSpec::inside,
             {.meaning = "Or the name of one of the meshes: in its inside, even by volume.", .most = 100})
-      .file("points", &AttractorsSpec::points,
-            {.meaning = "Or a table of points, .csv: x, y, z in metres on each line."});
+      .file(
+          "points", [](auto& a) -> auto& { return a.table.file; },
+          {.meaning = "Or a table of points, .csv: x, y, z in metres on each line, and perhaps their type."})
+      .whole("type", [](auto& a) -> auto& { return a.table.type; },
+             {.limits = kTypes, .meaning = "Those points of the table that are of this type alone."});
   rules::addStrewing(table, &AttractorsSpec::strewing);
   return table
       .metres("spacing", &AttractorsSpec::spacing_m,

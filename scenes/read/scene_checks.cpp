@@ -108,14 +108,18 @@ void checkUntiled(const Scene& scene, const Given& given, const Complain& compla
   }
 }
 
-void checkPlants(const Scene& scene, const Given&, const Complain& complain) {
+void checkPlants(const Scene& scene, const Given& given, const Complain& complain) {
   for (std::size_t p = 0; p < scene.plants.size(); ++p) {
     const auto& plant = scene.plants[p];
-    if (plant.seeds.empty() && !plant.scatter) {
+    const std::string path = fmt::format("plants[{}]", p);
+    if (plant.seeds.empty() && !plant.scatter && plant.table.file.empty()) {
       complain(
-          fmt::format("plants[{}]", p),
-          "a plant without seeds; expected seeds: [[x, y, z], ...] or scatter: {region: name, count: 10}");
+          path,
+          "a plant without seeds; expected seeds: [[x, y, z], ...], scatter: {region: name, count: 10} or "
+          "points: FILE");
     }
+    if (plant.table.file.empty() && given(path + ".type"))
+      complain(path + ".type", "type means nothing without points; expected it with a table of points");
   }
 }
 

@@ -153,10 +153,10 @@ Settings settings(const Scene& scene) {
   const auto folder = scene.file.parent_path().lexically_normal();
   for (auto& mesh : beside.meshes)
     mesh.file = mesh.file.lexically_normal().lexically_proximate(folder).generic_string();
-  for (auto& attractors : beside.attractors) {
-    if (!attractors.points.empty())
-      attractors.points = attractors.points.lexically_normal().lexically_proximate(folder).generic_string();
-  }
+  forEachTable(beside, [&](PointTable& table, const std::string&) {
+    if (!table.file.empty())
+      table.file = table.file.lexically_normal().lexically_proximate(folder).generic_string();
+  });
   return settings(sceneTable(), &beside);
 }
 

@@ -185,6 +185,12 @@ const std::map<std::string, Change>& changes() {
       {"plants[].name", {"report.json", {}, {"name: vine,", "name: ivy,"}}},
       {"plants[].seeds[].at", {"state_hash", {}, {"[[-0.4,", "[[-0.2,"}}},
       {"plants[].seeds[].key", {"state_hash", {}, {"key: one", "key: two"}}},
+      {"plants[].points",
+       {"state_hash", {{"{name: vine,", "{name: vine, points: typed.csv,"}}, {"typed.csv", "listed.csv"}}},
+      {"plants[].type",
+       {"state_hash",
+        {{"{name: vine,", "{name: vine, points: typed.csv, type: 1,"}},
+        {"type: 1", "type: 2"}}},
       {"plants[].scatter.region",
        {"state_hash",
         {{"rules: vine.yaml", "rules: vine.yaml, scatter: {region: floor, count: 2}"}},
@@ -211,6 +217,7 @@ const std::map<std::string, Change>& changes() {
       {"attractors.<name>.surface", strewn("surface: plot", "surface: plot", "surface: shape")},
       {"attractors.<name>.inside", strewn("inside: shape", "inside: shape", "inside: other_shape")},
       {"attractors.<name>.points", strewn("points: listed.csv", "listed.csv", "other.csv")},
+      {"attractors.<name>.type", strewn("points: typed.csv, type: 1", "type: 1", "type: 2")},
       {"attractors.<name>.count", strewn("surface: plot, count: 20", "count: 20", "count: 30")},
       {"attractors.<name>.spread", crown("sphere: 30 cm, spread: volume", "volume", "height")},
       {"attractors.<name>.density", crown("sphere: 30 cm, density: [[0, 1], [1, 2]]", "[1, 2]", "[1, 3]")},
@@ -280,6 +287,7 @@ class EverySceneKey : public testing::TestWithParam<std::string> {
     for (int i = 0; i < 8; ++i) block = "v 0 0 0\n" + block;  // before those that it counts from
     scratch_.write("block.obj", block);
     scratch_.write("listed.csv", "0,0.5,0.4\n0.1,0.5,0.4\n");
+    scratch_.write("typed.csv", "0,0.5,0.4,1\n0.1,0.5,0.4,2\n");
     scratch_.write("other.csv", "0,0.5,0.4\n0.1,0.6,0.4\n");
     scratch_.write("paint.mtl", "newmtl stone\nKd 0.5 0.5 0.5\nnewmtl brick\nKd 0.6 0.2 0.1\n");
     scratch_.write(

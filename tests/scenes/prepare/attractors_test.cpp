@@ -151,6 +151,32 @@ TEST_F(Attractors, FromATable) {
   EXPECT_EQ(refusal("{points: p.csv}"), "p.csv: has no points; expected x, y, z on each line");
 }
 
+TEST_F(Attractors, OfOneTypeInATable) {
+  scratch_.write("p.csv", "x,y,z,type\n0,1,3,0\n0.5,4,0,1\n-0.5,4,0,2,more\n1,5,0, 1\n");
+  EXPECT_EQ(made("{points: p.csv, type: 1}")[0].at_vx.size(), 2u);
+  const auto second = made("{points: p.csv, type: 2}");
+  ASSERT_EQ(second[0].at_vx.size(), 1u);
+  EXPECT_LT(glm::distance(metres(second[0].at_vx[0]), sim::Vec3(-0.5, 4, 0)), 1e-12);
+  EXPECT_EQ(made("{points: p.csv}")[0].at_vx.size(), 4u);
+  EXPECT_EQ(refusal("{points: p.csv, type: 3}"),
+            "p.csv: has no points of type 3; expected x, y, z on each line");
+  scratch_.write("p.csv", "0,1,0,1\n0,1,0\n");
+  EXPECT_EQ(
+      refusal("{points: p.csv, type: 1}"),
+      "p.csv:2: '0,1,0' is no point with a type; expected x, y, z in metres, each from -1000000 to 1000000, "
+      "and a whole number");
+  // Those of another type may be where plants start.
+  scratch_.write("p.csv", "0,1,3,0\n0.5,1,3.1,0\n0,4,3,1\n");
+  made(
+      "{points: p.csv, type: 1}\nplants:\n  - {rules: {propagate: colonization, colonization: {attractors: "
+      "main}}, "
+      "points: p.csv, type: 0}");
+  const auto plantings = makePlantings(scene_, *site_);
+  ASSERT_EQ(plantings.at(0).seeds.size(), 2u);
+  EXPECT_LT(glm::distance(metres(plantings[0].seeds[1].at_vx), sim::Vec3(0.5, 1, 3.1)), 1e-12);
+  EXPECT_EQ(site_->mesh_files.size(), 2u);  // the mesh, and the table once
+}
+
 TEST_F(Attractors, FollowFromTheSeedAndTheirName) {
   const std::string dome = "{dome: 2, at: [0, 3, 0], count: 50}";
   const auto first = made(dome)[0].at_vx;

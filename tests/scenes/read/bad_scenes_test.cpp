@@ -150,7 +150,7 @@ const std::vector<BadFile> kBadScenes = {
      {"3:10: the key 'rules' is missing here; expected the path of a rule file, or a mapping of rule keys"}},
     {"a plant without seeds",
      "plants: [{rules: {}}]\n",
-     {"3:10: a plant without seeds; expected seeds: [[x, y, z], ...] or scatter"}},
+     {"3:10: a plant without seeds; expected seeds: [[x, y, z], ...], scatter"}},
     {"a plant of no seeds", "plants: [{rules: {}, seeds: []}]\n", {"3:10: a plant without seeds"}},
     {"a plant of no rule file",
      "plants: [{rules: vine.yaml, seeds: [[0, 0, 0]]}]\n",

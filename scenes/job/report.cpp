@@ -50,11 +50,14 @@ Json plant(const Report::Growth::Plant& plant) {
 Json growth(const Report::Growth& growth) {
   Json plants = Json::array();
   for (const Report::Growth::Plant& one : growth.plants) plants.push_back(plant(one));
-  return {{"iterations", growth.iterations},
-          {"state_hash", fmt::format("{:016x}", growth.state_hash)},
-          {"buds", outcomes(growth.buds)},
-          {"trials", outcomes(growth.trials)},
-          {"plants", plants}};
+  Json json = {{"iterations", growth.iterations},
+               {"state_hash", fmt::format("{:016x}", growth.state_hash)},
+               {"buds", outcomes(growth.buds)},
+               {"trials", outcomes(growth.trials)}};
+  for (const Report::Growth::Field& field : growth.fields)
+    json["fields"].push_back({{"grid", field.grid}, {"voxels", field.voxels}});
+  json["plants"] = plants;
+  return json;
 }
 
 /// The most memory that this process has held so far. Not what getrusage() calls so: that begins with what

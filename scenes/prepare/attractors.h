@@ -27,7 +27,4 @@ std::vector<NamedPoints> attractorsOf(const Scene& scene, const Site& site,
 /// The same as growth has them: under "attractors NAME" the columns "at_vx" and "normal".
 sim::Commons commonsOf(const std::vector<NamedPoints>& attractors);
 
-/// A scene's field as growth has it: its lengths in voxel widths.
-rules::Guide guideOf(const FieldSpec& field, const sim::Frame& frame);
-
 }  // namespace espalier::scenes

@@ -115,10 +115,9 @@ TEST_F(Attractors, InAShape) {
     EXPECT_LT(std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)}), 1.01);
   }
   EXPECT_TRUE(warnings_.empty());
-  EXPECT_EQ(
-      refusal("{inside: sheet}", "meshes: [{file: sheet.obj, tiled: false}]\n"),
-      "scene.yaml:5:3: attractors 'main': mesh 'sheet': is a sheet, and points are wanted in its inside; "
-      "expected a mesh that holds something, or points on its surface");
+  EXPECT_EQ(refusal("{inside: sheet}", "meshes: [{file: sheet.obj, tiled: false}]\n"),
+            "scene.yaml:5:3: attractors 'main': mesh 'sheet': is a sheet, which has no inside; "
+            "expected a mesh that holds something, or points on its surface");
 }
 
 TEST_F(Attractors, InAMeshThatLeaksSaySo) {

@@ -17,9 +17,10 @@ namespace {
 
 using sim::Vec3;
 
-constexpr std::size_t kMostLookedAt = 20'000;  // attractors
-constexpr double kAcross = 15.0;               // arrows along the longest side
-constexpr int kLayers = 3;
+constexpr std::size_t kMostLookedAt = 20'000;         // attractors
+constexpr double kAcross = 15.0, kOnSurfaces = 18.0;  // arrows along the longest side
+constexpr int kMostLattices = 3;                      // of a field in space
+constexpr double kLatticesApart = 5.0;                // in arrows
 
 /// Some of the attractors at which the field says something.
 std::vector<Vec3> activeOf(const ShownField& field) {
@@ -73,7 +74,8 @@ ArrowPlaces layers(const ShownField& field, const std::vector<Vec3>& active) {
   const auto first = [&](double from, double least) {
     return from + std::ceil((least - from) / places.apart_vx) * places.apart_vx;
   };
-  const int count = extent.y < places.apart_vx ? 1 : kLayers;
+  const int count = std::clamp(static_cast<int>(std::lround(extent.y / (kLatticesApart * places.apart_vx))),
+                               1, kMostLattices);
   for (int layer = 0; layer < count; ++layer) {
     const double y = low.y + extent.y * (layer + 0.5) / count;
     for (double z = first(start.z, low.z); z <= high.z; z += places.apart_vx) {
@@ -103,7 +105,7 @@ ArrowPlaces arrowPlaces(const ShownField& field) {
   if (!field.onSurfaces()) return layers(field, active);
   const auto [low, high] = boundsOf(active);
   const Vec3 extent = high - low;
-  const double spacing = std::max({extent.x, extent.y, extent.z, 1.0}) / kAcross;
+  const double spacing = std::max({extent.x, extent.y, extent.z, 1.0}) / kOnSurfaces;
   return {apart(active, spacing), spacing};
 }
 

@@ -22,7 +22,7 @@ typename Grid::Ptr vectorGrid(const std::string& name, double voxel_m, sim::Voxe
     for (int y = low.y; y < low.y + size.y; ++y) {
       for (int z = low.z; z < low.z + size.z; ++z) {
         const sim::Vec3 v = vector(voxel_m * sim::Vec3(x, y, z));
-        grid->tree().setValueOn({x, y, z}, typename Grid::ValueType(v.x, v.y, v.z));
+        grid->tree().setValueOn({x, y, z}, typename Grid::ValueType(openvdb::Vec3d(v.x, v.y, v.z)));
       }
     }
   }

@@ -28,6 +28,8 @@ std::string_view nameOf(ImageKind kind) {
       return "points";
     case ImageKind::graph:
       return "graph";
+    case ImageKind::field:
+      return "field";
     case ImageKind::narrow_band:
       return "narrow_band";
     case ImageKind::contact_sheet:

@@ -174,6 +174,7 @@ enum class ImageKind {
   attempts,     // every trial of a flat walk and the voxels taken, beside the skeleton
   points,       // nodes and attractors of colonization
   graph,        // the plants' out-trees as lines
+  field,        // a guide field as arrows
   narrow_band,  // a cut through the level set of a mesh
   contact_sheet
 };
@@ -191,6 +192,7 @@ struct ImageSpec {
   char axis = 'y';               ///< section, narrow_band: which way the cut looks
   double at_m = 0.0;             ///< section, narrow_band: where the cut lies on that axis
   std::string mesh;              ///< narrow_band: of which of the meshes; empty: of the first one
+  std::string field;             ///< field: which of the fields; empty: the first one
   std::optional<int> iteration;  ///< points, graph: what stands after so many iterations; without: at the end
   std::vector<std::string> of;   ///< contact_sheet: names of the images on it, in order
 };
@@ -204,9 +206,14 @@ struct RegionMention {
 /// A guide field that bends fronts.
 struct FieldSpec {
   std::string name;
-  rules::Guide guide;                      ///< all but its points and orders; places and lengths in metres
-  std::vector<rules::GuidePoint> points;   ///< its own
-  int order_first = 0, order_last = 1000;  ///< of limbs for which it holds
+  rules::Guide guide;                        ///< all but its points, orders, grid and region; in metres
+  std::vector<rules::GuidePoint> points;     ///< its own
+  std::filesystem::path file;                ///< of GuideAxis::grid: a volume
+  std::string told;                          ///< what reports call that file
+  std::string grid;                          ///< its grid; empty: the only one
+  std::string within;                        ///< the name of a mesh: holds in its inside alone
+  int order_first = 0, order_last = 1000;    ///< of limbs for which it holds
+  Place file_place = {}, within_place = {};  ///< where a scene file names them
 };
 
 struct Scene {

@@ -124,7 +124,6 @@ openvdb::GridBase::Ptr gridOf(const std::vector<VdbPart<Value>>& parts, sim::Vox
       }
     }
   });
-  if constexpr (std::same_as<Value, sim::Vec3f>) grid->setVectorType(openvdb::VEC_COVARIANT_NORMALIZE);
   return grid;
 }
 
@@ -145,6 +144,9 @@ void addFields(std::vector<MakeGrid>& out, const std::vector<VdbField>& fields, 
     out.push_back([&field, &world, size] {
       const auto grid = std::visit([&](const auto& parts) { return gridOf(parts, size); }, field.parts);
       grid->setTransform(world.grids().part->transform().copy());
+      if (std::holds_alternative<std::vector<VdbPart<sim::Vec3f>>>(field.parts))
+        grid->setVectorType(field.directions ? openvdb::VEC_COVARIANT_NORMALIZE
+                                             : openvdb::VEC_CONTRAVARIANT_RELATIVE);
       describe(*grid, {field.name, field.description, field.unit}, world.frame());
       for (const auto& [name, text] : field.about) grid->insertMeta(name, openvdb::StringMetadata(text));
       return grid;

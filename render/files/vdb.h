@@ -26,11 +26,12 @@ struct VdbField {
   std::string name;
   std::string description;
   std::string unit;
-  /// Parts that share no voxel. Directions are unit vectors in world space.
+  /// Parts that share no voxel. Vectors are in world space.
   std::variant<std::vector<VdbPart<float>>, std::vector<VdbPart<std::int32_t>>,
                std::vector<VdbPart<sim::Vec3f>>>
       parts;
   std::vector<std::pair<std::string, std::string>> about = {};  ///< more metadata: name and text
+  bool directions = true;  ///< vectors are of length 1; otherwise turning a grid keeps their lengths
 };
 
 /// A .vdb file of the world. Grids, all with one transform from voxels to world metres: `density` (1 where

@@ -156,6 +156,19 @@ void drawSegment(Image& image, glm::vec2 a, glm::vec2 b, float width_px, Ink ink
   }
 }
 
+void fillTriangle(Image& image, glm::vec2 a, glm::vec2 b, glm::vec2 c, Ink ink) {
+  const auto twice = [](glm::vec2 u, glm::vec2 v) { return u.x * v.y - u.y * v.x; };
+  if (twice(b - a, c - a) < 0.0f) std::swap(b, c);
+  if (!(twice(b - a, c - a) > 0.0f)) return;
+  const auto inside = [&](glm::vec2 p, glm::vec2 from, glm::vec2 to) {  // how far, in pixels
+    return twice(to - from, p - from) / glm::length(to - from);
+  };
+  const glm::vec2 low = glm::min(glm::min(a, b), c), high = glm::max(glm::max(a, b), c);
+  cover(image, reachOf(image, low - 1.0f, high + 1.0f), ink, [&](glm::vec2 p) {
+    return std::min({inside(p, a, b), inside(p, b, c), inside(p, c, a)}) + 0.5f;
+  });
+}
+
 void fillBox(Image& image, glm::vec2 low, glm::vec2 high, Ink ink, float corner_radius_px) {
   const glm::vec2 middle = 0.5f * (low + high);
   const glm::vec2 half = 0.5f * (high - low);

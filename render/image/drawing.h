@@ -36,6 +36,7 @@ void drawText(Image& image, glm::vec2 at, const std::string& text, const TextSty
 std::vector<std::string> linesOf(const std::string& text);
 
 void drawSegment(Image& image, glm::vec2 a, glm::vec2 b, float width_px, Ink ink);
+void fillTriangle(Image& image, glm::vec2 a, glm::vec2 b, glm::vec2 c, Ink ink);
 void fillBox(Image& image, glm::vec2 low, glm::vec2 high, Ink ink, float corner_radius_px = 0.0f);
 
 /// Copies a picture onto another one with its upper left corner at (x, y).

@@ -71,6 +71,17 @@ Whorl whorlAt(const Guide& guide, sim::Vec3 at) {
 
 }  // namespace
 
+bool GuideRegion::holds(sim::Vec3 at) const {
+  const sim::Vec3 in = glm::floor((at - low) / apart + 0.5);
+  std::size_t index = 0;
+  for (int axis = 2; axis >= 0; --axis) {
+    const auto a = static_cast<std::size_t>(axis);
+    if (!(in[axis] >= 0.0 && in[axis] < size[a])) return false;
+    index = index * static_cast<std::size_t>(size[a]) + static_cast<std::size_t>(in[axis]);
+  }
+  return (static_cast<std::uint64_t>(words[index / 64]) >> (index % 64) & 1u) != 0;
+}
+
 sim::Vec3 guideAt(const Guide& guide, const GuidePlace& place) {
   const sim::Vec3 none(0.0);
   if (place.order < guide.orders[0] || place.order > guide.orders[1]) return none;
@@ -79,6 +90,7 @@ sim::Vec3 guideAt(const Guide& guide, const GuidePlace& place) {
       if (place.at[axis] < (*guide.box)[0][axis] || place.at[axis] > (*guide.box)[1][axis]) return none;
     }
   }
+  if (guide.region && !guide.region->holds(place.at)) return none;
   const Whorl whorl = whorlAt(guide, place.at);
   const sim::Vec3 axis = axisAt(guide, place);
   const double axis_length = glm::length(axis), away = glm::length(place.at - place.start);

@@ -2,6 +2,7 @@
 #include <array>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "sim/base/vec.h"
@@ -40,7 +41,17 @@ struct GuideGrid {
   sim::Vec3 low{0.0};
   double apart = 1.0;
   std::array<std::int32_t, 3> size{0, 0, 0};
-  std::vector<sim::Vec3> vectors;
+  std::span<const sim::Vec3> vectors;  ///< borrowed
+};
+
+/// A part of space, in cubes about the points of a lattice; x fastest, then y, then z, 64 a word.
+struct GuideRegion {
+  sim::Vec3 low{0.0};  ///< the middle of the first
+  double apart = 1.0;
+  std::array<std::int32_t, 3> size{0, 0, 0};
+  std::span<const std::int64_t> words;  ///< borrowed
+
+  bool holds(sim::Vec3 at) const;
 };
 
 struct Guide {
@@ -52,6 +63,7 @@ struct Guide {
   bool follows_normal = false;   ///< strength times the axis' length
   std::vector<GuidePoint> points;
   std::optional<std::array<sim::Vec3, 2>> box;       ///< holds in here alone: least and greatest corner
+  std::optional<GuideRegion> region;                 ///< and in here alone
   std::array<std::int32_t, 2> orders{0, 1'000'000};  ///< of segments for which it holds: from, to
   GuideGrid grid;
 };
@@ -65,8 +77,8 @@ struct GuidePlace {
   std::int32_t order = 0;
 };
 
-/// s X_f there; zero where the field says nothing: outside its box or its orders, at the start itself, where
-/// no axis is known. About normals the field lies in the plane that they stand on.
+/// s X_f there; zero where the field says nothing: outside its box, its region or its orders, at the start
+/// itself, where no axis is known. About normals the field lies in the plane that they stand on.
 sim::Vec3 guideAt(const Guide& guide, const GuidePlace& place);
 
 /// The way of a node that is pulled along a unit vector: n'/|n'| + s X_f, normalized; the pull itself, to the

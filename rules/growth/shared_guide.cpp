@@ -8,9 +8,41 @@ namespace {
 using Doubles = std::vector<double>;
 using Places = std::vector<sim::Vec3>;
 using Whole = std::vector<std::int32_t>;
+using Words = std::vector<std::int64_t>;
 
 void require(bool good) {
   if (!good) throw sim::BrokenContract("columns that hold no guide field");
+}
+
+template <typename Values>
+std::vector<typename Values::value_type> copied(const Values& values) {
+  return {values.begin(), values.end()};
+}
+
+/// The columns of a lattice: a grid or a region.
+template <typename Lattice>
+void putLattice(sim::Columns& columns, const std::string& name, const Lattice& lattice) {
+  columns[name + "_size"] = Whole{lattice.size[0], lattice.size[1], lattice.size[2]};
+  columns[name + "_low_vx"] = Places{lattice.low};
+  columns[name + "_apart_vx"] = Doubles{lattice.apart};
+}
+
+/// Their points, all in all.
+template <typename Lattice>
+std::size_t takeLattice(const sim::Columns& columns, const std::string& name, Lattice& lattice) {
+  const auto& size = sim::column<std::int32_t>(columns, name + "_size");
+  const auto& low = sim::column<sim::Vec3>(columns, name + "_low_vx");
+  const auto& apart = sim::column<double>(columns, name + "_apart_vx");
+  require(size.size() == 3 && low.size() == 1 && apart.size() == 1);
+  lattice.low = low[0];
+  lattice.apart = apart[0];
+  std::size_t all = 1;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    require(size[axis] >= 0 && size[axis] <= 4096);
+    lattice.size[axis] = size[axis];
+    all *= static_cast<std::size_t>(size[axis]);
+  }
+  return all;
 }
 
 }  // namespace
@@ -35,10 +67,10 @@ sim::Columns columnsOf(const Guide& guide) {
   columns["points_at_vx"] = at;
   columns["points"] = point;
   const GuideGrid& grid = guide.grid;
-  columns["grid"] = grid.vectors;
-  columns["grid_size"] = Whole{grid.size[0], grid.size[1], grid.size[2]};
-  columns["grid_low_vx"] = Places{grid.low};
-  columns["grid_apart_vx"] = Doubles{grid.apart};
+  columns["grid"] = copied(grid.vectors);
+  putLattice(columns, "grid", grid);
+  columns["region"] = guide.region ? copied(guide.region->words) : Words();
+  putLattice(columns, "region", guide.region.value_or(GuideRegion()));
   return columns;
 }
 
@@ -64,17 +96,13 @@ Guide guideIn(const sim::Columns& columns) {
   require(point.size() == 3 * at.size());
   for (std::size_t i = 0; i < at.size(); ++i)
     guide.points.push_back({at[i], point[3 * i], point[3 * i + 1], point[3 * i + 2]});
-  const auto& size = sim::column<std::int32_t>(columns, "grid_size");
-  const auto& low = sim::column<sim::Vec3>(columns, "grid_low_vx");
-  const auto& apart = sim::column<double>(columns, "grid_apart_vx");
-  require(size.size() == 3 && low.size() == 1 && apart.size() == 1);
-  guide.grid = {low[0], apart[0], {size[0], size[1], size[2]}, sim::column<sim::Vec3>(columns, "grid")};
-  std::size_t all = 1;
-  for (const std::int32_t along : guide.grid.size) {
-    require(along >= 0 && along <= 4096);
-    all *= static_cast<std::size_t>(along);
-  }
-  require(all == guide.grid.vectors.size() && (guide.axis != GuideAxis::grid || all > 0));
+  guide.grid.vectors = sim::column<sim::Vec3>(columns, "grid");
+  const std::size_t points = takeLattice(columns, "grid", guide.grid);
+  require(points == guide.grid.vectors.size() && (guide.axis != GuideAxis::grid || points > 0));
+  const auto& words = sim::column<std::int64_t>(columns, "region");
+  GuideRegion region{.words = words};
+  require(words.size() == (takeLattice(columns, "region", region) + 63) / 64);
+  if (!words.empty()) guide.region = region;
   return guide;
 }
 

@@ -61,7 +61,8 @@ StageCost drawingCost(const PicturesWanted& wanted, const std::vector<Seen>& cam
     cost.work = {0.2 * panels_s, 0.8 * panels_s};
   }
   // The ground that they are drawn on is seen once; segments have some four triangles each at least.
-  const double graphs = countOf(wanted, ImageKind::points) + countOf(wanted, ImageKind::graph);
+  const double graphs = countOf(wanted, ImageKind::points) + countOf(wanted, ImageKind::graph) +
+                        countOf(wanted, ImageKind::field);
   if (graphs > 0) cost.work.shared_s += 0.5e-6 * pixels;
   cost.work.alone_s += graphs * (0.1e-6 * pixels + 0.1e-6 * triangles);
   if (pixels > 0.0 && !cameras.empty()) {

@@ -7,7 +7,7 @@
 #include <fstream>
 #include <iterator>
 
-#include "scenes/import/mesh_import.h"
+#include "scenes/import/guarded_file.h"
 #include "sim/base/hasher.h"
 
 namespace espalier::scenes {
@@ -57,7 +57,7 @@ const std::string* MeshFolderIo::read(const std::string& name) {
   auto kept = kept_.find(real);
   if (kept == kept_.end()) {
     std::error_code error;
-    if (fs::file_size(real, error) > kMostMeshBytes || error) return nullptr;
+    if (fs::file_size(real, error) > kMostFileBytes || error) return nullptr;
     std::ifstream in(real, std::ios::binary);
     Kept file;
     file.bytes.assign(std::istreambuf_iterator<char>(in), {});

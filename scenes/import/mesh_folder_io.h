@@ -14,7 +14,7 @@ namespace espalier::scenes {
 
 /// Assimp's way to files, narrowed: one mesh file by its bare name, and regular files in or below its folder,
 /// read only, asked for by relative paths without `..`, not through links that lead out, of at most
-/// kMostMeshBytes. Everything else is as if it were not there. A file is read once and kept, so that its hash
+/// kMostFileBytes. Everything else is as if it were not there. A file is read once and kept, so that its hash
 /// is that of what was read. Beside them stand files that are only shown.
 class MeshFolderIo : public Assimp::DefaultIOSystem {
  public:

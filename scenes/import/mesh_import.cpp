@@ -1,18 +1,15 @@
 #include "scenes/import/mesh_import.h"
 
 #include <fmt/format.h>
-#include <sys/stat.h>
-#include <unistd.h>
 
 #include <algorithm>
-#include <cerrno>
 #include <cmath>
-#include <cstring>
 #include <glm/gtc/constants.hpp>
 #include <glm/mat3x3.hpp>
 
 #include "scenes/clean_text.h"
 #include "scenes/import/assimp_reader.h"
+#include "scenes/import/guarded_file.h"
 #include "scenes/import/mesh_wire.h"
 #include "sim/base/error.h"
 
@@ -20,61 +17,6 @@ namespace espalier::scenes {
 namespace {
 
 constexpr double kThinnest = 1e-7;
-
-/// The size of a regular file; throws for anything else.
-std::uintmax_t sizeOf(const std::filesystem::path& file) {
-  struct stat about {};
-  if (::stat(file.c_str(), &about) != 0)
-    throw sim::InputError(fmt::format("cannot open the mesh: {}", std::strerror(errno)));
-  if (S_ISDIR(about.st_mode)) throw sim::InputError("is a folder, not a mesh file");
-  if (!S_ISREG(about.st_mode)) throw sim::InputError("is not a regular file");
-  if (::access(file.c_str(), R_OK) != 0)
-    throw sim::InputError(fmt::format("cannot open the mesh: {}", std::strerror(errno)));
-  const auto bytes = static_cast<std::uintmax_t>(about.st_size);
-  if (bytes == 0) throw sim::InputError("the file is empty");
-  if (bytes > kMostMeshBytes) {
-    throw sim::InputError(fmt::format("the file has {} MB; a mesh file may have at most {} MB", bytes >> 20,
-                                      kMostMeshBytes >> 20));
-  }
-  return bytes;
-}
-
-/// Ample for slow machines: a 2.4 MB OBJ file takes a quarter of a second on a common one.
-ChildLimits limitsFor(std::uintmax_t bytes) {
-  ChildLimits limits;
-  limits.cpu = std::chrono::seconds(10 + static_cast<long>(bytes >> 22));
-  limits.wall = 20 * limits.cpu;  // the reader waits for nothing but a processor
-  return limits;
-}
-
-/// What the child packs of a file.
-std::string readInChild(const std::filesystem::path& file, RegionsFrom regions_from,
-                        const ChildLimits& limits) {
-  const auto work = [&] {
-    MeshSources read;
-    const sim::Mesh mesh = readWithAssimp(file, regions_from, read);
-    return packMesh(mesh, read);
-  };
-  ChildResult result = runInChild(work, limits);
-  switch (result.end) {
-    case ChildEnd::finished:
-      break;
-    case ChildEnd::threw:
-      throw sim::InputError(cleanText(result.bytes));
-    case ChildEnd::crashed:
-      throw sim::InputError(
-          fmt::format("the file is damaged: it made the mesh reader crash ({})", result.bytes));
-    case ChildEnd::out_of_time:
-      throw sim::InputError(
-          fmt::format("the file is damaged or far too complex: the mesh reader was not done with it in {} s",
-                      limits.cpu.count()));
-    case ChildEnd::out_of_memory:
-      throw sim::InputError(
-          fmt::format("the file is damaged or far too complex: reading it took more than {} MB",
-                      limits.memory_bytes >> 20));
-  }
-  return std::move(result.bytes);
-}
 
 sim::Mesh unpacked(std::string_view bytes, MeshSources& sources) {
   try {
@@ -175,10 +117,15 @@ sim::Mesh meshFromChild(std::string_view bytes, MeshSources& sources) {
 sim::Mesh importMesh(const std::filesystem::path& file, RegionsFrom regions_from,
                      std::optional<ChildLimits> limits, MeshSources* sources) {
   try {
-    const std::uintmax_t bytes = sizeOf(file);
+    const std::uintmax_t bytes = sizeOfFile(file, "mesh");
     requireMeshFormat(file);
+    const auto work = [&] {
+      MeshSources in_child;
+      const sim::Mesh mesh = readWithAssimp(file, regions_from, in_child);
+      return packMesh(mesh, in_child);
+    };
     MeshSources read;
-    sim::Mesh mesh = meshFromChild(readInChild(file, regions_from, limits.value_or(limitsFor(bytes))), read);
+    sim::Mesh mesh = meshFromChild(readInChild(work, limits.value_or(limitsFor(bytes)), "mesh"), read);
     for (Problem& warning : read.warnings) {
       warning.path = file.string();
       warning.text = cleanText(warning.text);

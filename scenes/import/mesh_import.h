@@ -6,14 +6,12 @@
 #include <vector>
 
 #include "scenes/import/child_process.h"
+#include "scenes/import/guarded_file.h"
 #include "scenes/problem.h"
 #include "scenes/scene.h"
 #include "sim/tile/mesh.h"
 
 namespace espalier::scenes {
-
-/// The most that a mesh file may have, and each file that it names.
-inline constexpr std::uintmax_t kMostMeshBytes = std::uintmax_t{256} << 20;
 
 /// What a mesh was read from.
 struct MeshSources {

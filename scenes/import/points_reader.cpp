@@ -8,7 +8,7 @@
 #include <iterator>
 #include <string_view>
 
-#include "scenes/import/mesh_import.h"
+#include "scenes/import/guarded_file.h"
 #include "scenes/problem.h"
 #include "sim/base/error.h"
 #include "sim/base/hasher.h"
@@ -23,9 +23,9 @@ std::string bytesOf(const std::filesystem::path& file) {
   if (!std::filesystem::is_regular_file(file, error))
     throw sim::InputError(fmt::format("{}: is no file; expected a table of points", file.string()));
   const auto size = std::filesystem::file_size(file, error);
-  if (!error && size > kMostMeshBytes)
+  if (!error && size > kMostFileBytes)
     throw sim::InputError(fmt::format("{}: the file has {} MB; a table of points may have at most {} MB",
-                                      file.string(), size >> 20, kMostMeshBytes >> 20));
+                                      file.string(), size >> 20, kMostFileBytes >> 20));
   std::ifstream stream(file, std::ios::binary);
   std::string bytes{std::istreambuf_iterator<char>(stream), {}};
   if (!stream) throw sim::InputError(fmt::format("{}: cannot be read", file.string()));

@@ -62,6 +62,8 @@ Json growth(const Report::Growth& growth) {
                                   {"taken", one.fates.taken},
                                   {"ending", one.ending}});
   }
+  for (const Report::Growth::Field& field : growth.fields)
+    json["fields"].push_back({{"grid", field.grid}, {"voxels", field.voxels}});
   json["plants"] = plants;
   return json;
 }

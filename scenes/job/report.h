@@ -41,6 +41,11 @@ struct Report {
       sim::Tally tally;
       std::optional<SeedFailure> failure;
     };
+    /// A guide field, as the world's .vdb has it.
+    struct Field {
+      std::string grid;  ///< its name
+      std::size_t voxels = 0;
+    };
     int iterations = 0;
     std::vector<Plant> plants;
     sim::OutcomeCounts buds{}, trials{};
@@ -52,6 +57,7 @@ struct Report {
     std::vector<Attractors> attractors;  ///< the scene's, by their names
     std::uint64_t state_hash = 0;
     std::string cut_short;  ///< sim::Growth::cut_short; among the warnings too
+    std::vector<Field> fields = {};
   };
   std::optional<Growth> growth;  ///< where plants grew
 

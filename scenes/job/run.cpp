@@ -21,6 +21,7 @@
 #include "scenes/prepare/site.h"
 #include "scenes/prepare/unknown_regions.h"
 #include "scenes/problem.h"
+#include "scenes/show/guide_volumes.h"
 #include "scenes/show/light_fields.h"
 #include "scenes/show/picture_memory.h"
 #include "scenes/show/pictures.h"
@@ -256,11 +257,16 @@ Report runScene(const Scene& scene, const RunOptions& options, const Keeping& ke
   std::vector<render::PlantModel> models;  // for pictures; else they are made while they are written
   if (options.pictures)
     models = stages.run("modelling", [&] { return modelPlants(world.frame(), growth.plants); });
+  const GuideVolumes guides = inScene(scene, [&] { return guideVolumes(growth, usedFields(scene), world); });
+  for (const render::VdbField& field : guides.fields)
+    report.growth->fields.push_back({field.name, guides.near->count()});
   std::vector<OutputFile> files;
   files.push_back(
       {kModelFile, [&](std::ostream& out) { writeGlb(out, site, growth.plants, models, report.made_by); }});
   files.push_back({kWorldFile, [&](std::ostream& out) {
-                     render::writeVdb(out, world, worldFields(light, *layers), report.made_by);
+                     std::vector<render::VdbField> fields = worldFields(light, *layers);
+                     fields.insert(fields.end(), guides.fields.begin(), guides.fields.end());
+                     render::writeVdb(out, world, fields, report.made_by);
                    }});
   if (keeping.keep) {
     files.push_back({kStateFile, [&](std::ostream& out) {

@@ -23,10 +23,11 @@ bool startsWith(std::string_view path, std::initializer_list<std::string_view> k
   });
 }
 
-/// Where a mesh or a table of points lies does not matter, what it holds does.
+/// Where a mesh, a table of points or a volume lies does not matter, what it holds does.
 bool namesAFile(std::string_view path) {
   return (path.starts_with("meshes[") && (path.ends_with("].file") || path.ends_with("].optional"))) ||
-         ((path.starts_with("attractors.") || path.starts_with("plants[")) && path.ends_with(".points"));
+         ((path.starts_with("attractors.") || path.starts_with("plants[")) && path.ends_with(".points")) ||
+         (path.starts_with("fields.") && path.ends_with(".file"));
 }
 
 std::string difference(const std::string& path, const std::string* was, const std::string* is) {
@@ -95,6 +96,17 @@ sim::Inputs inputsOf(const Scene& scene, const Site& site) {
     hash.add(points);
     inputs.emplace_back(path + ".contents", fmt::format("{:016x}", hash.digest()));
   });
+  for (std::size_t i = 0; i < scene.fields.size(); ++i) {
+    if (scene.fields[i].file.empty()) continue;
+    const VectorLattice& grid = site.fields[i].grid;
+    sim::Hasher hash;
+    hash.add(grid.low_m);
+    hash.add(grid.apart_m);
+    for (const std::int32_t side : grid.size) hash.add(side);
+    hash.add(grid.vectors);
+    inputs.emplace_back(fmt::format("fields.{}.contents", scene.fields[i].name),
+                        fmt::format("{:016x}", hash.digest()));
+  }
   return inputs;
 }
 

@@ -117,12 +117,7 @@ class Making {
 
   sim::PointSet within(std::size_t count, std::uint64_t stream) const {
     sim::InsidePoints found = sim::scatterWithin(mesh(spec_.inside), count, stream);
-    if (found.doubtful > 0.0) {
-      say_.warn(
-          fmt::format("the mesh '{}' leaks: for {:.2g} % of its inside lines along the axes contradict each "
-                      "other and a vote decides, which is close for {:.2g} %",
-                      spec_.inside, 100.0 * found.doubtful, 100.0 * found.undecided));
-    }
+    if (found.doubt.doubtful > 0.0) say_.warn(leakOf(spec_.inside, found.doubt));
     return std::move(found.points);
   }
 
@@ -137,15 +132,7 @@ class Making {
     return points;
   }
 
-  const sim::Mesh& mesh(const std::string& name) const {
-    for (const sim::TiledMesh& tiled : site_.meshes) {
-      if (tiled.mesh.name == name) return tiled.mesh;
-    }
-    for (const sim::Mesh& shape : site_.shapes) {
-      if (shape.name == name) return shape;
-    }
-    throw sim::InputError(fmt::format("no mesh is called {}", inQuotes(name)));
-  }
+  const sim::Mesh& mesh(const std::string& name) const { return meshNamed(site_, name); }
 
   const AttractorsSpec& spec_;
   const Scene& scene_;
@@ -202,20 +189,6 @@ sim::Commons commonsOf(const std::vector<NamedPoints>& attractors) {
     columns[rules::kAttractorNormal] = points.normal;
   }
   return commons;
-}
-
-rules::Guide guideOf(const FieldSpec& field, const sim::Frame& frame) {
-  rules::Guide guide = field.guide;
-  guide.orders = {field.order_first, field.order_last};
-  guide.points = field.points;
-  for (rules::GuidePoint& point : guide.points) {
-    point.at = sim::voxelFromWorld(frame, point.at);
-    point.radius /= frame.voxel_m;
-  }
-  if (guide.box) {
-    for (sim::Vec3& corner : *guide.box) corner = sim::voxelFromWorld(frame, corner);
-  }
-  return guide;
 }
 
 }  // namespace espalier::scenes

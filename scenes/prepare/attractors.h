@@ -33,7 +33,4 @@ std::vector<NamedPoints> crownsOf(const Scene& scene, const Site& site,
 /// The same as growth has them: by rules::attractorsNamed and the columns of such.
 sim::Commons commonsOf(const std::vector<NamedPoints>& attractors);
 
-/// A scene's field as growth has it: its lengths in voxel widths.
-rules::Guide guideOf(const FieldSpec& field, const sim::Frame& frame);
-
 }  // namespace espalier::scenes

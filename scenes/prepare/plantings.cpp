@@ -109,8 +109,10 @@ sim::GrowthSettings growthSettings(const Scene& scene, const Site& site,
     return sim::makeSkyTable(9, 36, sim::backgroundOf(weighting));  // cells of 10 degrees
   };
   settings.commons = commonsOf(attractors);
-  for (const FieldSpec& field : scene.fields)
-    settings.commons[rules::fieldNamed(field.name)] = rules::columnsOf(guideOf(field, site.world.frame()));
+  for (std::size_t i = 0; i < scene.fields.size(); ++i) {
+    const rules::Guide guide = guideOf(scene.fields[i], site.fields.at(i), site.world.frame());
+    settings.commons[rules::fieldNamed(scene.fields[i].name)] = rules::columnsOf(guide);
+  }
   for (const ImageSpec& image : scene.images) {
     settings.record_attempts = settings.record_attempts || image.kind == ImageKind::attempts;
   }

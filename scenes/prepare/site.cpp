@@ -93,6 +93,19 @@ std::vector<std::vector<sim::Vec3>> readListed(const Scene& scene, MeshFiles& fi
   return all;
 }
 
+std::vector<FieldVolume> readFields(const Scene& scene, MeshFiles& files, std::vector<Problem>& warnings) {
+  std::vector<sim::InputFile> read;
+  std::vector<FieldVolume> fields = readFieldGrids(scene, read, warnings);
+  for (sim::InputFile& file : read) {
+    if (std::find(files.files.begin(), files.files.end(), file) == files.files.end())
+      files.files.push_back(std::move(file));
+  }
+  for (const FieldSpec& field : scene.fields) {
+    if (!field.file.empty()) files.paths.push_back(field.file);
+  }
+  return fields;
+}
+
 /// The voxel size that gives the longest side of the bounds this many voxels.
 double voxelFor(int resolution, const WorldSpec& spec, const std::vector<sim::TiledMesh>& meshes) {
   sim::Vec3 extent(0.0);
@@ -143,7 +156,8 @@ Site makeSite(const Scene& scene) {
   std::vector<Problem> warnings;
   Meshes meshes = readMeshes(scene, files, warnings);
   std::vector<std::vector<sim::Vec3>> listed_m = readListed(scene, files);
-  return inScene(scene, [&]() -> Site {
+  std::vector<FieldVolume> fields = readFields(scene, files, warnings);
+  Site made = inScene(scene, [&]() -> Site {
     std::vector<sim::FillReport> fills;
     std::optional<sim::World> world;
     sim::Sky sky;
@@ -153,25 +167,40 @@ Site makeSite(const Scene& scene) {
                           sky = sim::makeSky(skySettings(scene.sky));
                           sun = makeSun(scene.sun);
                         });
-    return {std::move(meshes.tiled),
-            std::move(meshes.shapes),
-            std::move(listed_m),
-            std::move(fills),
-            std::move(*world),
-            std::move(sky),
-            randomSky(scene.sky, scene.seed),
-            std::move(sun),
-            std::move(files.files),
-            std::move(files.paths),
-            std::move(warnings)};
+    return {std::move(meshes.tiled), std::move(meshes.shapes),
+            std::move(listed_m),     std::move(fields),
+            std::move(fills),        std::move(*world),
+            std::move(sky),          randomSky(scene.sky, scene.seed),
+            std::move(sun),          std::move(files.files),
+            std::move(files.paths),  std::move(warnings)};
   });
+  findRegions(scene, made);
+  return made;
 }
 
 Site makeSiteForLight(Scene scene) {
   scene.plants.clear();
   scene.attractors.clear();
+  scene.fields.clear();
   scene.world.layers = 0;
   return makeSite(scene);
+}
+
+const sim::Mesh& meshNamed(const Site& site, const std::string& name) {
+  for (const sim::TiledMesh& tiled : site.meshes) {
+    if (tiled.mesh.name == name) return tiled.mesh;
+  }
+  for (const sim::Mesh& shape : site.shapes) {
+    if (shape.name == name) return shape;
+  }
+  throw sim::InputError(fmt::format("no mesh is called {}", inQuotes(name)));
+}
+
+std::string leakOf(const std::string& mesh, const sim::InsideDoubt& doubt) {
+  return fmt::format(
+      "the mesh '{}' leaks: for {:.2g} % of its inside lines along the axes contradict each "
+      "other and a vote decides, which is close for {:.2g} %",
+      mesh, 100.0 * doubt.doubtful, 100.0 * doubt.undecided);
 }
 
 int layersFor(const Scene& scene, const sim::Frame& frame) {

@@ -3,6 +3,7 @@
 #include <stdexcept>
 #include <vector>
 
+#include "scenes/prepare/fields.h"
 #include "scenes/problem.h"
 #include "scenes/scene.h"
 #include "sim/light/random_sky.h"
@@ -26,15 +27,22 @@ struct Site {
   std::vector<sim::TiledMesh> meshes;  ///< as placed, world metres
   std::vector<sim::Mesh> shapes;       ///< placed likewise, but no part of the world: for attractors
   std::vector<std::vector<sim::Vec3>> listed_m;  ///< what tables of points list, as forEachTable has them
+  std::vector<FieldVolume> fields;               ///< of each of the scene's fields
   std::vector<sim::FillReport> fills;            ///< of the solid ones
   sim::World world;                              ///< with nothing but the meshes in it
   sim::Sky sky;
   std::optional<sim::RandomSky> random_sky;  ///< where the scene asks for it: instead of sky's directions
   sim::Sun sun;
-  std::vector<sim::InputFile> mesh_files;         ///< what meshes and points were read from, each once
+  std::vector<sim::InputFile> mesh_files;  ///< what meshes, points and volumes were read from, each once
   std::vector<std::filesystem::path> mesh_paths;  ///< where those are
-  std::vector<Problem> warnings;                  ///< of what mesh files name and have not
+  std::vector<Problem> warnings;                  ///< of what mesh files name and have not, and of fields
 };
+
+/// The site's mesh of that name, tiled or not. Throws sim::InputError where it has none.
+const sim::Mesh& meshNamed(const Site& site, const std::string& name);
+
+/// How much of a mesh's inside is doubtful, in a sentence for a warning.
+std::string leakOf(const std::string& mesh, const sim::InsideDoubt& doubt);
 
 /// Reads a scene's meshes and tiles them, with layersFor() boundary layers. Throws sim::InputError, naming
 /// the scene's file where the fault is the scene's; MeshMissing.

@@ -122,9 +122,20 @@ void checkFronts(const Scene& scene, const rules::Check::Given&, const rules::Ch
   }
 }
 
-void checkFields(const Scene& scene, const rules::Check::Given&, const rules::Check::Complain& complain) {
+void checkFields(const Scene& scene, const rules::Check::Given& given,
+                 const rules::Check::Complain& complain) {
   for (const FieldSpec& field : scene.fields) {
     const std::string path = fmt::format("fields.{}", field.name);
+    if (field.guide.axis == rules::GuideAxis::grid) {
+      if (field.file.empty()) complain(path, "an axis by a grid of no file; expected file: VOLUME.vdb");
+    } else {
+      for (const char* const key : {"file", "grid"}) {
+        if (given(path + "." + key))
+          complain(path + "." + key,
+                   fmt::format("{} means nothing to another axis; expected it with axis: grid", key));
+      }
+    }
+    checkMeshName(field.within, path + ".within", scene, complain);
     if (field.guide.axis == rules::GuideAxis::direction && field.guide.direction == sim::Vec3(0.0))
       complain(path + ".direction", "a direction without length; expected one that is not [0, 0, 0]");
     if (!field.guide.box) continue;

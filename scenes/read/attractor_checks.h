@@ -12,7 +12,7 @@ void checkAttractors(const Scene& scene, const rules::Check::Given& given,
 void checkFronts(const Scene& scene, const rules::Check::Given& given,
                  const rules::Check::Complain& complain);
 
-/// Fields have an axis, and boxes an inside.
+/// Fields have an axis, and boxes an inside; they hold in meshes that the scene has.
 void checkFields(const Scene& scene, const rules::Check::Given& given,
                  const rules::Check::Complain& complain);
 

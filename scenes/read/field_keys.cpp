@@ -61,12 +61,20 @@ std::shared_ptr<const rules::Table> fieldKeys() {
           "axis", [](auto& f) -> auto& { return f.guide.axis; },
           {{"direction", GuideAxis::direction},
            {"node_normal", GuideAxis::node_normal},
-           {"attractor_normal", GuideAxis::attractor_normal}},
+           {"attractor_normal", GuideAxis::attractor_normal},
+           {"grid", GuideAxis::grid}},
           {.meaning = "What it winds about: one direction, the normal of the attractor nearest "
-                      "to the node, or of that which pulls it."})
+                      "to the node, or of that which pulls it, or the vectors of a file."})
       .point(
           "direction", [](auto& f) -> auto& { return f.guide.direction; },
           {.unit = "vector", .limits = {-1e6, 1e6}, .meaning = "Of axis: direction; its length is nothing."})
+      .file(
+          "file", &FieldSpec::file,
+          {.meaning = "Of axis: grid: a volume, .vdb, in world metres; where it has no vector, the field is "
+                      "none."})
+      .text("grid", &FieldSpec::grid,
+            {.meaning = "Of axis: grid: which of the file's grids of vectors; without it, the only one.",
+             .most = 100})
       .flag("follow_normal", [](auto& f) -> auto& { return f.guide.follows_normal; },
             {.meaning = "The strength is multiplied by the length of the axis or the normal."})
       .wholeRange("orders", &FieldSpec::order_first, &FieldSpec::order_last,
@@ -75,6 +83,8 @@ std::shared_ptr<const rules::Table> fieldKeys() {
                    .meaning = "Of which limbs: 0 the trunk, 1 its branches, and so on, from and to."})
       .section("box", [](auto& f) -> auto& { return f.guide.box; }, boxKeys(),
                {.meaning = "Holds in here alone."})
+      .text("within", &FieldSpec::within,
+            {.meaning = "And in the inside of this one of the meshes alone.", .most = 100})
       .list<GuidePoint>("points", rules::Kind::entries, &FieldSpec::points, pointKeys(),
                         {.meaning = "Places about which it is another one.", .most = 1000})
       .shared();

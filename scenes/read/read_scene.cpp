@@ -74,6 +74,23 @@ void findPoints(Scene& scene, const YamlNode& root, const rules::Check::Complain
   });
 }
 
+/// The same for volumes.
+void findVolumes(Scene& scene, const YamlNode& root, const rules::Check::Complain& complain) {
+  for (FieldSpec& field : scene.fields) {
+    if (field.file.empty()) continue;
+    const auto key = fmt::format("fields.{}.file", field.name);
+    const auto written = field.file.string();
+    field.file = beside(root, written);
+    field.told = toldFrom(scene.file, field.file, fs::path(written).is_absolute());
+    std::error_code error;
+    if (field.file.extension() != ".vdb") {
+      complain(key, fmt::format("{} is no volume that is known; expected a .vdb file", inQuotes(written)));
+    } else if (!fs::is_regular_file(field.file, error)) {
+      complain(key, fmt::format("there is no volume {}; expected one", field.file.string()));
+    }
+  }
+}
+
 Scene sceneOf(const Document& document, const fs::path& path, Problems& problems) {
   const YamlNode& root = *document.root;
   static const auto paths = pathsOf(sceneTable());
@@ -98,6 +115,8 @@ Scene sceneOf(const Document& document, const fs::path& path, Problems& problems
       {{}, [&](const void*, const auto&, const auto& complain) { findMeshes(scene, root, complain); }});
   checks.push_back(
       {{}, [&](const void*, const auto&, const auto& complain) { findPoints(scene, root, complain); }});
+  checks.push_back(
+      {{}, [&](const void*, const auto&, const auto& complain) { findVolumes(scene, root, complain); }});
   fillNames(scene);
   scene.region_mentions = loader.mentions();
   scene.read_files.push_back({cleanText(path.filename().string()), "scene", document.hash});
@@ -110,6 +129,10 @@ Scene sceneOf(const Document& document, const fs::path& path, Problems& problems
   scene.warnings = loader.warnings().sorted();
   for (AttractorsSpec& attractors : scene.attractors)
     attractors.place = placeOf({&root}, "attractors." + attractors.name);
+  for (FieldSpec& field : scene.fields) {
+    field.file_place = placeOf({&root}, fmt::format("fields.{}.file", field.name));
+    field.within_place = placeOf({&root}, fmt::format("fields.{}.within", field.name));
+  }
   for (std::size_t i = 0; i < scene.plants.size(); ++i) {
     scene.plants[i].rules_place = placeOf({&root}, fmt::format("plants[{}].rules", i));
     auto& scatter = scene.plants[i].scatter;

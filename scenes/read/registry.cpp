@@ -196,8 +196,8 @@ std::shared_ptr<const Table> imageKeys() {
   for (const auto kind :
        {ImageKind::sun_exposure, ImageKind::sky_exposure, ImageKind::threshold, ImageKind::shadow_matte,
         ImageKind::surface_colour, ImageKind::first_pass, ImageKind::sun_hours, ImageKind::vines,
-        ImageKind::section, ImageKind::attempts, ImageKind::points, ImageKind::graph, ImageKind::narrow_band,
-        ImageKind::contact_sheet}) {
+        ImageKind::section, ImageKind::attempts, ImageKind::points, ImageKind::graph, ImageKind::field,
+        ImageKind::narrow_band, ImageKind::contact_sheet}) {
     kinds.emplace_back(nameOf(kind), kind);
   }
   return TableOf<ImageSpec>()
@@ -218,6 +218,8 @@ std::shared_ptr<const Table> imageKeys() {
                .meaning = "Of a section or a narrow_band: where on that axis the cut lies."})
       .text("mesh", &ImageSpec::mesh,
             {.meaning = "Of a narrow_band: of which of the scene's meshes; without it, of the first."})
+      .text("field", &ImageSpec::field,
+            {.meaning = "Of a field: which of the scene's fields; without it, the first."})
       .whole("iteration", &ImageSpec::iteration,
              {.unit = "iterations",
               .limits = {0.0, 100'000.0},

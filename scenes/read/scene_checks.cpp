@@ -186,6 +186,7 @@ void checkImages(const Scene& scene, const Given& given, const Complain& complai
     belongsTo("at", {ImageKind::section, ImageKind::narrow_band});
     belongsTo("mesh", {ImageKind::narrow_band});
     belongsTo("iteration", {ImageKind::points, ImageKind::graph});
+    belongsTo("field", {ImageKind::field});
     belongsTo("plant", {ImageKind::threshold});
     belongsTo("of", {ImageKind::contact_sheet});
     if (image.kind == ImageKind::contact_sheet && image.of.empty())
@@ -223,6 +224,22 @@ void checkImagePlants(const Scene& scene, const Given&, const Complain& complain
   }
 }
 
+void checkImageFields(const Scene& scene, const Given&, const Complain& complain) {
+  std::vector<std::string> names;
+  for (const auto& field : scene.fields) names.push_back(field.name);
+  for (std::size_t i = 0; i < scene.images.size(); ++i) {
+    const auto& image = scene.images[i];
+    if (image.kind != ImageKind::field) continue;
+    if (names.empty()) {
+      complain(fmt::format("images[{}]", i), "an image of no field; expected one among the scene's fields");
+    } else if (!image.field.empty() && std::find(names.begin(), names.end(), image.field) == names.end()) {
+      complain(fmt::format("images[{}].field", i),
+               fmt::format("no field is called {}; expected one of {}{}", inQuotes(image.field),
+                           listed(names, image.field), didYouMean(image.field, names)));
+    }
+  }
+}
+
 void checkSheets(const Scene& scene, const Given&, const Complain& complain) {
   std::vector<std::string> names;
   for (const auto& image : scene.images) {
@@ -254,7 +271,7 @@ const std::vector<Check>& sceneChecks() {
       check({"meshes"}, checkUntiled),
       check({"meshes", "attractors"}, checkAttractors),
       check({"attractors", "fields"}, checkFronts),
-      check({"fields"}, checkFields),
+      check({"meshes", "fields"}, checkFields),
       check({}, [](const Scene& s, const Given&,
                    const Complain& complain) { checkNames(s.meshes, "meshes", complain); }),
       check({}, [](const Scene& s, const Given&,
@@ -266,6 +283,7 @@ const std::vector<Check>& sceneChecks() {
       check({"images"}, checkImages),
       check({"meshes", "images"}, checkImageMeshes),
       check({"plants", "images"}, checkImagePlants),
+      check({"fields", "images"}, checkImageFields),
       check({"images"}, checkSheets),
   };
   return checks;

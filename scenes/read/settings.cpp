@@ -151,12 +151,12 @@ Settings settings(const RuleSet& rules) {
 Settings settings(const Scene& scene) {
   Scene beside = scene;
   const auto folder = scene.file.parent_path().lexically_normal();
-  for (auto& mesh : beside.meshes)
-    mesh.file = mesh.file.lexically_normal().lexically_proximate(folder).generic_string();
-  forEachTable(beside, [&](PointTable& table, const std::string&) {
-    if (!table.file.empty())
-      table.file = table.file.lexically_normal().lexically_proximate(folder).generic_string();
-  });
+  const auto place = [&](std::filesystem::path& file) {
+    if (!file.empty()) file = file.lexically_normal().lexically_proximate(folder).generic_string();
+  };
+  for (auto& mesh : beside.meshes) place(mesh.file);
+  forEachTable(beside, [&](PointTable& table, const std::string&) { place(table.file); });
+  for (auto& field : beside.fields) place(field.file);
   return settings(sceneTable(), &beside);
 }
 

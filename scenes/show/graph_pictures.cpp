@@ -3,49 +3,22 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <optional>
 #include <utility>
 
 #include "render/image/graph_drawing.h"
 #include "render/image/legend.h"
 #include "render/voxels/pale_scene.h"
 #include "render/voxels/visibility.h"
+#include "scenes/show/field_pictures.h"
 #include "scenes/show/growth_graph.h"
 #include "scenes/show/picture_memory.h"
+#include "scenes/show/sight.h"
+#include "sim/base/error.h"
 #include "sim/base/parallel.h"
-#include "sim/world/ray.h"
 
 namespace espalier::scenes {
 namespace {
-
-/// Whether the scene stands between a place and the eye. A place in one of its surfaces is seen from before
-/// that surface.
-class Sight {
- public:
-  Sight(const sim::World& world, const sim::BitVolume& bare, const sim::Bricks& bricks, sim::Vec3 eye_m)
-      : world_(world), bare_(bare), bricks_(bricks), eye_vx_(sim::voxelFromWorld(world.frame(), eye_m)) {}
-
-  bool hides(sim::Vec3 at_m) const {
-    sim::Vec3 at = sim::voxelFromWorld(world_.frame(), at_m);
-    const sim::Voxel voxel = sim::voxelAt(at);
-    if (bare_.at(voxel)) {
-      const auto surface = world_.surfaceAt(voxel);
-      const sim::Vec3 normal = surface ? sim::Vec3(surface->normal) : sim::Vec3(0.0);
-      at += (glm::dot(normal, eye_vx_ - at) < 0.0 ? -kBefore : kBefore) * normal;
-    }
-    const double distance = glm::length(at - eye_vx_);
-    if (!(distance > kBefore)) return false;
-    const auto hit = sim::firstHit(bare_, bricks_, eye_vx_, (at - eye_vx_) / distance);
-    return hit && hit->t < distance - kBefore;
-  }
-
- private:
-  static constexpr double kBefore = 1.5;  ///< voxel widths: what is so near does not hide
-
-  const sim::World& world_;
-  const sim::BitVolume& bare_;
-  const sim::Bricks& bricks_;
-  sim::Vec3 eye_vx_;
-};
 
 bool same(const render::Camera& a, const render::Camera& b) {
   return a.eye_m == b.eye_m && a.target_m == b.target_m && a.fov_deg == b.fov_deg;
@@ -72,11 +45,20 @@ render::SwatchLegend legendOf(const render::PointGraph& graph, bool points) {
   return legend;
 }
 
+const UsedField& fieldOf(const PicturesWanted& wanted, const ImageSpec& image) {
+  for (const UsedField& field : wanted.fields) {
+    if (image.field.empty() || field.name == image.field) return field;
+  }
+  throw sim::InputError(fmt::format("image '{}' needs a field", image.name));
+}
+
 }  // namespace
 
 struct GraphPictures::View {
   render::Camera camera;
   render::Image ground;
+  std::optional<sim::Bricks> bricks;
+  std::optional<Sight> sight;  // where the scene stands
   GrowthGraph whole;
   render::GraphSizes sizes;
 };
@@ -92,11 +74,11 @@ std::unique_ptr<const GraphPictures::View> GraphPictures::viewBy(const render::C
   view->camera = camera;
   view->whole = growthGraph(finished_.growth, frame);
   if (bare.count() > 0) {
-    const sim::Bricks bricks(bare);
+    const sim::Bricks& bricks = view->bricks.emplace(bare);
     view->ground = render::paleScene(
         render::see(frame, bare, bricks, camera, wanted_.width_px, wanted_.height_px, mostFragments(wanted_)),
         bare);
-    const Sight sight(finished_.world, bare, bricks, camera.eye_m);
+    const Sight& sight = view->sight.emplace(finished_.world, bare, bricks, camera.eye_m);
     const auto look = [&](auto& things) {
       sim::parallelForEach(
           things.size(), [&](std::size_t i) { things[i].point.hidden = sight.hides(things[i].point.at_m); });
@@ -117,6 +99,14 @@ render::Image GraphPictures::draw(const ImageSpec& image, const render::Camera& 
   if (!view_ || !same(view_->camera, camera)) {
     view_.reset();  // before the next takes as much
     view_ = viewBy(camera);
+  }
+  if (image.kind == ImageKind::field) {
+    render::Image picture = view_->ground;
+    const UsedField& field = fieldOf(wanted_, image);
+    drawField(picture, ShownField(finished_.growth, field),
+              image.caption.empty() ? "guide field " + field.name : image.caption, finished_.world.frame(),
+              camera, view_->sight ? &*view_->sight : nullptr);
+    return picture;
   }
   const int last = finished_.growth.iterations;
   const int iterations = std::min(image.iteration.value_or(last), last);

@@ -7,15 +7,16 @@
 namespace espalier::scenes {
 
 /// Images of kind points and graph: all plants' nodes and segments and the scene's attractors, as they stand
-/// at the end of growth or after some of its iterations, over what the camera sees of the scene. What the
-/// scene hides is drawn faintly.
+/// at the end of growth or after some of its iterations, over what the camera sees of the scene; and of kind
+/// field, over the same. What the scene hides is drawn faintly.
 class GraphPictures {
  public:
   /// Borrows both.
   GraphPictures(const PicturesWanted& wanted, const Finished& finished);
   ~GraphPictures();
 
-  /// Of the two kinds. Throws sim::InputError as render::see does.
+  /// Of the three kinds. Throws sim::InputError as render::see does, and for a field that nothing has grown
+  /// with.
   render::Image draw(const ImageSpec& image, const render::Camera& camera);
 
  private:

@@ -44,7 +44,7 @@ int measuredChannels(ImageKind kind) {
 }
 
 bool isGraph(ImageKind kind) {
-  return kind == ImageKind::points || kind == ImageKind::graph;
+  return kind == ImageKind::points || kind == ImageKind::graph || kind == ImageKind::field;
 }
 
 /// A contact sheet, its pictures reduced, and its bytes.

@@ -267,6 +267,7 @@ PicturesWanted picturesOf(const Scene& scene, const sim::Provenance& made_by) {
                         scene.images,
                         shadowDirection(scene.sun),
                         {},
+                        usedFields(scene),
                         made_by};
   for (const PlantSpec& plant : scene.plants) wanted.plants.push_back({plant.name, lightNeeds(*plant.rules)});
   return wanted;
@@ -351,7 +352,7 @@ std::vector<OutputFile> drawPictures(const PicturesWanted& wanted, const Finishe
             [&](std::size_t i) { keep(i, drawn(wanted.images[i])); });
   };
   GraphPictures graphs(wanted, finished);
-  for (const ImageKind kind : {ImageKind::points, ImageKind::graph}) {
+  for (const ImageKind kind : {ImageKind::points, ImageKind::graph, ImageKind::field}) {
     drawEach(kind, [&](const ImageSpec& image) { return graphs.draw(image, cameraOf(wanted, image)); });
   }
   drawEach(ImageKind::section, [&](const ImageSpec& image) { return drawSection(finished.world, image); });

@@ -5,6 +5,7 @@
 #include "render/model/plant_model.h"
 #include "render/voxels/panels.h"
 #include "scenes/scene.h"
+#include "scenes/show/shown_field.h"
 #include "scenes/write/output_folder.h"
 #include "sim/base/provenance.h"
 #include "sim/grow/grow.h"
@@ -26,9 +27,10 @@ struct PicturesWanted {
   int width_px = 0, height_px = 0;
   std::vector<NamedCamera> cameras;
   std::vector<ImageSpec> images;
-  sim::Vec3 to_sun{0.0, 1.0, 0.0};  ///< unit: of the shadow matte, the first pass and the vines
-  std::vector<PlantLight> plants;   ///< those of the scene
-  sim::Provenance made_by = {};     ///< for the files' headers
+  sim::Vec3 to_sun{0.0, 1.0, 0.0};     ///< unit: of the shadow matte, the first pass and the vines
+  std::vector<PlantLight> plants;      ///< those of the scene
+  std::vector<UsedField> fields = {};  ///< likewise
+  sim::Provenance made_by = {};        ///< for the files' headers
 };
 
 /// What a plant's outermost rule set asks for.

@@ -9,7 +9,8 @@ namespace espalier::sim {
 /// A file that a job read.
 struct InputFile {
   std::string name;        ///< from the scene's file, never from the machine's root
-  std::string kind;        ///< "scene", "rules", "mesh", "mesh_part" (a material file, a buffer)
+  std::string kind;        ///< "scene", "rules", "mesh", "mesh_part" (a material file, a buffer), "points",
+                           ///< "volume"
   std::uint64_t hash = 0;  ///< XXH3 (64 bits) of its bytes, as `xxhsum -H3` gives it
 
   friend bool operator==(const InputFile&, const InputFile&) = default;

@@ -19,6 +19,10 @@ namespace {
 constexpr float kBand_vx = 3.0f;  // a point looks at distances up to two diagonals from the surface
 constexpr int kRim = 3;           // free voxels around the mesh
 
+/// Lines that run through the corners of a closed mesh may be counted wrongly, here and there for a voxel. A
+/// hole lets whole lines through.
+constexpr double kNoLeak = 2e-5;
+
 /// A mesh in voxels, as OpenVDB asks for it.
 struct InVoxels {
   const Triangles& triangles;
@@ -50,8 +54,7 @@ Frame frameOf(const Mesh& mesh, int voxels) {
   const Vec3 extent = high - low;
   const double longest = std::max({extent.x, extent.y, extent.z});
   if (!(longest > 0.0) || !std::isfinite(longest)) {
-    throw InputError(fmt::format(
-        "mesh '{}': has no inside to strew points in; expected triangles with an area", mesh.name));
+    throw InputError(fmt::format("mesh '{}': has no inside; expected triangles with an area", mesh.name));
   }
   const double voxel = longest / voxels;
   return {low - kRim * voxel, voxel, Voxel(glm::ceil(extent / voxel)) + 2 * kRim + 1};
@@ -164,30 +167,34 @@ Vec3 throwInside(const std::vector<Voxel>& candidates, Distance::Reader& distanc
       fmt::format("mesh '{}': too thin to strew points in; expected one with an inside", mesh.name));
 }
 
+/// Throws for a mesh that has no inside, or hardly one; `instead`: what else would do.
+InsideDoubt soundInside(const Mesh& mesh, const Filled& filled, const char* instead) {
+  const std::size_t sure = filled.inside.count();
+  if (sure == 0) {
+    throw InputError(
+        fmt::format("mesh '{}': is a sheet, which has no inside; expected a mesh that holds something{}",
+                    mesh.name, instead));
+  }
+  const auto may_be = static_cast<double>(sure + filled.outvoted);
+  InsideDoubt doubt{static_cast<double>(filled.doubtful) / may_be,
+                    static_cast<double>(filled.undecided) / may_be};
+  if (doubt.doubtful < kNoLeak) doubt.doubtful = 0.0;
+  if (doubt.undecided > kMostUndecided) {
+    throw InputError(fmt::format(
+        "mesh '{}': is so open that its inside is a guess for {:.0f} % of it; expected at most {:.0f} %{}",
+        mesh.name, 100.0 * doubt.undecided, 100.0 * kMostUndecided, instead));
+  }
+  return doubt;
+}
+
 }  // namespace
 
 InsidePoints scatterWithin(const Mesh& mesh, std::size_t count, std::uint64_t stream) {
   if (count == 0 || count > std::numeric_limits<std::uint32_t>::max())
     throw InputError(fmt::format("{} points in a mesh; expected 1 to 2^32 - 1", count));
   const Grid grid = fineGridOf(mesh);
-  const Filled& filled = grid.filled;
-  const std::size_t sure = filled.inside.count();
-  if (sure == 0) {
-    throw InputError(
-        fmt::format("mesh '{}': is a sheet, and points are wanted in its inside; expected a mesh "
-                    "that holds something, or points on its surface",
-                    mesh.name));
-  }
-  const auto may_be = static_cast<double>(sure + filled.outvoted);
-  InsidePoints result{
-      {}, static_cast<double>(filled.doubtful) / may_be, static_cast<double>(filled.undecided) / may_be};
-  if (result.undecided > kMostUndecided) {
-    throw InputError(
-        fmt::format("mesh '{}': is so open that its inside is a guess for {:.0f} % of it; expected "
-                    "at most {:.0f} %, or points on its surface",
-                    mesh.name, 100.0 * result.undecided, 100.0 * kMostUndecided));
-  }
-  const std::vector<Voxel> candidates = candidatesOf(filled.inside);
+  InsidePoints result{{}, soundInside(mesh, grid.filled, ", or points on its surface")};
+  const std::vector<Voxel> candidates = candidatesOf(grid.filled.inside);
   const Distance distance(grid);
   result.points.at.resize(count);
   result.points.normal.resize(count, Vec3(0.0));
@@ -199,6 +206,12 @@ InsidePoints scatterWithin(const Mesh& mesh, std::size_t count, std::uint64_t st
     }
   });
   return result;
+}
+
+InsideCells cellsWithin(const Mesh& mesh) {
+  Grid grid = fineGridOf(mesh);
+  const InsideDoubt doubt = soundInside(mesh, grid.filled, "");
+  return {grid.frame, std::move(grid.filled.inside), doubt};
 }
 
 }  // namespace espalier::sim

@@ -36,6 +36,15 @@ std::vector<std::string> namesOf(Drawn* list, const std::string& else_by) {
   return names;
 }
 
+/// The names of a mapping's entries.
+std::vector<std::string> keysOf(Drawn* map) {
+  std::vector<std::string> keys;
+  if (map != nullptr) {
+    for (const DrawnEntry& entry : map->entries) keys.push_back(entry.key);
+  }
+  return keys;
+}
+
 void agreeOnSun(Drawn& sun, tests::Numbers& numbers) {
   const bool real = find(sun, "place") != nullptr;
   takeOut(sun, real ? std::set<std::string>{"tilt", "toward", "samples"}
@@ -44,12 +53,14 @@ void agreeOnSun(Drawn& sun, tests::Numbers& numbers) {
 }
 
 void agreeOnImages(Drawn& images, const std::vector<std::string>& plants,
-                   const std::vector<std::string>& meshes, tests::Numbers& numbers) {
+                   const std::vector<std::string>& meshes, const std::vector<std::string>& fields,
+                   tests::Numbers& numbers) {
   for (DrawnEntry& image : images.entries) {
     for (const auto& [key, only] : {std::pair("plant", "threshold"),
                                     {"axis", "section"},
                                     {"of", "contact_sheet"},
                                     {"mesh", "narrow_band"},
+                                    {"field", "field"},
                                     {"iteration", "graph"}}) {
       if (find(image.value, key) && numbers.chance(0.5)) find(image.value, "kind")->text = only;
     }
@@ -60,6 +71,8 @@ void agreeOnImages(Drawn& images, const std::vector<std::string>& plants,
     if (plant && !plants.empty()) plant->text = numbers.pick(plants);
     Drawn* const mesh = find(image.value, "mesh");
     if (mesh && !meshes.empty()) mesh->text = numbers.pick(meshes);
+    Drawn* const field = find(image.value, "field");
+    if (field && !fields.empty()) field->text = numbers.pick(fields);
     Drawn* const of = find(image.value, "of");
     if (of)
       of->text = fmt::format("[{}]", fmt::join(std::vector{numbers.pick(names), numbers.pick(names)}, ", "));
@@ -96,14 +109,28 @@ void agreeOnAttractors(Drawn& attractors, const std::vector<std::string>& meshes
   }
 }
 
+/// Volumes belong to an axis by a grid, and meshes are there.
+void agreeOnFields(Drawn& fields, const std::vector<std::string>& meshes, tests::Numbers& numbers) {
+  for (DrawnEntry& one : fields.entries) {
+    Drawn* const axis = find(one.value, "axis");
+    if (axis && find(one.value, "file")) axis->text = "grid";
+    if (!axis || axis->text != "grid") takeOut(one.value, {"file", "grid"});
+    if (meshes.empty() || numbers.chance(0.7)) takeOut(one.value, {"within"});  // most have no inside
+    if (Drawn* within = find(one.value, "within")) within->text = numbers.pick(meshes);
+  }
+}
+
 }  // namespace
 
 void makeAgree(Drawn& scene, tests::Numbers& numbers) {
   if (Drawn* sun = find(scene, "sun"); sun && numbers.chance(kMostly)) agreeOnSun(*sun, numbers);
   if (Drawn* attractors = find(scene, "attractors"); attractors && numbers.chance(kMostly))
     agreeOnAttractors(*attractors, meshNames(find(scene, "meshes")), numbers);
+  if (Drawn* fields = find(scene, "fields"); fields && numbers.chance(kMostly))
+    agreeOnFields(*fields, meshNames(find(scene, "meshes")), numbers);
   if (Drawn* images = find(scene, "images"); images && numbers.chance(kMostly))
-    agreeOnImages(*images, namesOf(find(scene, "plants"), ""), namesOf(find(scene, "meshes"), ""), numbers);
+    agreeOnImages(*images, namesOf(find(scene, "plants"), ""), namesOf(find(scene, "meshes"), ""),
+                  keysOf(find(scene, "fields")), numbers);
 }
 
 }  // namespace espalier::fuzz

@@ -1,11 +1,13 @@
 #include <fmt/format.h>
+#include <openvdb/openvdb.h>
 
+#include <algorithm>
 #include <array>
 #include <fstream>
 
 #include "tests/fuzz/random_files.h"
 
-/// What drawn scenes read beside their rules: meshes and points.
+/// What drawn scenes read beside their rules: meshes, points and volumes.
 namespace espalier::fuzz {
 
 /// A floor, a wall, a box and a sloping quad between -0.5 and 0.5, each a group and a material of its own.
@@ -55,6 +57,25 @@ std::string RandomFiles::writePoints() {
     file << fmt::format("{},{},{}\n", at.x, at.y, at.z);
   }
   return "points.csv";
+}
+
+/// Vectors in a few voxels about the middle.
+std::string RandomFiles::writeVolume() {
+  openvdb::initialize();
+  auto grid = openvdb::Vec3SGrid::create();
+  grid->setName("up");
+  grid->setTransform(openvdb::math::Transform::createLinearTransform(std::max(world_.voxel_m, 1e-4)));
+  grid->transform().postTranslate({world_.middle_m.x, world_.middle_m.y, world_.middle_m.z});
+  const int far = numbers_.whole(1, 9);
+  for (int i = numbers_.whole(1, 300); i > 0; --i) {
+    const auto part = [&] { return static_cast<float>(numbers_.uniform(-2.0, 2.0)); };
+    const auto place = [&] { return numbers_.whole(-far, far); };
+    grid->tree().setValueOn({place(), place(), place()}, {part(), part(), part()});
+  }
+  openvdb::io::File file((folder_ / "winds.vdb").string());
+  file.write({grid});
+  file.close();
+  return "winds.vdb";
 }
 
 }  // namespace espalier::fuzz

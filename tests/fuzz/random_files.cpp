@@ -151,6 +151,8 @@ void RandomFiles::knowSpecials() {
     text(std::string("attractors.<name>.") + sides,
          [=] { return ValueDrawer::point(side(), side(), side()); });
   text("attractors.<name>.points", [this] { return writePoints(); });
+  text("fields.<name>.file", [this] { return writeVolume(); });
+  text("fields.<name>.grid", [this] { return std::string(numbers_.chance(0.9) ? "up" : "down"); });
   text("attractors.<name>.spacing",
        [this] { return fmt::format("{}", world_.voxel_m * numbers_.whole(1, 9)); });
   text("attractors.<name>.at", [this] { return place(numbers_.chance(0.9) ? 0.3 : 0.6); });

@@ -50,6 +50,7 @@ class RandomFiles {
   static World drawWorld(tests::Numbers& numbers);
   std::string writeMesh();
   std::string writePoints();
+  std::string writeVolume();
   void knowSpecials();
   Drawn table(const rules::Table& table, const std::string& path);
   bool value(const rules::Key& key, const std::string& path, Drawn& drawn);

@@ -83,6 +83,19 @@ TEST(Guide, HoldsWhereItIsSaidTo) {
   EXPECT_TRUE(at({1, 1, 1}, 1));
   EXPECT_FALSE(at({1, 5, 1}, 1));
   EXPECT_FALSE(at({1, 1, 1}, 0));
+  // In a region of cubes, of which the second and the fourth are in.
+  const std::vector<std::int64_t> words = {0b1010};
+  Guide within;
+  within.region = {{2, 2, 2}, 2.0, {2, 2, 1}, words};
+  const auto in = [&](Vec3 place) {
+    return rules::guideAt(within, {place, Vec3(-1.0), 10.0, {}, 0}) != Vec3(0.0);
+  };
+  EXPECT_TRUE(in({3.1, 1.1, 2.9}));
+  EXPECT_TRUE(in({4.9, 4.9, 1.1}));
+  EXPECT_FALSE(in({2.9, 2, 2}));
+  EXPECT_FALSE(in({5.1, 2, 2}));
+  EXPECT_FALSE(in({4, 2, 3.1}));
+  EXPECT_FALSE(in({4, 0.9, 2}));
   // About a point it is another one.
   Guide pointed;
   pointed.strength = 0.0;
@@ -100,7 +113,8 @@ TEST(Guide, TakesItsAxisFromAGrid) {
   Guide guide;
   guide.axis = GuideAxis::grid;
   guide.angle_deg = 90.0;
-  guide.grid = {{0, 0, 0}, 2.0, {2, 2, 2}, std::vector<Vec3>(8, Vec3(0, 1, 0))};
+  const std::vector<Vec3> up(8, Vec3(0, 1, 0));
+  guide.grid = {{0, 0, 0}, 2.0, {2, 2, 2}, up};
   Guide plain;
   plain.angle_deg = 90.0;
   const rules::GuidePlace in{{1.5, 0.5, 1}, {-1, 0, 0}, 5.0, {}, 0};
@@ -118,10 +132,17 @@ TEST(Guide, IsTheSameOutOfColumns) {
   guide.points = {{{1, 2, 3}, 4.0, 5.0, 6.0}};
   guide.box = {Vec3(0.0), Vec3(9.0)};
   guide.orders = {0, 2};
-  guide.grid = {{0, 1, 0}, 2.0, {1, 2, 1}, {Vec3(0, 1, 0), Vec3(1, 1, 0)}};
-  EXPECT_EQ(rules::columnsOf(rules::guideIn(rules::columnsOf(guide))), rules::columnsOf(guide));
-  sim::Columns broken = rules::columnsOf(guide);
+  const std::vector<Vec3> vectors = {{0, 1, 0}, {1, 1, 0}};
+  guide.grid = {{0, 1, 0}, 2.0, {1, 2, 1}, vectors};
+  const std::vector<std::int64_t> words = {0b1011, 7};
+  guide.region = {{1, 2, 3}, 0.5, {5, 5, 3}, words};
+  const sim::Columns columns = rules::columnsOf(guide);
+  EXPECT_EQ(rules::columnsOf(rules::guideIn(columns)), columns);
+  sim::Columns broken = columns;
   sim::column<std::int32_t>(broken, "grid_size") = {1, 2, 3};
+  EXPECT_THROW(rules::guideIn(broken), sim::BrokenContract);
+  broken = columns;
+  sim::column<std::int32_t>(broken, "region_size") = {5, 5, 6};
   EXPECT_THROW(rules::guideIn(broken), sim::BrokenContract);
 }
 

@@ -16,6 +16,7 @@
 #include "scenes/read/registry.h"
 #include "sim/base/error.h"
 #include "tests/support/scratch.h"
+#include "tests/support/volumes.h"
 
 /// Every key of scene files changes something that comes out: a new one fails here until somebody says below
 /// what. (Those of rule files: tests/rules/growth/every_key_test.cpp.)
@@ -225,6 +226,15 @@ const std::map<std::string, Change>& changes() {
       {"fields.<name>.angle", bent("angle: 90", "angle: 90", "angle: 100")},
       {"fields.<name>.strength", bent("strength: 2", "strength: 2", "strength: 3")},
       {"fields.<name>.axis", bent("axis: node_normal", "node_normal", "attractor_normal")},
+      {"fields.<name>.file", bent("axis: grid, file: winds.vdb", "file: winds", "file: other")},
+      {"fields.<name>.grid", bent("axis: grid, file: two.vdb, grid: a", "grid: a", "grid: b")},
+      {"fields.<name>.within",
+       {"state_hash",
+        {{kMeshes,
+          "meshes:\n  - {file: block.obj, name: shape, tiled: false}\n"
+          "  - {file: block.obj, name: other_shape, scale: 0.5, tiled: false}\n"},
+         {"seed: 5", "seed: 5\nfields: {main: {within: shape}}"}},
+        {"within: shape", "within: other_shape"}}},
       {"fields.<name>.direction", bent("direction: [0, 1, 0]", "[0, 1, 0]}", "[1, 1, 0]}")},
       {"fields.<name>.follow_normal", bent("follow_normal: false", "normal: false", "normal: true")},
       {"fields.<name>.orders", bent("orders: [0, 1]", "orders: [0, 1]", "orders: [0, 2]")},
@@ -264,6 +274,15 @@ const std::map<std::string, Change>& changes() {
        {"a.png",
         {band, {kImage, "{kind: narrow_band, name: a, axis: x, at: 0.5, mesh: plot}"}},
         {"mesh: plot", "mesh: twin"}}},
+      {"images[].field",
+       {"a.png",
+        {{"rules: vine.yaml",
+          "rules: {propagate: colonization, colonization: {attractors: ball, fields: [one, two]}}"},
+         {"seed: 5",
+          "seed: 5\nattractors: {ball: {sphere: 30 cm, at: [-0.4, 0.4, 0.4], count: 40}}\n"
+          "fields: {one: {angle: 90}, two: {angle: 90, direction: [1, 0, 0]}}"},
+         {kImage, "{kind: field, name: a, field: one}"}},
+        {"field: one", "field: two"}}},
       {"images[].iteration",
        {"a.png", {{kImage, "{kind: graph, name: a}"}}, {"kind: graph", "kind: graph, iteration: 2"}}},
       {"images[].of", {"a.png", {sheet}, {"of: [s]", "of: [t, s]"}}},
@@ -286,6 +305,12 @@ class EverySceneKey : public testing::TestWithParam<std::string> {
     block = block.substr(block.find("v 0.3"));
     for (int i = 0; i < 8; ++i) block = "v 0 0 0\n" + block;  // before those that it counts from
     scratch_.write("block.obj", block);
+    const auto grid = [](const char* name, sim::Vec3 vector) {
+      return tests::vectorGrid(name, 0.5, {-3, -1, -3}, {7, 5, 7}, [=](sim::Vec3) { return vector; });
+    };
+    tests::writeVolume(scratch_.path("winds.vdb"), {grid("a", {0, 1, 0})});
+    tests::writeVolume(scratch_.path("other.vdb"), {grid("a", {1, 0, 0})});
+    tests::writeVolume(scratch_.path("two.vdb"), {grid("a", {0, 1, 0}), grid("b", {1, 0, 0})});
     scratch_.write("listed.csv", "0,0.5,0.4\n0.1,0.5,0.4\n");
     scratch_.write("typed.csv", "0,0.5,0.4,1\n0.1,0.5,0.4,2\n");
     scratch_.write("other.csv", "0,0.5,0.4\n0.1,0.6,0.4\n");

@@ -11,7 +11,9 @@
 #include "scenes/prepare/plantings.h"
 #include "scenes/read/read_scene.h"
 #include "sim/base/error.h"
+#include "tests/support/messages.h"
 #include "tests/support/scratch.h"
+#include "tests/support/volumes.h"
 
 namespace espalier::scenes {
 namespace {
@@ -166,6 +168,69 @@ TEST(KeptFront, ThatIsNoneIsADamagedStateToRunsAndPictures) {
       EXPECT_NE(told.find("growth.state: the state is damaged: "), std::string::npos) << name << ": " << told;
     }
   }
+}
+
+constexpr const char* kTree =
+    "attractors: {crown: {dome: 60 cm, at: [1, 1, 1], count: 300}}\n"
+    "fields: {whorl: {angle: 360, strength: 2, axis: grid, file: winds.vdb, within: ball}}\n"
+    "meshes: [{file: ball.obj, tiled: false}]\n";
+constexpr const char* kTreeRules =
+    "rules: {propagate: colonization, colonization: {attractors: crown, fields: [whorl]}}";
+
+/// A tree in whose crown a field holds in part.
+class KeptFields : public testing::Test {
+ protected:
+  KeptFields() {
+    // A cube about the lower half of the crown.
+    scratch_.write("ball.obj",
+                   "v 0 0.5 0\nv 2 0.5 0\nv 2 0.5 2\nv 0 0.5 2\nv 0 1.3 0\nv 2 1.3 0\nv 2 1.3 2\nv 0 1.3 2\n"
+                   "f 1 2 3 4\nf 5 8 7 6\nf 1 5 6 2\nf 2 6 7 3\nf 3 7 8 4\nf 4 8 5 1\n");
+    writeWinds({0, 1, 0});
+  }
+  void writeWinds(sim::Vec3 vector) {
+    tests::writeVolume(scratch_.path("winds.vdb"), {tests::vectorGrid("wind", 0.5, {0, 0, 0}, {5, 5, 5},
+                                                                      [=](sim::Vec3) { return vector; })});
+  }
+  Report run(int iterations, const char* folder, bool resume = false) {
+    std::string text = std::string(kScene) + kTree;
+    text.replace(text.find("rules: "), text.find("}}}") + 2 - text.find("rules: "), kTreeRules);
+    text.replace(text.find("iterations: 8"), 13, "iterations: " + std::to_string(iterations));
+    const auto scene = readScene(scratch_.write("scene.yaml", text));
+    if (!scene) throw sim::InputError(format(scene.problems()));
+    RunOptions options;
+    options.folder = scratch_.path(folder);
+    options.pictures = false;
+    return runScene(*scene, options, {.resume = resume});
+  }
+
+  tests::Scratch scratch_;
+};
+
+TEST_F(KeptFields, AreGoneOnWithBitForBit) {
+  const std::uint64_t whole = run(30, "whole").growth->state_hash;
+  run(7, "part");
+  EXPECT_EQ(run(30, "part", true).growth->state_hash, whole);
+  for (const char* file : {"world.vdb", "plant.glb", "growth.state"})
+    EXPECT_EQ(tests::fileText(scratch_.path(std::string("part/") + file)),
+              tests::fileText(scratch_.path(std::string("whole/") + file)))
+        << file;
+}
+
+TEST_F(KeptFields, OfAnotherVolumeAreRefused) {
+  run(7, "part");
+  writeWinds({1, 0, 0});
+  EXPECT_NE(tests::messageOf([&] { run(30, "part", true); }).find("fields.whorl.contents are others"),
+            std::string::npos);
+}
+
+TEST_F(KeptFields, VolumesAreNotWrittenOver) {
+  const auto file = scratch_.path("winds.vdb"), own = scratch_.path("world.vdb");
+  std::filesystem::rename(file, own);
+  const std::string before = tests::fileText(own);
+  std::filesystem::create_symlink("world.vdb", file);
+  EXPECT_NE(tests::messageOf([&] { run(3, ""); }).find("this run reads the file and would write over it"),
+            std::string::npos);
+  EXPECT_EQ(tests::fileText(own), before);
 }
 
 }  // namespace

@@ -116,10 +116,9 @@ TEST_F(Attractors, InAShape) {
     EXPECT_LT(std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)}), 1.01);
   }
   EXPECT_TRUE(warnings_.empty());
-  EXPECT_EQ(
-      refusal("{inside: sheet}", "meshes: [{file: sheet.obj, tiled: false}]\n"),
-      "scene.yaml:5:3: attractors 'main': mesh 'sheet': is a sheet, and points are wanted in its inside; "
-      "expected a mesh that holds something, or points on its surface");
+  EXPECT_EQ(refusal("{inside: sheet}", "meshes: [{file: sheet.obj, tiled: false}]\n"),
+            "scene.yaml:5:3: attractors 'main': mesh 'sheet': is a sheet, which has no inside; "
+            "expected a mesh that holds something, or points on its surface");
 }
 
 TEST_F(Attractors, InAMeshThatLeaksSaySo) {
@@ -130,6 +129,20 @@ TEST_F(Attractors, InAMeshThatLeaksSaySo) {
   ASSERT_EQ(warnings_.size(), 1u);
   EXPECT_NE(warnings_[0].text.find("the mesh 'open' leaks: for 1e+02 %"), std::string::npos)
       << warnings_[0].text;
+}
+
+TEST_F(Attractors, InABallOfWhichOneTriangleIsMissingSaySoAndInAWholeOneDoNot) {
+  const std::string ball = tests::fileText(tests::sourceFolder() / "scenes/meshes/sphere.obj");
+  const auto face = ball.find("\nf ");
+  scratch_.write("ball.obj", ball);
+  scratch_.write("open.obj", ball.substr(0, face) + ball.substr(ball.find('\n', face + 1)));
+  for (const char* at : {"[-1.2, 2.1, 0]", "[0, 2.1, 0]", "[0.333, 2, 0.2]"}) {
+    const std::string rest = std::string(", tiled: false, scale: 2.8, translate: ") + at + "}]\n";
+    made("{inside: ball, count: 50}", "meshes: [{file: ball.obj" + rest);
+    EXPECT_TRUE(warnings_.empty()) << at << ": " << warnings_[0].text;
+    made("{inside: open, count: 50}", "meshes: [{file: open.obj" + rest);
+    EXPECT_EQ(warnings_.size(), 1u) << at;
+  }
 }
 
 TEST_F(Attractors, FromATable) {

@@ -25,8 +25,8 @@ Mesh ballUpTo(double height) {
 TEST(InsidePoints, AreEvenByVolumeInABox) {
   const Vec3 low(1, 2, 3), high(5, 4, 6);
   const auto found = scatterWithin(tests::boxMesh(low, high), 64'000, kStream);
-  EXPECT_EQ(found.doubtful, 0.0);
-  EXPECT_EQ(found.undecided, 0.0);
+  EXPECT_EQ(found.doubt.doubtful, 0.0);
+  EXPECT_EQ(found.doubt.undecided, 0.0);
   int counts[64] = {};
   const Vec3 slack(0.25 * 4.0 / 128);  // of a voxel, where edges are rounded
   for (const Vec3& p : found.points.at) {
@@ -60,8 +60,8 @@ TEST(InsidePoints, DoNotAskWhichWayTrianglesFace) {
 
 TEST(InsidePoints, AHoleIsVotedOn) {
   const auto found = scatterWithin(ballUpTo(1.0), 20'000, kStream);
-  EXPECT_GT(found.doubtful, 0.5);
-  EXPECT_LT(found.undecided, 0.2);
+  EXPECT_GT(found.doubt.doubtful, 0.5);
+  EXPECT_LT(found.doubt.undecided, 0.2);
   int above = 0;
   for (const Vec3& p : found.points.at) {
     ASSERT_LT(glm::distance(p, kMiddle), 2.0 + 0.5 * 4.0 / 128);
@@ -80,15 +80,14 @@ TEST(InsidePoints, RefuseWhatHasNoInside) {
             "points on its surface");
   const auto flat = [](double, double) { return 0.0; };
   EXPECT_EQ(says(tests::terrainMesh(10, 1, flat)),
-            "mesh 'terrain': is a sheet, and points are wanted in its inside; expected a mesh that holds "
+            "mesh 'terrain': is a sheet, which has no inside; expected a mesh that holds "
             "something, or points on its surface");
   const auto wavy = [](double x, double) { return std::sin(x); };
   EXPECT_EQ(says(tests::terrainMesh(10, 1, wavy)).substr(0, 55),
             "mesh 'terrain': is so open that its inside is a guess f");
   EXPECT_EQ(says(tests::boxMesh(Vec3(1), Vec3(1))),
-            "mesh 'box': has no inside to strew points in; expected triangles with an area");
-  EXPECT_EQ(says(tests::emptyMesh("none")),
-            "mesh 'none': has no inside to strew points in; expected triangles with an area");
+            "mesh 'box': has no inside; expected triangles with an area");
+  EXPECT_EQ(says(tests::emptyMesh("none")), "mesh 'none': has no inside; expected triangles with an area");
   EXPECT_EQ(tests::messageOf([&] { scatterWithin(ball(), 0, kStream); }),
             "0 points in a mesh; expected 1 to 2^32 - 1");
 }

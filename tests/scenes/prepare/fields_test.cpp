@@ -107,7 +107,7 @@ TEST_F(Fields, NameTheirFilesAmongTheInputs) {
 
 TEST_F(Fields, SayWhatIsWrongWithTheirFilesAndWhere) {
   EXPECT_EQ(refusal("{axis: grid, file: none.vdb}"),
-            "scene.yaml:5:36: there is no volume none.vdb; expected one\n");
+            "scene.yaml:5:36: there is no volume none.vdb; expected one");
   scratch_.write("bad.vdb", std::string(5000, 'x'));
   EXPECT_TRUE(refusal("{axis: grid, file: bad.vdb}")
                   .starts_with("scene.yaml:5:36: fields 'whorl': bad.vdb: the file is damaged or cut, or no "

@@ -193,7 +193,8 @@ class KeptFields : public testing::Test {
   }
   Report run(int iterations, const char* folder, bool resume = false) {
     std::string text = std::string(kScene) + kTree;
-    text.replace(text.find("rules: "), text.find("}}}") + 3 - text.find("rules: "), kTreeRules);
+    const std::string walk = "rules: {random_tree: {trials: {min: 2, max: 9}}}";
+    text.replace(text.find(walk), walk.size(), kTreeRules);
     text.replace(text.find("iterations: 8"), 13, "iterations: " + std::to_string(iterations));
     const auto scene = readScene(scratch_.write("scene.yaml", text));
     if (!scene) throw sim::InputError(format(scene.problems()));

@@ -113,6 +113,15 @@ std::string didYouMean(std::string_view word, const std::vector<std::string>& ca
   return near.empty() ? "" : fmt::format("; did you mean '{}'?", printable(*near.front()));
 }
 
+std::string notCalled(std::string_view what, const std::string& name, const std::vector<std::string>& names) {
+  if (std::find(names.begin(), names.end(), name) != names.end()) return "";
+  if (names.empty())
+    return fmt::format("no {} is called {}, as there is none; expected one in the scene", what,
+                       inQuotes(name));
+  return fmt::format("no {} is called {}; expected one of {}{}", what, inQuotes(name), listed(names, name),
+                     didYouMean(name, names));
+}
+
 std::string listed(const std::vector<std::string>& words, std::string_view near) {
   constexpr std::size_t kAll = 16, kFew = 8;
   if (words.empty()) return "none";

@@ -88,6 +88,9 @@ std::string didYouMean(std::string_view word, const std::vector<std::string>& ca
 /// Words joined by commas, as many and as much of each as a reader will look at: of many, those nearest to
 /// the word `near` first, and how many more there are.
 std::string listed(const std::vector<std::string>& words, std::string_view near = {});
+/// What is said of a name that none of what a scene has is called by: "no mesh is called 'wal'; expected one
+/// of ground, wall; did you mean 'wall'?". Empty where it is one of the names.
+std::string notCalled(std::string_view what, const std::string& name, const std::vector<std::string>& names);
 /// A text from a file for use in a message: in quotes, printable and cut short.
 std::string inQuotes(std::string_view text);
 

@@ -22,16 +22,17 @@ std::vector<std::string> sourcesOf(const AttractorsSpec& spec) {
   return sources;
 }
 
+template <class Named>
+std::vector<std::string> namesOf(const std::vector<Named>& all) {
+  std::vector<std::string> names;
+  for (const Named& one : all) names.push_back(one.name);
+  return names;
+}
+
 void checkMeshName(const std::string& name, const std::string& path, const Scene& scene,
                    const Check::Complain& complain) {
-  std::vector<std::string> names;
-  for (const SceneMesh& mesh : scene.meshes) names.push_back(mesh.name);
-  if (name.empty() || std::find(names.begin(), names.end(), name) != names.end()) return;
-  complain(path, names.empty()
-                     ? fmt::format("no mesh is called {}, as there is none; expected one among the meshes",
-                                   inQuotes(name))
-                     : fmt::format("no mesh is called {}; expected one of {}{}", inQuotes(name),
-                                   listed(names, name), didYouMean(name, names)));
+  const std::string wrong = notCalled("mesh", name, namesOf(scene.meshes));
+  if (!name.empty() && !wrong.empty()) complain(path, wrong);
 }
 
 /// Complains of keys that the one source does not know.
@@ -84,14 +85,7 @@ void checkAttractors(const Scene& scene, const Check::Given& given, const Check:
 
 namespace {
 
-template <class Named>
-std::vector<std::string> namesOf(const std::vector<Named>& all) {
-  std::vector<std::string> names;
-  for (const Named& one : all) names.push_back(one.name);
-  return names;
-}
-
-/// What is said of a name that the scene has not; empty for one that it has.
+/// What is said of a name in rules that the scene has not; empty for one that it has.
 std::string missing(const char* what, const std::string& name, const std::vector<std::string>& names) {
   if (std::find(names.begin(), names.end(), name) != names.end()) return "";
   if (names.empty())

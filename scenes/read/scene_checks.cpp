@@ -161,10 +161,8 @@ void checkImageCameras(const Scene& scene, const Given&, const Complain& complai
                                    "{{main: {{eye: ..., target: ...}}}}",
                                    image.name));
       }
-    } else if (std::find(names.begin(), names.end(), image.camera) == names.end()) {
-      complain(path + ".camera",
-               fmt::format("no camera is called {}; expected one of {}{}", inQuotes(image.camera),
-                           listed(names, image.camera), didYouMean(image.camera, names)));
+    } else if (const auto wrong = notCalled("camera", image.camera, names); !wrong.empty()) {
+      complain(path + ".camera", wrong);
     }
   }
 }
@@ -195,18 +193,20 @@ void checkImages(const Scene& scene, const Given& given, const Complain& complai
 }
 
 void checkImageMeshes(const Scene& scene, const Given&, const Complain& complain) {
-  std::vector<std::string> names;
-  for (const auto& mesh : scene.meshes) names.push_back(mesh.name);
+  std::vector<std::string> names, nowhere;
+  for (const auto& mesh : scene.meshes) (mesh.tiled ? names : nowhere).push_back(mesh.name);
   for (std::size_t i = 0; i < scene.images.size(); ++i) {
     const auto& image = scene.images[i];
     if (image.kind != ImageKind::narrow_band) continue;
+    const auto path = fmt::format("images[{}]", i);
     if (names.empty()) {
-      complain(fmt::format("images[{}]", i),
-               "a narrow_band of no mesh; expected one among the scene's meshes");
-    } else if (!image.mesh.empty() && std::find(names.begin(), names.end(), image.mesh) == names.end()) {
-      complain(fmt::format("images[{}].mesh", i),
-               fmt::format("no mesh is called {}; expected one of {}{}", inQuotes(image.mesh),
-                           listed(names, image.mesh), didYouMean(image.mesh, names)));
+      complain(path, "a narrow_band of no mesh; expected one that stands in the scene's world");
+    } else if (std::find(nowhere.begin(), nowhere.end(), image.mesh) != nowhere.end()) {
+      complain(path + ".mesh", fmt::format("the mesh {} stands nowhere (tiled: false); expected one of {}",
+                                           inQuotes(image.mesh), listed(names)));
+    } else if (const auto wrong = notCalled("mesh", image.mesh, names);
+               !image.mesh.empty() && !wrong.empty()) {
+      complain(path + ".mesh", wrong);
     }
   }
 }
@@ -217,10 +217,8 @@ void checkImagePlants(const Scene& scene, const Given&, const Complain& complain
   for (std::size_t i = 0; i < scene.images.size(); ++i) {
     const std::string& plant = scene.images[i].plant;
     if (scene.images[i].kind != ImageKind::threshold || plant.empty()) continue;
-    if (std::find(names.begin(), names.end(), plant) != names.end()) continue;
-    complain(fmt::format("images[{}].plant", i),
-             fmt::format("no plant is called {}; expected one of {}{}", inQuotes(plant), listed(names, plant),
-                         didYouMean(plant, names)));
+    const std::string wrong = notCalled("plant", plant, names);
+    if (!wrong.empty()) complain(fmt::format("images[{}].plant", i), wrong);
   }
 }
 
@@ -232,10 +230,9 @@ void checkImageFields(const Scene& scene, const Given&, const Complain& complain
     if (image.kind != ImageKind::field) continue;
     if (names.empty()) {
       complain(fmt::format("images[{}]", i), "an image of no field; expected one among the scene's fields");
-    } else if (!image.field.empty() && std::find(names.begin(), names.end(), image.field) == names.end()) {
-      complain(fmt::format("images[{}].field", i),
-               fmt::format("no field is called {}; expected one of {}{}", inQuotes(image.field),
-                           listed(names, image.field), didYouMean(image.field, names)));
+    } else if (const auto wrong = notCalled("field", image.field, names);
+               !image.field.empty() && !wrong.empty()) {
+      complain(fmt::format("images[{}].field", i), wrong);
     }
   }
 }
@@ -248,10 +245,8 @@ void checkSheets(const Scene& scene, const Given&, const Complain& complain) {
   for (std::size_t i = 0; i < scene.images.size(); ++i) {
     const auto& of = scene.images[i].of;
     for (std::size_t k = 0; k < of.size(); ++k) {
-      if (std::find(names.begin(), names.end(), of[k]) != names.end()) continue;
-      complain(fmt::format("images[{}].of[{}]", i, k),
-               fmt::format("no image is called {}; expected one of {}{}", inQuotes(of[k]),
-                           listed(names, of[k]), didYouMean(of[k], names)));
+      const std::string wrong = notCalled("image", of[k], names);
+      if (!wrong.empty()) complain(fmt::format("images[{}].of[{}]", i, k), wrong);
     }
   }
 }

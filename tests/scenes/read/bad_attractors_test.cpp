@@ -68,7 +68,7 @@ const std::vector<BadFile> kBadAttractors = {
      {"3:46: a density of 1 at 2 of the height; expected a number of 0 or more at a share from 0 to 1"}},
     {"attractors on no mesh",
      "attractors: {crown: {surface: wall}}\n",
-     {"3:31: no mesh is called 'wall', as there is none; expected one among the meshes"}},
+     {"3:31: no mesh is called 'wall', as there is none; expected one in the scene"}},
     {"attractors in another mesh",
      "meshes: [{file: walls.obj, optional: true}]\nattractors: {crown: {inside: wall}}\n",
      {"4:30: no mesh is called 'wall'; expected one of walls; did you mean 'walls'?"}},

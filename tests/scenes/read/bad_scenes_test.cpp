@@ -268,9 +268,14 @@ const std::vector<BadFile> kBadScenes = {
     {"a mesh in a section",
      "images: [{kind: section, mesh: wall}]\n",
      {"3:32: mesh means nothing to kind: section; expected it with kind: narrow_band"}},
+    {"a narrow_band of a mesh that stands nowhere",
+     "meshes: [{file: a.obj, name: wall}, {file: a.obj, name: ball, tiled: false}]\nimages: [{kind: "
+     "narrow_band, "
+     "mesh: ball}]\n",
+     {"4:36: the mesh 'ball' stands nowhere (tiled: false); expected one of wall"}},
     {"a band of nothing",
      "images: [narrow_band]\n",
-     {"3:10: a narrow_band of no mesh; expected one among the scene's meshes"}},
+     {"3:10: a narrow_band of no mesh; expected one that stands in the scene's world"}},
     {"a band of an unknown mesh",
      "meshes: [{file: a.obj, name: wall}]\nimages: [{kind: narrow_band, mesh: wal}]\n",
      {"4:36: no mesh is called 'wal'; expected one of wall; did you mean 'wall'?"}},

@@ -199,7 +199,7 @@ TEST_F(VectorGrid, ThatIsCutOrDamagedIsRefusedOrRead) {
         "");
   std::mt19937 random(9);
   int refused = 0;
-  for (int trial = 0; trial < 60; ++trial) {
+  for (int trial = 0; trial < 20; ++trial) {
     std::string bad = good;
     for (int i = 0; i < 3; ++i) {
       // Mostly where lengths, types and trees are described.
@@ -211,7 +211,7 @@ TEST_F(VectorGrid, ThatIsCutOrDamagedIsRefusedOrRead) {
     refused += said != "no error";
     EXPECT_TRUE(said == "no error" || said.starts_with(path.string() + ": ")) << said;
   }
-  EXPECT_GT(refused, 10);
+  EXPECT_GT(refused, 3);
   EXPECT_EQ(read(file).size[0], 22);
 }
 

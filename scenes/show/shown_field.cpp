@@ -47,7 +47,7 @@ ShownField::ShownField(const sim::Growth& growth, const UsedField& field)
       const sim::Columns& columns =
           columnsOf(growth, rules::attractorsNamed(use.attractors), "attractors", use.attractors);
       const auto& places = sim::column<sim::Vec3>(columns, rules::kAttractorPlace);
-      sets_.push_back({use.attractors, &places, &sim::column<sim::Vec3>(columns, "normal"),
+      sets_.push_back({use.attractors, &places, &sim::column<sim::Vec3>(columns, rules::kAttractorNormal),
                        rules::sortedAttractors(places)});
     }
     if (use.planting >= growth.stands.size()) continue;

@@ -89,7 +89,7 @@ std::vector<std::string> meshNames(Drawn* meshes) {
 /// Each has one source, and the keys that belong to it.
 void agreeOnAttractors(Drawn& attractors, const std::vector<std::string>& meshes, tests::Numbers& numbers) {
   const std::set<std::string> of_solids{"at", "spread", "density"};
-  const std::set<std::string> no_sources{"at", "spread", "density", "count", "spacing"};
+  const std::set<std::string> no_sources{"at", "spread", "density", "count", "spacing", "type"};
   for (DrawnEntry& one : attractors.entries) {
     if (meshes.empty()) takeOut(one.value, {"surface", "inside"});
     if (numbers.chance(0.7)) takeOut(one.value, {"inside"});  // most drawn meshes have none
@@ -104,7 +104,7 @@ void agreeOnAttractors(Drawn& attractors, const std::vector<std::string>& meshes
     const bool on_mesh = kept == "surface" || kept == "inside";
     if (on_mesh) find(one.value, kept)->text = numbers.pick(meshes);
     if (on_mesh || kept == "points") takeOut(one.value, of_solids);
-    if (kept == "points") takeOut(one.value, {"count"});
+    takeOut(one.value, {kept == "points" ? "count" : "type"});
     if (kept != "surface") takeOut(one.value, {"spacing"});
   }
 }
@@ -122,7 +122,24 @@ void agreeOnFields(Drawn& fields, const std::vector<std::string>& meshes, tests:
 
 }  // namespace
 
+void agreeOnCrown(Drawn& crown, tests::Numbers& numbers) {
+  const std::set<std::string> no_solids{"trunk", "count", "spread", "density"};
+  std::vector<std::string> solids;
+  for (const DrawnEntry& entry : crown.entries) {
+    if (!no_solids.contains(entry.key)) solids.push_back(entry.key);
+  }
+  const std::string kept = solids.empty() ? "" : numbers.pick(solids);
+  for (const std::string& solid : solids) {
+    if (solid != kept) takeOut(crown, {solid});
+  }
+}
+
 void makeAgree(Drawn& scene, tests::Numbers& numbers) {
+  if (Drawn* plants = find(scene, "plants")) {
+    for (DrawnEntry& plant : plants->entries) {
+      if (!find(plant.value, "points")) takeOut(plant.value, {"type"});
+    }
+  }
   if (Drawn* sun = find(scene, "sun"); sun && numbers.chance(kMostly)) agreeOnSun(*sun, numbers);
   if (Drawn* attractors = find(scene, "attractors"); attractors && numbers.chance(kMostly))
     agreeOnAttractors(*attractors, meshNames(find(scene, "meshes")), numbers);

@@ -48,15 +48,17 @@ std::string RandomFiles::writeMesh() {
   return name;
 }
 
-std::string RandomFiles::writePoints() {
-  std::ofstream file(folder_ / "points.csv");
-  file << "x,y,z\n";
-  for (int i = numbers_.whole(1, 40); i > 0; --i) {
+/// Each with a type, and at least one of every type that is asked for.
+std::string RandomFiles::writePoints(const std::string& name, int most, double beyond) {
+  std::ofstream file(folder_ / name);
+  file << "x,y,z,type\n";
+  for (int i = 2 + numbers_.whole(1, most); i > 0; --i) {
     sim::Vec3 at = world_.middle_m;
-    for (int axis = 0; axis < 3; ++axis) at[axis] += numbers_.uniform(-0.5, 0.5) * world_.extent_m()[axis];
-    file << fmt::format("{},{},{}\n", at.x, at.y, at.z);
+    for (int axis = 0; axis < 3; ++axis)
+      at[axis] += numbers_.uniform(-beyond, beyond) * world_.extent_m()[axis];
+    file << fmt::format("{},{},{},{}\n", at.x, at.y, at.z, i % 3);
   }
-  return "points.csv";
+  return name;
 }
 
 /// Vectors in a few voxels about the middle.

@@ -64,8 +64,12 @@ const std::set<std::string> kAlways = {"scene:iterations",
                                        "scene:sky.directions"};
 
 /// What there must be where plants colonize.
-const std::set<std::string> kOfFronts = {"scene:attractors", "scene:fields", "rules:propagate",
-                                         "rules:colonization", "rules:colonization.attractors"};
+const std::set<std::string> kOfFronts = {"scene:attractors",
+                                         "scene:fields",
+                                         "rules:propagate",
+                                         "rules:colonization",
+                                         "rules:colonization.attractors",
+                                         "rules:colonization.crown"};
 
 }  // namespace
 
@@ -113,11 +117,14 @@ std::string RandomFiles::place(double beyond) {
 }
 
 void RandomFiles::knowSpecials() {
-  const auto text = [this](const std::string& path, std::function<std::string()> draw) {
-    specials_["scene:" + path] = [draw = std::move(draw)](Drawn& drawn) {
+  const auto special = [this](const std::string& path, std::function<std::string()> draw) {
+    specials_[path] = [draw = std::move(draw)](Drawn& drawn) {
       drawn.text = draw();
       return !drawn.text.empty();
     };
+  };
+  const auto text = [&](const std::string& path, std::function<std::string()> draw) {
+    special("scene:" + path, std::move(draw));
   };
   const bool by_resolution = numbers_.chance(0.3);
   const int longest = std::max({world_.size.x, world_.size.y, world_.size.z});
@@ -144,19 +151,23 @@ void RandomFiles::knowSpecials() {
     const double least = std::min({world_.extent_m().x, world_.extent_m().y, world_.extent_m().z});
     return std::min(numbers_.uniform(0.1, 1.0) * least, 1e5);
   };
-  for (const char* const length :
-       {"cone.height", "cone.radius", "dome.radius", "cylinder.height", "cylinder.radius", "sphere.radius"})
-    text(std::string("attractors.<name>.") + length, [=] { return fmt::format("{}", side()); });
-  for (const char* const sides : {"ellipsoid.radii", "box.size"})
-    text(std::string("attractors.<name>.") + sides,
-         [=] { return ValueDrawer::point(side(), side(), side()); });
-  text("attractors.<name>.points", [this] { return writePoints(); });
+  for (const std::string of : {"scene:attractors.<name>.", "rules:colonization.crown."}) {
+    for (const char* const length :
+         {"cone.height", "cone.radius", "dome.radius", "cylinder.height", "cylinder.radius", "sphere.radius"})
+      special(of + length, [=] { return fmt::format("{}", side()); });
+    for (const char* const sides : {"ellipsoid.radii", "box.size"})
+      special(of + sides, [=] { return ValueDrawer::point(side(), side(), side()); });
+    special(of + "count", [this] { return fmt::format("{}", numbers_.whole(1, 300)); });
+  }
+  text("attractors.<name>.points", [this] { return writePoints("points.csv", 40, 0.5); });
+  text("attractors.<name>.type", [this] { return fmt::format("{}", numbers_.whole(0, 2)); });
+  text("plants[].points", [this] { return writePoints("starts.csv", 3, 0.45); });
+  text("plants[].type", [this] { return fmt::format("{}", numbers_.whole(0, 2)); });
   text("fields.<name>.file", [this] { return writeVolume(); });
   text("fields.<name>.grid", [this] { return std::string(numbers_.chance(0.9) ? "up" : "down"); });
   text("attractors.<name>.spacing",
        [this] { return fmt::format("{}", world_.voxel_m * numbers_.whole(1, 9)); });
   text("attractors.<name>.at", [this] { return place(numbers_.chance(0.9) ? 0.3 : 0.6); });
-  text("attractors.<name>.count", [this] { return fmt::format("{}", numbers_.whole(1, 300)); });
   text("plants[].seeds[].at", [this] { return place(numbers_.chance(0.1) ? 0.5 : 0.45); });
   text("plants[].scatter.region", [this] { return std::string(numbers_.chance(0.9) ? "floor" : "wall"); });
   text("plants[].scatter.count", [this] { return fmt::format("{}", numbers_.whole(1, 6)); });
@@ -176,14 +187,19 @@ void RandomFiles::knowSpecials() {
   });
   // All sets of a plant grow in one way; of a front they name what the scene has.
   const bool colonizes = colonizes_;
-  const auto rule = [this](const std::string& path, std::function<std::string()> draw) {
-    specials_["rules:" + path] = [draw = std::move(draw)](Drawn& drawn) {
-      drawn.text = draw();
-      return !drawn.text.empty();
-    };
+  const auto rule = [&](const std::string& path, std::function<std::string()> draw) {
+    special("rules:" + path, std::move(draw));
   };
   rule("propagate", [=] { return std::string(colonizes ? "colonization" : "random_tree"); });
-  rule("colonization.attractors", [] { return std::string("main"); });
+  const bool crowned = numbers_.chance(0.3);
+  rule("colonization.attractors", [=] { return std::string(crowned ? "" : "main"); });
+  rule("colonization.crown.trunk", [=] { return fmt::format("{}", numbers_.uniform(-0.2, 0.3) * side()); });
+  specials_["rules:colonization.crown"] = [=, this](Drawn& drawn) {
+    const rules::Table& front = *rules::find(rules::ruleTable(), "colonization")->child;
+    if (crowned) drawn = table(*rules::find(front, "crown")->child, "rules:colonization.crown.");
+    if (crowned) agreeOnCrown(drawn, numbers_);
+    return crowned;
+  };
   rule("colonization.fields", [=] { return std::string(colonizes ? "[main]" : "[main, other]"); });
   specials_["rules:espalier"] = [this](Drawn& drawn) {
     drawn.text = numbers_.chance(0.5) ? "rules" : "rules/1";

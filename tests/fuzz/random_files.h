@@ -49,7 +49,7 @@ class RandomFiles {
 
   static World drawWorld(tests::Numbers& numbers);
   std::string writeMesh();
-  std::string writePoints();
+  std::string writePoints(const std::string& name, int most, double beyond);
   std::string writeVolume();
   void knowSpecials();
   Drawn table(const rules::Table& table, const std::string& path);

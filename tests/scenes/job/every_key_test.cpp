@@ -187,7 +187,7 @@ const std::map<std::string, Change>& changes() {
       {"plants[].seeds[].at", {"state_hash", {}, {"[[-0.4,", "[[-0.2,"}}},
       {"plants[].seeds[].key", {"state_hash", {}, {"key: one", "key: two"}}},
       {"plants[].points",
-       {"state_hash", {{"{name: vine,", "{name: vine, points: typed.csv,"}}, {"typed.csv", "listed.csv"}}},
+       {"state_hash", {{"{name: vine,", "{name: vine, points: typed.csv,"}}, {"typed.csv", "other.csv"}}},
       {"plants[].type",
        {"state_hash",
         {{"{name: vine,", "{name: vine, points: typed.csv, type: 1,"}},

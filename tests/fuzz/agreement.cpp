@@ -122,13 +122,17 @@ void agreeOnFields(Drawn& fields, const std::vector<std::string>& meshes, tests:
 
 }  // namespace
 
-void agreeOnCrown(Drawn& crown, tests::Numbers& numbers) {
+void agreeOnCrown(Drawn& crown, const std::string& radius, tests::Numbers& numbers) {
   const std::set<std::string> no_solids{"trunk", "count", "spread", "density"};
   std::vector<std::string> solids;
   for (const DrawnEntry& entry : crown.entries) {
     if (!no_solids.contains(entry.key)) solids.push_back(entry.key);
   }
-  const std::string kept = solids.empty() ? "" : numbers.pick(solids);
+  if (solids.empty()) {
+    crown.entries.push_back({"sphere", radius});
+    return;
+  }
+  const std::string kept = numbers.pick(solids);
   for (const std::string& solid : solids) {
     if (solid != kept) takeOut(crown, {solid});
   }

@@ -9,7 +9,7 @@ namespace espalier::fuzz {
 /// Now and then it does not.
 void makeAgree(Drawn& scene, tests::Numbers& numbers);
 
-/// Leaves a crown one solid of those that were drawn.
-void agreeOnCrown(Drawn& crown, tests::Numbers& numbers);
+/// Leaves a crown one solid of those that were drawn, or makes it a sphere.
+void agreeOnCrown(Drawn& crown, const std::string& radius, tests::Numbers& numbers);
 
 }  // namespace espalier::fuzz

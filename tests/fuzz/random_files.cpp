@@ -145,7 +145,7 @@ void RandomFiles::knowSpecials() {
   text("meshes[].translate",
        [this] { return ValueDrawer::point(world_.middle_m.x, world_.middle_m.y, world_.middle_m.z); });
   text("meshes[].tiled",
-       [this] { return std::string(world_.bounds && numbers_.chance(0.5) ? "false" : "true"); });
+       [this] { return std::string(world_.bounds && numbers_.chance(0.2) ? "false" : "true"); });
   // A solid that the world holds some of.
   const auto side = [this] {
     const double least = std::min({world_.extent_m().x, world_.extent_m().y, world_.extent_m().z});
@@ -161,14 +161,21 @@ void RandomFiles::knowSpecials() {
   }
   text("attractors.<name>.points", [this] { return writePoints("points.csv", 40, 0.5); });
   text("attractors.<name>.type", [this] { return fmt::format("{}", numbers_.whole(0, 2)); });
-  text("plants[].points", [this] { return writePoints("starts.csv", 3, 0.45); });
+  special("rules:colonization.crown.revolution.profile", [=] {
+    const double a = side(), b = side();
+    return fmt::format("[[0, {}], [{}, {}], [{}, {}], [{}, {}]]", a, 0.1 * b, b, 0.2 * b, a, 0.3 * b,
+                       0.1 * a);
+  });
+  // Seldom: such a start often stands in a mesh.
+  text("plants[].points",
+       [this] { return numbers_.chance(0.3) ? writePoints("starts.csv", 1, 0.45) : std::string(); });
   text("plants[].type", [this] { return fmt::format("{}", numbers_.whole(0, 2)); });
   text("fields.<name>.file", [this] { return writeVolume(); });
   text("fields.<name>.grid", [this] { return std::string(numbers_.chance(0.9) ? "up" : "down"); });
   text("attractors.<name>.spacing",
        [this] { return fmt::format("{}", world_.voxel_m * numbers_.whole(1, 9)); });
   text("attractors.<name>.at", [this] { return place(numbers_.chance(0.9) ? 0.3 : 0.6); });
-  text("plants[].seeds[].at", [this] { return place(numbers_.chance(0.1) ? 0.5 : 0.45); });
+  text("plants[].seeds[].at", [this] { return place(numbers_.chance(0.05) ? 0.5 : 0.4); });
   text("plants[].scatter.region", [this] { return std::string(numbers_.chance(0.9) ? "floor" : "wall"); });
   text("plants[].scatter.count", [this] { return fmt::format("{}", numbers_.whole(1, 6)); });
   text("cameras.<name>.eye", [this] { return place(numbers_.chance(0.9) ? 2.0 : 0.5); });
@@ -193,11 +200,12 @@ void RandomFiles::knowSpecials() {
   rule("propagate", [=] { return std::string(colonizes ? "colonization" : "random_tree"); });
   const bool crowned = numbers_.chance(0.3);
   rule("colonization.attractors", [=] { return std::string(crowned ? "" : "main"); });
-  rule("colonization.crown.trunk", [=] { return fmt::format("{}", numbers_.uniform(-0.2, 0.3) * side()); });
+  rule("colonization.crown.trunk",
+       [=, this] { return fmt::format("{}", numbers_.uniform(-0.2, 0.2) * side()); });
   specials_["rules:colonization.crown"] = [=, this](Drawn& drawn) {
     const rules::Table& front = *rules::find(rules::ruleTable(), "colonization")->child;
     if (crowned) drawn = table(*rules::find(front, "crown")->child, "rules:colonization.crown.");
-    if (crowned) agreeOnCrown(drawn, numbers_);
+    if (crowned) agreeOnCrown(drawn, fmt::format("{}", 0.5 * side()), numbers_);
     return crowned;
   };
   rule("colonization.fields", [=] { return std::string(colonizes ? "[main]" : "[main, other]"); });

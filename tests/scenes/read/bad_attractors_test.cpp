@@ -104,7 +104,7 @@ const std::vector<BadFile> kBadAttractors = {
       "3:36: there is no volume winds.vdb; expected one"}},
     {"a field within no mesh",
      "fields: {whorl: {within: crown}}\n",
-     {"3:26: no mesh is called 'crown', as there is none; expected one among the meshes"}},
+     {"3:26: no mesh is called 'crown', as there is none; expected one in the scene"}},
     {"a table of points of another kind",
      "attractors: {crown: {points: points.xyz}}\n",
      {"3:30: 'points.xyz' is no table of points; expected a .csv file"}},

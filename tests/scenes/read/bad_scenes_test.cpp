@@ -245,7 +245,7 @@ const std::vector<BadFile> kBadScenes = {
      {"3:55: no image is called 'sectoin'; expected one of section; did you mean 'section'?"}},
     {"a sheet of itself",
      "images: [{kind: contact_sheet, of: [contact_sheet]}]\n",
-     {"3:37: no image is called 'contact_sheet'; expected one of none"}},
+     {"3:37: no image is called 'contact_sheet', as there is none; expected one in the scene"}},
     {"a cut through a portrait",
      "images: [{kind: attempts, at: 1 m}]\n",
      {"3:31: at means nothing to kind: attempts; expected it with kind: section or narrow_band"}},

@@ -10,14 +10,13 @@ namespace {
 
 using sim::Outcome;
 
-/// The errand's own way, to the bit.
-std::optional<Candidate> theWayItself(const sim::SiteView& view, const RuleSet& rules,
-                                      const Surroundings& around, const Errand& errand, sim::Passage passage,
-                                      sim::Proposal& proposal) {
-  Candidate candidate{errand.end_vx, {}, {}, passage, 0.0};
+/// A way alone, to the bit.
+std::optional<Candidate> oneWay(const sim::SiteView& view, const RuleSet& rules, const Surroundings& around,
+                                sim::Vec3 end_vx, sim::Passage passage, sim::Proposal& proposal) {
+  Candidate candidate{end_vx, {}, {}, passage, 0.0};
   Outcome outcome = Outcome::out_of_world;
-  if (sim::holds(view.world.frame().size, errand.end_vx)) {
-    sim::tileSegment(around.at_vx, errand.end_vx, candidate.passes);
+  if (sim::holds(view.world.frame().size, end_vx)) {
+    sim::tileSegment(around.at_vx, end_vx, candidate.passes);
     const sim::Fit fit = sim::fit(view.world, candidate.passes, around.attachment, passage,
                                   sim::numberOf(view.world, view.plant), candidate.takes);
     outcome = Outcome::blocked;
@@ -29,7 +28,7 @@ std::optional<Candidate> theWayItself(const sim::SiteView& view, const RuleSet& 
   }
   ++proposal.trials[static_cast<std::size_t>(outcome)];
   if (view.record_attempts)
-    proposal.attempts.push_back({around.at_vx, errand.end_vx, outcome, outcome == Outcome::grown});
+    proposal.attempts.push_back({around.at_vx, end_vx, outcome, outcome == Outcome::grown});
   return outcome == Outcome::grown ? std::optional(std::move(candidate)) : std::nullopt;
 }
 
@@ -50,13 +49,16 @@ std::optional<Candidate> frontStep(const sim::SiteView& view, const RuleSet& rul
   ways.widest = front.trials;
   if (errand.gait == Gait::pulled && !front.onto)
     bendBy(rules, around, senses, view.world.frame().size, ways);
-  int first = 0;
-  if (ways.pull_count == 0) {
-    if (auto straight = theWayItself(view, rules, around, errand, passage, proposal)) return straight;
-    first = 1;
+  // The first trial mostly is the last, and many at a time would cost more.
+  sim::Vec3 end_vx = errand.end_vx;
+  if (ways.pull_count > 0) {
+    sim::Offsets bent;
+    trialEnds(ways, 0, 1, bent);
+    end_vx = sim::endOf(around.at_vx, bent, 0);
   }
+  if (auto first = oneWay(view, rules, around, end_vx, passage, proposal)) return first;
   if (front.onto) return std::nullopt;
-  return bestTrial(view, rules, around, ways, {first, 1, front.trials, passage}, proposal);
+  return bestTrial(view, rules, around, ways, {1, 1, front.trials, passage}, proposal);
 }
 
 }  // namespace espalier::rules

@@ -143,6 +143,12 @@ inline std::string crownOf(const std::string& planting) {
   return "crown of " + planting;
 }
 
+/// What the attractors are called that a planting's front grows to: the scene's, or its own crown.
+inline std::string attractorsFor(const PlantSpec& plant) {
+  const rules::Colonization& front = plant.rules->colonization;
+  return front.crown ? crownOf(plant.name) : front.attractors;
+}
+
 /// Points that plants grow towards, from exactly one source.
 struct AttractorsSpec {
   std::string name;

@@ -75,7 +75,7 @@ std::vector<Problem> frontWarnings(const Scene& scene, const sim::Frame& frame,
   for (const PlantSpec& plant : scene.plants) {
     const rules::RuleSet& trunk = *plant.rules;
     if (trunk.propagate != rules::Propagate::colonization) continue;
-    const std::string wanted = trunk.colonization.crown ? crownOf(plant.name) : trunk.colonization.attractors;
+    const std::string wanted = attractorsFor(plant);
     const auto named = std::find_if(attractors.begin(), attractors.end(),
                                     [&](const NamedPoints& points) { return points.name == wanted; });
     if (named == attractors.end() || named->at_vx.size() < 2) continue;

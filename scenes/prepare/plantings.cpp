@@ -76,7 +76,7 @@ std::vector<sim::Seed> seedsOf(const PlantSpec& spec, const std::vector<sim::Vec
 std::shared_ptr<const rules::RuleSet> rulesOf(const PlantSpec& spec) {
   if (!spec.rules->colonization.crown) return spec.rules;
   rules::RuleSet own = *spec.rules;
-  own.colonization.attractors = crownOf(spec.name);
+  own.colonization.attractors = attractorsFor(spec);
   return std::make_shared<const rules::RuleSet>(std::move(own));
 }
 

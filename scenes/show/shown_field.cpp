@@ -30,7 +30,7 @@ std::vector<UsedField> usedFields(const Scene& scene) {
       const auto& names = rules.colonization.fields;
       if (rules.propagate == rules::Propagate::colonization &&
           std::find(names.begin(), names.end(), field.name) != names.end())
-        used.uses.push_back({i, rules.colonization.attractors});
+        used.uses.push_back({i, attractorsFor(scene.plants[i])});
     }
     fields.push_back(std::move(used));
   }

@@ -67,6 +67,21 @@ TEST_F(Plot, SaysWhatBecameOfAttractorsAndWhyGrowthEnded) {
   EXPECT_EQ(part["ending"].get<std::string>().find("the iterations ended while "), 0u) << part;
 }
 
+TEST_F(Plot, AFieldMayBendAFrontThatGrowsToItsOwnCrown) {
+  scratch_.write(
+      "vine.yaml",
+      "espalier: rules\npropagate: colonization\ncolonization: {crown: {sphere: 30 cm, trunk: 10 cm, "
+      "count: 40}, fields: [whorl]}\n");
+  scratch_.write("scene.yaml",
+                 std::string(tests::kPlotScene) + "fields: {whorl: {angle: 360, strength: 2}}\n");
+  const auto ran = grow("--no-pictures");
+  ASSERT_EQ(ran.status, 0) << ran.output;
+  const json fields = report()["growth"]["fields"];
+  ASSERT_EQ(fields.size(), 1u);
+  EXPECT_EQ(fields[0]["grid"], "field whorl");
+  EXPECT_GT(fields[0]["voxels"].get<int>(), 500);
+}
+
 TEST_F(Plot, EveryByteIsTheSameOnOneTwoAndFiveThreads) {
   for (const int threads : {1, 2, 5}) {
     const std::string folder = "out" + std::to_string(threads);

@@ -221,6 +221,11 @@ void requireSoundFronts(const sim::Commons& commons) {
     if (!holdsFront(columns)) continue;
     sim::Columns copy = columns;
     const LentFront lent(copy);
+    const std::size_t count = lent.front.attractors.x.size();
+    const std::size_t normals = sim::column<sim::Vec3>(columns, kAttractorNormal).size();
+    require(sim::column<sim::Vec3>(columns, kAttractorPlace).size() == count,
+            "other attractors than are given");
+    require(normals == 0 || normals == count, "normals of other attractors");
     requireSoundTree(lent.front.attractors);
     requireSoundNumbers(lent.front);
   }

@@ -9,6 +9,7 @@
 #include <map>
 
 #include "rules/growth/front_memory.h"
+#include "rules/growth/shared_guide.h"
 #include "scenes/problem.h"
 #include "scenes/read/settings.h"
 #include "sim/base/hasher.h"
@@ -172,6 +173,9 @@ sim::Growth takeUp(sim::State state, const std::filesystem::path& folder, const 
   }
   try {
     rules::requireSoundFronts(state.growth.commons);
+    for (const auto& [name, columns] : state.growth.commons) {
+      if (name.starts_with(rules::fieldNamed(""))) rules::guideIn(columns);
+    }
   } catch (const sim::BrokenContract& error) {
     throw damaged(folder, error);
   }

@@ -325,6 +325,8 @@ TEST(Colonization, RefusesAStateThatGrowthNeverLeaves) {
   EXPECT_TRUE(refused([&](auto& front, auto&) { sim::column<double>(front, "front_x")[0] = NAN; }));
   EXPECT_TRUE(refused([&](auto& front, auto&) { front.erase("front_y"); }));
   EXPECT_TRUE(refused([&](auto& front, auto&) { front.erase("front_moved"); }));
+  EXPECT_TRUE(refused([&](auto& front, auto&) { sim::column<Vec3>(front, "normal") = {Vec3(0, 1, 0)}; }));
+  EXPECT_TRUE(refused([&](auto& front, auto&) { sim::column<Vec3>(front, "at_vx").pop_back(); }));
   EXPECT_TRUE(refused([&](auto& front, auto&) { whole(front, "node_tried")[0] = 1'000'000; }));
   EXPECT_TRUE(refused([&](auto& front, auto&) { sim::column<Vec3>(front, "tree_high")[0] = Vec3(0.0); }));
   EXPECT_TRUE(refused([&](auto& front, auto&) { sim::column<double>(front, "tree_farthest2")[0] = NAN; }));

@@ -217,6 +217,22 @@ TEST_F(KeptFields, AreGoneOnWithBitForBit) {
         << file;
 }
 
+TEST_F(KeptFields, ThatAreNoneAreADamagedState) {
+  run(7, "part");
+  const auto scene = readScene(scratch_.path("scene.yaml"));
+  ASSERT_TRUE(scene);
+  Site site = makeSite(*scene);
+  const auto plantings = makePlantings(*scene, site);
+  const auto said = [&](const char* column) {
+    sim::State state = *readKept(scratch_.path("part"));
+    state.growth.commons.at("field whorl").erase(column);
+    return tests::messageOf(
+        [&] { takeUp(std::move(state), scratch_.path("part"), *scene, site, plantings, Same::everything); });
+  };
+  for (const char* column : {"axis", "grid", "region", "region_size"})
+    EXPECT_NE(said(column).find("growth.state: the state is damaged: "), std::string::npos) << column;
+}
+
 TEST_F(KeptFields, OfAnotherVolumeAreRefused) {
   run(7, "part");
   writeWinds({1, 0, 0});

@@ -55,9 +55,9 @@ class StoppedJob : public testing::Test {
     auto read = readScene(tests::sourceFolder() / "scenes/library/courtyard.yaml");
     ASSERT_TRUE(read);
     scene_ = *read;
-    scene_.world.voxel_m = 0.02;
-    scene_.image_width = 2400;
-    scene_.image_height = 1800;
+    scene_.world.voxel_m = 0.025;
+    scene_.image_width = 1800;
+    scene_.image_height = 1350;
   }
 
   template <typename Job>

@@ -10,6 +10,8 @@ namespace espalier::render {
 
 struct ModelOptions {
   PipeModel pipe;
+  /// How far surfaces of stems may be from what they stand for, in radii of the thinnest twig.
+  double error = 0.25;
 };
 
 /// A plant's surfaces. Meshes may be empty: a lone seed has no stems.
@@ -19,9 +21,9 @@ struct PlantModel {
   std::vector<ModelMesh> elements;  ///< one for each of the plant's shapes: blades with their stalks
 };
 
-/// Models a plant: every stem a closed tube swept along a C2 curve through its nodes, thick as the pipe model
-/// says, a fork's tube beginning inside its parent's; every element's polygons, with a stalk from the stem to
-/// a blade that does not begin on it. Throws InputError as pipeRadii does.
+/// Models a plant: every stem a tube swept along a C2 curve through its nodes, thick as the pipe model says,
+/// all of a seed's stems one closed surface (stem_surface.h); every element's polygons, with a stalk from the
+/// stem to a blade that does not begin on it. Throws InputError as pipeRadii does.
 PlantModel modelPlant(const sim::Plant& plant, const sim::Frame& frame, const ModelOptions& options = {});
 
 }  // namespace espalier::render

@@ -9,15 +9,18 @@
 namespace espalier::render {
 
 /// A stem from its fork (or seed) to its tip: at each node the thickest child continues it, the straightest
-/// among equals; every other child begins a stem of its own.
+/// among equals; every other child begins a stem of its own. Nodes in one place are one.
 struct StemCurve {
-  std::vector<sim::NodeId> nodes;  ///< from the fork or seed outwards; neighbours never share a position
+  std::vector<sim::NodeId> nodes;  ///< from the fork or seed outwards, at least two in different places
   Spline curve;                    ///< through the nodes, voxel space; node i at parameter i
-  bool from_seed = false;
+  bool from_seed = false;          ///< the thickest stem of a seed; its others fork from that one
 };
 
 struct StemCurves {
-  std::vector<StemCurve> stems;       ///< a stem comes after the one it forks from
+  std::vector<StemCurve> stems;  ///< a stem comes after the one it forks from
+  /// Where each generation of stems begins: those of seeds, those that fork from them, and so on; then their
+  /// number.
+  std::vector<std::size_t> generations;
   std::vector<std::int32_t> stem_of;  ///< per node: the stem that its own segment lies on, -1 for a lone seed
   std::vector<double> parameter_of;   ///< per node: where on that stem
 

@@ -51,7 +51,7 @@ TEST(PlantModel, StemsPassThroughTheNodes) {
   for (std::size_t n = 0; n < radii.size(); ++n) {
     const Vec3 node_m = sim::worldFromVoxel(tests::kVineFrame, plant.skeleton.position_vx[n]);
     EXPECT_LE(distanceTo(model.stems, node_m) / tests::kVineFrame.voxel_m,
-              static_cast<double>(radii[n]) * 1.01)
+              static_cast<double>(radii[n]) * 1.08)  // rings are as wide as circles on the mean
         << n;
   }
 }
@@ -60,7 +60,7 @@ TEST(PlantModel, IsLight) {
   const sim::Plant plant = tests::smallVine();
   const auto model = modelPlant(plant, tests::kVineFrame);
   const auto segments = static_cast<std::size_t>(plant.skeleton.size());
-  EXPECT_LT(model.stems.triangles.size(), 45 * segments);
+  EXPECT_LT(model.stems.triangles.size(), 55 * segments);
   EXPECT_EQ(model.elements[0].triangles.size(), (6 + 10) * plant.elements.size());  // blade and stalk
 }
 

@@ -1,0 +1,55 @@
+#pragma once
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "render/model/limbs.h"
+
+namespace espalier::render {
+
+/// A hole in a limb's grid: the quads of `rows` rows from `row` on and of `columns` columns from `column` on,
+/// around the ring. One limb stands in it. Fewer columns than the grid has sides, so that it is a disc.
+struct Patch {
+  int row = 0, rows = 1, column = 0, columns = 1;
+  Foot foot;  ///< where the hole's rim lies: the limb's own foot, as near as there was room
+};
+
+/// A corner of a limb's grid.
+struct GridPoint {
+  sim::Vec3 at_m{0.0};
+  double arc_m = 0.0, angle = 0.0;
+  bool inside = false;  ///< a patch's inside: no part of the surface
+};
+
+/// A limb's surface between its first ring and its last: `sides` columns by rings.size() - 1 rows of quads,
+/// with a patch for each limb that stands on it. A sphere's topology follows from it, whatever the geometry:
+/// every patch is a disc, no two share a quad, and each is filled by a disc, the limb that stands there.
+struct LimbGrid {
+  int sides = 0;
+  std::vector<Section> rings;
+  std::vector<double> arcs_m;     ///< of the rings
+  std::vector<GridPoint> points;  ///< ring by ring, `sides` each
+  std::vector<Patch> patches;     ///< of each of the limbs that stand here, in their order
+
+  const GridPoint& point(int ring, int column) const {
+    return points[static_cast<std::size_t>(ring * sides + column % sides)];
+  }
+};
+
+/// `standing`: the feet of the limbs that stand on it. Where they would overlap they are made smaller; where
+/// the grid is too coarse for them it has more columns than the limb has sides. Those with larger feet are
+/// given their place first, and one whose place is taken stands as near as it can.
+LimbGrid gridOf(const Limb& limb, std::span<const Foot> standing);
+
+/// The corners of a patch's rim (ring, column), counter-clockwise seen from outside, from the middle of its
+/// far side on; and how far around the rim each is, radians.
+struct Rim {
+  std::vector<std::pair<int, int>> corners;
+  std::vector<double> turns;
+};
+Rim rimOf(const Patch& patch);
+
+/// A place on a foot's rim: `turn` radians counter-clockwise seen from outside from its far end.
+sim::Vec3 onRim(const Limb& host, const Foot& foot, double turn);
+
+}  // namespace espalier::render

@@ -1,0 +1,386 @@
+#include "render/model/stem_surface.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "render/model/limb_grid.h"
+#include "sim/base/parallel.h"
+#include "sim/base/random.h"
+#include "sim/base/stop.h"
+
+namespace espalier::render {
+namespace {
+
+using sim::Vec3;
+using Triangle = std::array<std::uint32_t, 3>;
+
+constexpr double kPi = std::numbers::pi;
+constexpr double kFineCollar = 12.0, kCollar = 4.0;  // errors that a limb's radius is to be worth rings there
+
+/// Where a limb's part of the mesh begins, and how much it is.
+struct Extent {
+  std::size_t point = 0, vertex = 0, triangle = 0;
+};
+
+/// A limb's grid, and what is known of it besides while the surface is made.
+struct Skin {
+  LimbGrid grid;
+  std::vector<std::size_t> standing;   // limbs
+  std::vector<std::uint32_t> numbers;  // of the grid's points in the whole surface
+  std::vector<Vec3> rim_normals;       // what its facets add to the normals of its rim, which is its host's
+  std::vector<Vec3> normals;           // sums of its own points
+  int collar_rings = 0;
+  double repeats = 1.0;  // of the bark around it
+  Extent begin, size;
+};
+
+int collarRings(const Limb& limb, double error_m) {
+  if (limb.host < 0) return 0;
+  const double errors = limb.line.front().radius_m / error_m;
+  return errors > kFineCollar ? 2 : errors > kCollar ? 1 : 0;
+}
+
+std::size_t rimSize(const Patch& patch) {
+  return 2 * static_cast<std::size_t>(patch.rows + patch.columns);
+}
+
+/// What the limb's part will hold. `rim`: corners of the hole that it fills, 0 for a limb from a seed.
+Extent sizeOf(const Skin& skin, std::size_t rim) {
+  const LimbGrid& grid = skin.grid;
+  const auto sides = static_cast<std::size_t>(grid.sides);
+  const auto collars = static_cast<std::size_t>(skin.collar_rings);
+  Extent size;
+  size.point = 1 + collars * sides + (rim == 0 ? 1 : 0);
+  for (std::size_t i = 0; i < grid.points.size(); ++i) size.point += grid.points[i].inside ? 0 : 1;
+  size.vertex = size.point + collars + (rim > 0 ? rim + 1 : 0);
+  for (std::size_t r = 0; r < grid.rings.size(); ++r) size.vertex += grid.points[r * sides].inside ? 0 : 1;
+  std::size_t quads = sides * (grid.rings.size() - 1) + collars * sides;
+  for (const Patch& patch : grid.patches) quads -= static_cast<std::size_t>(patch.rows * patch.columns);
+  size.triangle = 2 * quads + 2 * sides + rim;  // the tip's; the root's, or the strip along the rim
+  return size;
+}
+
+class Sewing {
+ public:
+  Sewing(const std::vector<Limb>& limbs, std::vector<Skin>& skins, ModelMesh& mesh)
+      : limbs_(limbs), skins_(skins), mesh_(mesh) {}
+
+  void sew(std::size_t l);
+
+ private:
+  struct Part;
+  void addGrid(Part& part) const;
+  void addEnds(Part& part) const;
+  void addJoint(Part& part) const;
+
+  const std::vector<Limb>& limbs_;
+  std::vector<Skin>& skins_;
+  ModelMesh& mesh_;
+};
+
+/// One limb's part of the mesh while it is filled in.
+struct Sewing::Part {
+  Part(const Limb& of, Skin& its, ModelMesh& whole, std::uint32_t number)
+      : limb(of),
+        skin(its),
+        mesh(whole),
+        piece(number),
+        point(its.begin.point),
+        vertex(its.begin.vertex),
+        triangle(its.begin.triangle) {
+    const LimbGrid& grid = skin.grid;
+    v.push_back(0.0);
+    for (std::size_t r = 1; r < grid.arcs_m.size(); ++r)
+      v.push_back(v.back() + (grid.arcs_m[r] - grid.arcs_m[r - 1]) *
+                                 scaleAt(0.5 * (grid.rings[r - 1].radius_m + grid.rings[r].radius_m)));
+    skin.normals.resize(skin.size.point);
+  }
+
+  double scaleAt(double radius_m) const { return skin.repeats / (2.0 * kPi * radius_m); }
+
+  std::uint32_t addPoint() { return static_cast<std::uint32_t>(point++); }
+  std::uint32_t addVertex(std::uint32_t at, Vec3 p, double u, double along, const Section& section) {
+    mesh.points[vertex] = at;
+    mesh.positions_m[vertex] = sim::Vec3f(p);
+    mesh.uvs[vertex] = {static_cast<float>(u), static_cast<float>(along)};
+    mesh.exposures[vertex] = section.exposure;
+    mesh.youths[vertex] = section.youth;
+    mesh.pieces[vertex] = piece;
+    return static_cast<std::uint32_t>(vertex++);
+  }
+  /// The sum for a point's normal: of its own, or of the rim.
+  Vec3& normalOf(std::uint32_t at) {
+    if (at >= skin.begin.point && at < skin.begin.point + skin.size.point)
+      return skin.normals[at - skin.begin.point];
+    return skin.rim_normals[static_cast<std::size_t>(std::find(rim.begin(), rim.end(), at) - rim.begin())];
+  }
+  void addTriangle(std::uint32_t a, std::uint32_t b, std::uint32_t c) {
+    mesh.triangles[triangle++] = {a, b, c};
+    const Vec3 pa(mesh.positions_m[a]), pb(mesh.positions_m[b]), pc(mesh.positions_m[c]);
+    const Vec3 area = glm::cross(pb - pa, pc - pa);
+    for (const std::uint32_t corner : {a, b, c}) normalOf(mesh.points[corner]) += area;
+  }
+
+  const Limb& limb;
+  Skin& skin;
+  ModelMesh& mesh;
+  std::uint32_t piece;
+  std::size_t point, vertex, triangle;
+  std::vector<double> v;                // of each ring
+  std::vector<std::uint32_t> vertices;  // of the grid: sides + 1 a ring
+  std::vector<std::uint32_t> rim;       // points of the rim that it stands in
+};
+
+void Sewing::addGrid(Part& part) const {
+  const LimbGrid& grid = part.skin.grid;
+  const auto sides = static_cast<std::size_t>(grid.sides);
+  for (std::size_t r = 0; r < grid.rings.size(); ++r) {
+    const double scale = part.scaleAt(grid.rings[r].radius_m);
+    for (std::size_t c = 0; c <= sides; ++c) {
+      const GridPoint& point = grid.points[r * sides + c % sides];
+      if (point.inside) {
+        part.vertices.push_back(0);
+        continue;
+      }
+      const std::uint32_t at = part.skin.numbers[r * sides + c % sides];
+      const double turns = point.angle / (2.0 * kPi) + (c == sides ? 1.0 : 0.0);
+      part.vertices.push_back(part.addVertex(at, point.at_m, part.skin.repeats * turns,
+                                             part.v[r] + scale * (point.arc_m - grid.arcs_m[r]),
+                                             grid.rings[r]));
+    }
+  }
+  std::vector<bool> hole(sides * (grid.rings.size() - 1), false);
+  for (const Patch& patch : grid.patches) {
+    for (int r = patch.row; r < patch.row + patch.rows; ++r) {
+      for (int c = patch.column; c < patch.column + patch.columns; ++c)
+        hole[static_cast<std::size_t>(r * grid.sides + c % grid.sides)] = true;
+    }
+  }
+  for (std::size_t r = 0; r + 1 < grid.rings.size(); ++r) {
+    for (std::size_t c = 0; c < sides; ++c) {
+      if (hole[r * sides + c]) continue;
+      const std::uint32_t *low = &part.vertices[r * (sides + 1) + c], *high = low + sides + 1;
+      // Along the shorter diagonal: the sharper one would show where a rim has moved corners.
+      const auto& p = part.mesh.positions_m;
+      const sim::Vec3f rising = p[high[1]] - p[low[0]], falling = p[high[0]] - p[low[1]];
+      if (glm::dot(rising, rising) <= glm::dot(falling, falling) * 1.0001f) {
+        part.addTriangle(low[0], low[1], high[1]);
+        part.addTriangle(low[0], high[1], high[0]);
+      } else {
+        part.addTriangle(low[0], low[1], high[0]);
+        part.addTriangle(low[1], high[1], high[0]);
+      }
+    }
+  }
+}
+
+void Sewing::addEnds(Part& part) const {
+  const LimbGrid& grid = part.skin.grid;
+  const auto sides = static_cast<std::size_t>(grid.sides);
+  const Section &first = grid.rings.front(), &last = grid.rings.back();
+  const double middle = 0.5 * part.skin.repeats;
+  const std::uint32_t tip = part.addVertex(part.addPoint(), last.centre_m + last.radius_m * last.frame.along,
+                                           middle, part.v.back() + 0.5 * part.skin.repeats / kPi, last);
+  const std::uint32_t* ring = &part.vertices[(grid.rings.size() - 1) * (sides + 1)];
+  for (std::size_t c = 0; c < sides; ++c) part.addTriangle(ring[c], ring[c + 1], tip);
+  if (part.limb.host >= 0) return;
+  const std::uint32_t root =
+      part.addVertex(part.addPoint(), first.centre_m, middle, -0.5 * part.skin.repeats / kPi, first);
+  for (std::size_t c = 0; c < sides; ++c) part.addTriangle(part.vertices[c + 1], part.vertices[c], root);
+}
+
+/// A collar from a rim to a first ring: it comes to the ring along the limb, and leaves the host's surface
+/// the more along it the wider the rim is than the ring.
+class Collar {
+ public:
+  Collar(const Limb& host, const Foot& foot, const Section& ring)
+      : host_(host), foot_(foot), ring_(ring), middle_(sectionAt(host, foot.arc_m).surface(foot.angle)) {}
+
+  Vec3 at(double turn, double share) const {
+    const Vec3 from = onRim(host_, foot_, turn), to = ring_.surface(turn);
+    const Vec3 inwards = middle_ - from;
+    const double wide = glm::length(inwards);
+    const double flare = std::clamp(2.0 * (wide - ring_.radius_m) / std::max(wide, 1e-12), 0.0, 0.8);
+    const Vec3 third = (to - from) / 3.0;
+    const Vec3 out = outAt(turn);
+    const Vec3 left = from + third - flare * std::max(glm::dot(third, out), 0.0) * out;
+    const Vec3 comes = to - std::max(glm::dot(third, ring_.frame.along), 0.0) * ring_.frame.along;
+    const double s = share, q = 1.0 - share;
+    return q * q * q * from + 3.0 * q * q * s * left + 3.0 * q * s * s * comes + s * s * s * to;
+  }
+
+ private:
+  Vec3 outAt(double turn) const {
+    const glm::dvec2 circle = sim::unitCircle(turn / (2.0 * kPi));
+    return sectionAt(host_, foot_.arc_m + foot_.half_arc_m * circle.x)
+        .out(foot_.angle - foot_.half_angle * circle.y);
+  }
+
+  const Limb& host_;
+  const Foot& foot_;
+  const Section& ring_;
+  Vec3 middle_;
+};
+
+void Sewing::addJoint(Part& part) const {
+  const auto host_number = static_cast<std::size_t>(part.limb.host);
+  const Skin& host = skins_[host_number];
+  const auto number =
+      std::find(host.standing.begin(), host.standing.end(), part.piece) - host.standing.begin();
+  const Patch& patch = host.grid.patches[static_cast<std::size_t>(number)];
+  const Rim rim = rimOf(patch);
+  const Section& first = part.skin.grid.rings.front();
+  const Collar collar(limbs_[host_number], patch.foot, first);
+  const double scale = part.scaleAt(first.radius_m), around = part.skin.repeats / (2.0 * kPi);
+  const auto far = [&](double turn) {
+    return scale * glm::distance(onRim(limbs_[host_number], patch.foot, turn), first.surface(turn));
+  };
+  part.rim.clear();
+  part.skin.rim_normals.assign(rim.corners.size(), Vec3(0.0));
+  for (const auto& [ring, column] : rim.corners)
+    part.rim.push_back(
+        host.numbers[static_cast<std::size_t>(ring * host.grid.sides + column % host.grid.sides)]);
+
+  std::vector<std::uint32_t> outer;
+  std::vector<double> turns = rim.turns;
+  turns.push_back(rim.turns.front() + 2.0 * kPi);
+  for (std::size_t i = 0; i < turns.size(); ++i) {
+    const auto& [ring, column] = rim.corners[i % rim.corners.size()];
+    outer.push_back(part.addVertex(part.rim[i % part.rim.size()], host.grid.point(ring, column).at_m,
+                                   around * turns[i], -far(turns[i]), first));
+  }
+  const auto sides = static_cast<std::size_t>(part.skin.grid.sides);
+  std::vector<std::vector<std::uint32_t>> rings;
+  for (int r = 1; r <= part.skin.collar_rings; ++r) {
+    const double share = static_cast<double>(r) / (part.skin.collar_rings + 1);
+    std::uint32_t begin = 0;
+    rings.emplace_back();
+    for (std::size_t c = 0; c <= sides; ++c) {
+      const double turn = 2.0 * kPi * static_cast<double>(c) / static_cast<double>(sides);
+      const std::uint32_t at = c < sides ? part.addPoint() : begin;
+      if (c == 0) begin = at;
+      rings.back().push_back(part.addVertex(at, collar.at(c < sides ? turn : 0.0, share), around * turn,
+                                            -(1.0 - share) * far(turn), first));
+    }
+  }
+  rings.emplace_back(part.vertices.begin(), part.vertices.begin() + static_cast<std::ptrdiff_t>(sides) + 1);
+
+  const std::vector<std::uint32_t>& inner = rings.front();
+  for (std::size_t i = 0, j = 0; i + 1 < outer.size() || j < sides;) {
+    const double next = 2.0 * kPi * static_cast<double>(j + 1) / static_cast<double>(sides);
+    if (j < sides && (i + 1 == outer.size() || next <= turns[i + 1])) {
+      part.addTriangle(outer[i], inner[j + 1], inner[j]);
+      ++j;
+    } else {
+      part.addTriangle(outer[i], outer[i + 1], inner[j]);
+      ++i;
+    }
+  }
+  for (std::size_t r = 0; r + 1 < rings.size(); ++r) {
+    for (std::size_t c = 0; c < sides; ++c) {
+      part.addTriangle(rings[r][c], rings[r][c + 1], rings[r + 1][c + 1]);
+      part.addTriangle(rings[r][c], rings[r + 1][c + 1], rings[r + 1][c]);
+    }
+  }
+}
+
+void Sewing::sew(std::size_t l) {
+  if (limbs_[l].line.empty()) return;
+  Part part(limbs_[l], skins_[l], mesh_, static_cast<std::uint32_t>(l));
+  for (const GridPoint& point : part.skin.grid.points) part.point += point.inside ? 0 : 1;
+  addGrid(part);
+  addEnds(part);
+  if (part.limb.host >= 0) addJoint(part);
+}
+
+/// Each sum with what the limbs that stand on this one add along their rims.
+void addRims(std::vector<Skin>& skins, Skin& skin) {
+  for (std::size_t i = 0; i < skin.standing.size(); ++i) {
+    const Rim rim = rimOf(skin.grid.patches[i]);
+    const Skin& child = skins[skin.standing[i]];
+    for (std::size_t k = 0; k < rim.corners.size(); ++k) {
+      const auto [ring, column] = rim.corners[k];
+      const std::uint32_t at =
+          skin.numbers[static_cast<std::size_t>(ring * skin.grid.sides + column % skin.grid.sides)];
+      skin.normals[at - skin.begin.point] += child.rim_normals[k];
+    }
+  }
+}
+
+void resize(ModelMesh& mesh, const Extent& size) {
+  mesh.points.resize(size.vertex);
+  mesh.positions_m.resize(size.vertex);
+  mesh.normals.resize(size.vertex);
+  mesh.uvs.resize(size.vertex);
+  mesh.exposures.resize(size.vertex);
+  mesh.youths.resize(size.vertex);
+  mesh.pieces.resize(size.vertex);
+  mesh.triangles.resize(size.triangle);
+}
+
+}  // namespace
+
+ModelMesh surfaceOf(const std::vector<Limb>& limbs, double bark_m, double error_m) {
+  std::vector<Skin> skins(limbs.size());
+  for (std::size_t l = 0; l < limbs.size(); ++l) {
+    if (limbs[l].host >= 0) skins[static_cast<std::size_t>(limbs[l].host)].standing.push_back(l);
+  }
+  const auto eachLimb = [&](const std::function<void(std::size_t)>& visit) {
+    sim::parallelFor(limbs.size(), 32, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t l = begin; l < end; ++l)
+        if (!limbs[l].line.empty()) visit(l);
+    });
+  };
+  eachLimb([&](std::size_t l) {
+    Skin& skin = skins[l];
+    std::vector<Foot> feet;
+    for (const std::size_t child : skin.standing) feet.push_back(limbs[child].foot);
+    skin.grid = gridOf(limbs[l], feet);
+    skin.collar_rings = collarRings(limbs[l], error_m);
+    double thickest = 0.0;
+    for (const TubeStation& station : limbs[l].line) thickest = std::max(thickest, station.radius_m);
+    skin.repeats = std::max(1.0, std::round(2.0 * kPi * thickest / bark_m));
+  });
+  eachLimb([&](std::size_t l) {
+    std::size_t rim = 0;
+    if (limbs[l].host >= 0) {
+      const Skin& host = skins[static_cast<std::size_t>(limbs[l].host)];
+      const auto number = std::find(host.standing.begin(), host.standing.end(), l) - host.standing.begin();
+      rim = rimSize(host.grid.patches[static_cast<std::size_t>(number)]);
+    }
+    skins[l].size = sizeOf(skins[l], rim);
+  });
+  Extent all;
+  for (Skin& skin : skins) {
+    skin.begin = all;
+    all.point += skin.size.point;
+    all.vertex += skin.size.vertex;
+    all.triangle += skin.size.triangle;
+  }
+  eachLimb([&](std::size_t l) {
+    Skin& skin = skins[l];
+    auto next = static_cast<std::uint32_t>(skin.begin.point);
+    for (const GridPoint& point : skin.grid.points) skin.numbers.push_back(point.inside ? 0 : next++);
+  });
+
+  ModelMesh mesh;
+  resize(mesh, all);
+  Sewing sewing(limbs, skins, mesh);
+  eachLimb([&](std::size_t l) { sewing.sew(l); });
+  eachLimb([&](std::size_t l) { addRims(skins, skins[l]); });
+  std::vector<sim::Vec3f> normals(all.point);
+  eachLimb([&](std::size_t l) {
+    for (std::size_t i = 0; i < skins[l].normals.size(); ++i) {
+      const Vec3 sum = skins[l].normals[i];
+      const double length = glm::length(sum);
+      normals[skins[l].begin.point + i] = sim::Vec3f(length > 0.0 ? sum / length : limbs[l].frames[0].across);
+    }
+  });
+  sim::parallelFor(all.vertex, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t v = begin; v < end; ++v) mesh.normals[v] = normals[mesh.points[v]];
+  });
+  return mesh;
+}
+
+}  // namespace espalier::render

@@ -17,22 +17,46 @@ constexpr double kSameRing = 0.3;        // of a foot's length: a ring so near s
 constexpr double kPart = 0.95;           // of the way between two feet that they may take up
 constexpr double kLeastShare = 0.5;      // that is left of a foot which gives way to another
 constexpr std::size_t kMostBeside = 64;  // feet at one place that are looked at
+constexpr double kMiddle = 5.0;          // errors that a foot's half is to be worth a ring in its middle
+constexpr double kFine = 4.0;            // errors that a radius is to be worth more columns
 constexpr int kMostSides = 48;           // to which columns are doubled for the sake of feet
 constexpr double kYield = 0.4;  // of a quad: how far a rim may leave its corners' own places outwards
 
-/// Rings at the stations and at both ends of each foot.
-std::vector<double> ringArcs(const Limb& limb, std::span<const Foot> standing) {
-  std::vector<double> arcs = limb.arcs_m;
+/// Where a foot begins and ends: no farther than its limb reaches.
+std::pair<double, double> endsOf(const Foot& foot, double length) {
+  const double half = std::min(foot.half_arc_m, 0.45 * length);
+  const double middle = std::clamp(foot.arc_m, half, length - half);
+  return {middle - half, middle + half};
+}
+
+/// Rings at both ends of each foot, and at the stations between feet; in the middle of those feet that are
+/// worth it.
+std::vector<double> ringArcs(const Limb& limb, std::span<const Foot> standing, double error_m) {
   const double length = limb.length_m();
+  std::vector<double> arcs = limb.arcs_m;
   for (const Foot& foot : standing) {
-    const double half = std::min(foot.half_arc_m, 0.45 * length);
-    const double middle = std::clamp(foot.arc_m, half, length - half);
-    for (const double end : {middle - half, middle + half}) {
-      const auto above = std::lower_bound(arcs.begin(), arcs.end(), end);
-      const bool near = (above != arcs.end() && *above - end < kSameRing * half) ||
-                        (above != arcs.begin() && end - *(above - 1) < kSameRing * half);
-      if (!near) arcs.insert(above, end);
-    }
+    const auto [low, high] = endsOf(foot, length);
+    const Vec3 from = sectionAt(limb, low).centre_m, step = sectionAt(limb, high).centre_m - from;
+    const auto straight = [&, first = low, last = high](double arc) {
+      const Vec3 wanted = from + (arc - first) / (last - first) * step;
+      return glm::distance(sectionAt(limb, arc).centre_m, wanted) < 0.5 * error_m;
+    };
+    const auto inner = std::upper_bound(arcs.begin() + 1, arcs.end() - 1, low);
+    const auto outer = std::lower_bound(inner, arcs.end() - 1, high);
+    arcs.erase(std::remove_if(inner, outer, straight), outer);
+  }
+  for (const Foot& foot : standing) {
+    const auto [low, high] = endsOf(foot, length);
+    const auto insert = [&](double arc, double apart) {
+      const auto above = std::lower_bound(arcs.begin(), arcs.end(), arc);
+      const bool near = (above != arcs.end() && *above - arc < apart) ||
+                        (above != arcs.begin() && arc - *(above - 1) < apart);
+      if (!near) arcs.insert(above, arc);
+    };
+    const double half = 0.5 * (high - low);
+    insert(low, kSameRing * half);
+    insert(high, kSameRing * half);
+    if (half > kMiddle * error_m) insert(low + half, 0.7 * half);
   }
   return arcs;
 }
@@ -169,11 +193,10 @@ Room place(LimbGrid& grid, std::span<const Foot> standing) {
     patch.columns = std::clamp(static_cast<int>(std::lround(2.0 * foot.half_angle / side)), 1, most);
     patch.column =
         wrapped(static_cast<int>(std::lround(foot.angle / side - 0.5 * patch.columns)), grid.sides);
-    const double half = std::min(foot.half_arc_m, 0.45 * grid.arcs_m.back());
-    const double middle = std::clamp(foot.arc_m, half, grid.arcs_m.back() - half);
+    const auto [low, high] = endsOf(foot, grid.arcs_m.back());
     const int rings = static_cast<int>(grid.arcs_m.size());
-    patch.row = std::min(nearest(grid.arcs_m, middle - half), rings - 2);
-    patch.rows = std::max(nearest(grid.arcs_m, middle + half) - patch.row, 1);
+    patch.row = std::min(nearest(grid.arcs_m, low), rings - 2);
+    patch.rows = std::max(nearest(grid.arcs_m, high) - patch.row, 1);
     if (!places.free(patch)) {
       if (!places.findRoom(patch)) return Room::none;
       room = Room::elsewhere;
@@ -233,14 +256,15 @@ Vec3 onRim(const Limb& host, const Foot& foot, double turn) {
       .surface(foot.angle - foot.half_angle * circle.y);
 }
 
-LimbGrid gridOf(const Limb& limb, std::span<const Foot> standing) {
+LimbGrid gridOf(const Limb& limb, std::span<const Foot> standing, double error_m) {
   LimbGrid grid;
   grid.sides = limb.sides;
   std::vector<Foot> feet(standing.begin(), standing.end());
   part(feet);
-  grid.arcs_m = ringArcs(limb, feet);
+  grid.arcs_m = ringArcs(limb, feet, error_m);
+  const bool fine = limb.line.front().radius_m > kFine * error_m;
   for (Room room; (room = place(grid, feet)) != Room::all;) {
-    if (2 * grid.sides <= std::min(kMostSides, 4 * limb.sides)) {
+    if (fine && 2 * grid.sides <= std::min(kMostSides, 4 * limb.sides)) {
       grid.sides *= 2;
     } else if (room == Room::elsewhere) {
       break;

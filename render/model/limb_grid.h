@@ -39,7 +39,8 @@ struct LimbGrid {
 /// `standing`: the feet of the limbs that stand on it. Where they would overlap they are made smaller; where
 /// the grid is too coarse for them it has more columns than the limb has sides. Those with larger feet are
 /// given their place first, and one whose place is taken stands as near as it can.
-LimbGrid gridOf(const Limb& limb, std::span<const Foot> standing);
+/// `error_m` as for limbsOf.
+LimbGrid gridOf(const Limb& limb, std::span<const Foot> standing, double error_m);
 
 /// The corners of a patch's rim (ring, column), counter-clockwise seen from outside, from the middle of its
 /// far side on; and how far around the rim each is, radians.

@@ -21,6 +21,10 @@ constexpr double kLeastStep = 0.05;     // radii between two stations
 constexpr double kTipRadius = 0.5;      // of the last segment's
 constexpr double kFootRadii = 1.25;     // how much wider than its limb a foot is
 constexpr double kWidest = 0.45 * kPi;  // half of the angle of the widest foot
+constexpr double kBent = 0.06;          // radii that a centre line may be off ..
+constexpr double kOff = 0.5;            // of what is allowed that is left to stations that are left out
+constexpr double kRound = 0.03;         // .. and the sides of a ring: what shows in no picture
+constexpr double kLongest = 2.5;        // radii from where a line leaves its host to its first ring
 constexpr double kClear = 0.1;          // radii between the first ring and the host's surface
 
 template <class T>
@@ -111,6 +115,7 @@ class Builder {
   Leaving leaving(std::size_t s, const Limb& host, double fork_arc_m) const;
   int piecesIn(std::size_t s, std::size_t segment) const;
   void addStations(Limb& limb, std::size_t s, double from) const;
+  void leaveOutStraight(Limb& limb) const;
   void standOnHost(Limb& limb, std::size_t s) const;
   Vec3 footFor(Limb& limb, const Limb& host, const Leaving& leaving, Vec3 exit_m, Vec3 way) const;
   void finish(Limb& limb, Vec3 across) const;
@@ -144,26 +149,27 @@ TubeStation Builder::stationAt(std::size_t s, double t) const {
 
 /// So many that a chord is at most the error away from its curve.
 int Builder::piecesIn(std::size_t s, std::size_t segment) const {
-  const Spline& curve = stem(s).curve;
+  const StemLine& curve = stem(s).curve;
   const auto t = static_cast<double>(segment);
   const Vec3 a = curve.position(t), b = curve.position(t + 1.0), middle = curve.position(t + 0.5);
   const Vec3 before = curve.position(t + 0.25), after = curve.position(t + 0.75);
   const auto off = [](Vec3 p, Vec3 from, Vec3 to) { return glm::distance(p, 0.5 * (from + to)); };
   const double sagitta =
       std::max({off(middle, a, b), 4.0 * off(before, a, middle), 4.0 * off(after, middle, b)});
-  const double pieces = std::sqrt(sagitta * frame_.voxel_m / error_m_);
+  const double error_m = std::max(error_m_, kBent * radiusAt(s, t + 0.5));
+  const double pieces = std::sqrt(sagitta * frame_.voxel_m / error_m);
   return std::clamp(static_cast<int>(std::ceil(pieces)), 1, kMostStations);
 }
 
 Leaving Builder::leaving(std::size_t s, const Limb& host, double fork_arc_m) const {
-  const Spline& curve = stem(s).curve;
+  const StemLine& curve = stem(s).curve;
   const auto segment = std::upper_bound(host.arcs_m.begin() + 1, host.arcs_m.end() - 1, fork_arc_m);
   Leaving result;
   result.place.segment = static_cast<std::size_t>(segment - host.arcs_m.begin()) - 1;
   const double last = curve.last();
-  const auto stepped = [&](double t, double way_m) {
+  const auto stepped = [&](double t, double way_m, double most = 0.5) {
     const double speed = std::max(glm::length(curve.derivative(t)) * frame_.voxel_m, 1e-9);
-    return t + std::min(way_m / speed, 0.5);
+    return t + std::min(way_m / speed, most);
   };
   double before = 0.0, gap_before = 0.0, t = 0.0;
   for (;;) {
@@ -180,7 +186,9 @@ Leaving Builder::leaving(std::size_t s, const Limb& host, double fork_arc_m) con
     t = std::min(stepped(t, std::max(gap, 0.1 * result.place.radius_m)), last);
   }
   result.exit = t;
-  const double limit = t + 0.7 * (last - t);
+  // Limbs that hardly part run into each other for a while, as grown ones do; a slot as long would look
+  // worse.
+  const double limit = std::min(t + 0.7 * (last - t), stepped(t, kLongest * radiusAt(s, t), last));
   Nearest near = result.place;
   for (;;) {
     const double radius = widening(sidesFor(radiusAt(s, t), error_m_)) * radiusAt(s, t);
@@ -218,6 +226,37 @@ void Builder::addStations(Limb& limb, std::size_t s, double from) const {
       if (t > from) add(t);
     }
   }
+}
+
+/// Leaves out stations that lie where their neighbours would have them anyway.
+void Builder::leaveOutStraight(Limb& limb) const {
+  constexpr std::size_t kFarthest = 12;  // stations in a row
+  std::vector<std::size_t> kept{0};
+  const auto between = [&](std::size_t a, std::size_t b) {
+    const TubeStation &p = limb.line[a], &q = limb.line[b];
+    const Vec3 step = q.centre_m - p.centre_m;
+    const double length2 = glm::dot(step, step);
+    for (std::size_t i = a + 1; i < b; ++i) {
+      const TubeStation& station = limb.line[i];
+      const double share = length2 > 0.0 ? glm::dot(station.centre_m - p.centre_m, step) / length2 : 0.5;
+      if (!(share > 0.0 && share < 1.0)) return false;
+      const double off = glm::distance(station.centre_m, p.centre_m + share * step) +
+                         std::abs(station.radius_m - glm::mix(p.radius_m, q.radius_m, share));
+      if (off > kOff * std::max(error_m_, kBent * station.radius_m)) return false;
+    }
+    return true;
+  };
+  const std::size_t last = limb.line.size() - 1;
+  for (std::size_t i = 2; i <= last; ++i) {
+    if (i - kept.back() > kFarthest || !between(kept.back(), i)) kept.push_back(i - 1);
+  }
+  kept.push_back(last);
+  for (std::size_t k = 0; k < kept.size(); ++k) {
+    limb.line[k] = limb.line[kept[k]];
+    limb.params[k] = limb.params[kept[k]];
+  }
+  limb.line.resize(kept.size());
+  limb.params.resize(kept.size());
 }
 
 /// Sets the foot: from where the centre line leaves the host to below its first ring. Returns where the rings
@@ -283,6 +322,7 @@ void Builder::standOnHost(Limb& limb, std::size_t s) const {
 
 /// Widens the rings, and fills in what follows from the stations.
 void Builder::finish(Limb& limb, Vec3 across) const {
+  if (limb.line.size() > 2) leaveOutStraight(limb);
   limb.line.back().radius_m *= kTipRadius;
   std::vector<bool> left_out(limb.line.size(), false);
   keepRingsApart(limb.line, [&](std::size_t i) { left_out[i] = true; });
@@ -316,6 +356,8 @@ void Builder::build(std::size_t s) {
 }  // namespace
 
 int sidesFor(double radius_m, double error_m) {
+  // Sides tell sooner than bends: by the tube's ends and its shading.
+  error_m = std::max(0.5 * error_m, kRound * radius_m);
   if (!(error_m < 0.5 * radius_m)) return 3;
   return std::clamp(static_cast<int>(std::ceil(kPi / std::acos(1.0 - error_m / radius_m) - 0.05)), 3, 48);
 }

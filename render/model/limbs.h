@@ -47,7 +47,7 @@ Section sectionAt(const Limb& limb, double arc_m);
 /// What of a plant's nodes becomes part of its surface.
 struct LimbData {
   const sim::Skeleton& skeleton;
-  const std::vector<float>& radii_vx;  ///< as from pipeRadii
+  const std::vector<float>& radii_vx;  ///< as from stemRadii
   std::vector<float> exposures;        ///< of each node
   std::vector<float> youths;           ///< likewise
 };
@@ -60,7 +60,8 @@ struct LimbData {
 std::vector<Limb> limbsOf(const StemCurves& curves, const LimbData& data, const sim::Frame& frame,
                           double error_m);
 
-/// Sides of a ring: its circle is at most `error_m` away from them. From 3 to 48.
+/// Sides of a ring: its circle is at most half of `error_m` away from them, or a thirtieth of its radius.
+/// From 3 on.
 int sidesFor(double radius_m, double error_m);
 
 }  // namespace espalier::render

@@ -6,6 +6,7 @@
 
 #include "render/model/leaves.h"
 #include "render/model/limbs.h"
+#include "render/model/radii.h"
 #include "render/model/stem_curves.h"
 #include "render/model/stem_surface.h"
 #include "render/model/tubes.h"
@@ -62,8 +63,10 @@ void appendStalk(ModelMesh& mesh, const sim::PlacedElement& element, Vec3 stem_v
 }  // namespace
 
 PlantModel modelPlant(const sim::Plant& plant, const sim::Frame& frame, const ModelOptions& options) {
-  const std::vector<float> radii = pipeRadii(plant.skeleton, options.pipe);
-  const StemCurves curves = stemCurves(plant.skeleton, radii);
+  const std::vector<float> radii = stemRadii(plant.skeleton, plant.girth);
+  Blocked blocked;
+  if (options.walls != nullptr) blocked = [&](Vec3 p_vx) { return options.walls->at(sim::voxelAt(p_vx)); };
+  const StemCurves curves = stemCurves(plant.skeleton, radii, blocked);
   const Youth youth(plant);
 
   LimbData data{plant.skeleton, radii, {}, {}};
@@ -74,7 +77,7 @@ PlantModel modelPlant(const sim::Plant& plant, const sim::Frame& frame, const Mo
   }
 
   PlantModel model;
-  const double twig_m = static_cast<double>(options.pipe.tip_radius_vx) * frame.voxel_m;
+  const double twig_m = plant.girth.twig_vx * frame.voxel_m;
   const double error_m = options.error * twig_m;
   model.stems = surfaceOf(limbsOf(curves, data, frame, error_m), kBarkRadii * twig_m, error_m);
   model.name = plant.name;
@@ -102,7 +105,7 @@ PlantModel modelPlant(const sim::Plant& plant, const sim::Frame& frame, const Mo
     const Vec3 base = sim::placed(element, bladeBase(shape));
     const Vec3 stem = curves.onStem(plant.skeleton, element.node, element.position_vx);
     const auto stem_radius = static_cast<double>(at(radii, element.node));
-    const double stalk_radius = 0.55 * static_cast<double>(options.pipe.tip_radius_vx);
+    const double stalk_radius = 0.55 * plant.girth.twig_vx;
     if (glm::distance(stem, base) > stem_radius + stalk_radius) {
       appendStalk(mesh, element, stem, base, stalk_radius, frame, young, piece);
     }

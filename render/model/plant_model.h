@@ -2,16 +2,16 @@
 #include <vector>
 
 #include "render/model/model_mesh.h"
-#include "render/model/radii.h"
+#include "sim/base/bits.h"
 #include "sim/base/frame.h"
 #include "sim/grow/plant.h"
 
 namespace espalier::render {
 
 struct ModelOptions {
-  PipeModel pipe;
   /// How far surfaces of stems may be from what they stand for, in radii of the thinnest twig.
-  double error = 0.25;
+  double error = 0.4;
+  const sim::BitVolume* walls = nullptr;  ///< voxels that centre lines keep out of where the skeleton does
 };
 
 /// A plant's surfaces. Meshes may be empty: a lone seed has no stems.
@@ -23,7 +23,7 @@ struct PlantModel {
 
 /// Models a plant: every stem a tube swept along a C2 curve through its nodes, thick as the pipe model says,
 /// all of a seed's stems one closed surface (stem_surface.h); every element's polygons, with a stalk from the
-/// stem to a blade that does not begin on it. Throws InputError as pipeRadii does.
+/// stem to a blade that does not begin on it. Throws InputError as stemRadii does.
 PlantModel modelPlant(const sim::Plant& plant, const sim::Frame& frame, const ModelOptions& options = {});
 
 }  // namespace espalier::render

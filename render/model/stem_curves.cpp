@@ -93,7 +93,7 @@ std::optional<Vec3> leavingDerivative(const StemCurves& curves, std::span<const 
 
 }  // namespace
 
-StemCurves stemCurves(const sim::Skeleton& skeleton, std::span<const float> radii) {
+StemCurves stemCurves(const sim::Skeleton& skeleton, std::span<const float> radii, const Blocked& blocked) {
   const std::vector<NodeId> places = placesOf(skeleton);
   const Children children(skeleton, places);
   StemCurves curves;
@@ -155,8 +155,8 @@ StemCurves stemCurves(const sim::Skeleton& skeleton, std::span<const float> radi
         StemCurve& stem = curves.stems[i];
         points.clear();
         for (const NodeId n : stem.nodes) points.push_back(positionOf(skeleton, n));
-        stem.curve =
-            Spline(points, g == 0 ? std::nullopt : leavingDerivative(curves, radii, points, stem.nodes[0]));
+        stem.curve = StemLine(
+            points, g == 0 ? std::nullopt : leavingDerivative(curves, radii, points, stem.nodes[0]), blocked);
       }
     });
   }

@@ -3,7 +3,7 @@
 #include <span>
 #include <vector>
 
-#include "render/model/spline.h"
+#include "render/model/stem_line.h"
 #include "sim/grow/plant.h"
 
 namespace espalier::render {
@@ -12,7 +12,7 @@ namespace espalier::render {
 /// among equals; every other child begins a stem of its own. Nodes in one place are one.
 struct StemCurve {
   std::vector<sim::NodeId> nodes;  ///< from the fork or seed outwards, at least two in different places
-  Spline curve;                    ///< through the nodes, voxel space; node i at parameter i
+  StemLine curve;                  ///< through the nodes, voxel space; node i at parameter i
   bool from_seed = false;          ///< the thickest stem of a seed; its others fork from that one
 };
 
@@ -29,7 +29,8 @@ struct StemCurves {
   sim::Vec3 onStem(const sim::Skeleton& skeleton, sim::NodeId node, sim::Vec3 on_segment_vx) const;
 };
 
-/// `radii` as from pipeRadii.
-StemCurves stemCurves(const sim::Skeleton& skeleton, std::span<const float> radii);
+/// `radii` as from stemRadii. `blocked`: what curves keep out of where the skeleton does; empty: nothing.
+StemCurves stemCurves(const sim::Skeleton& skeleton, std::span<const float> radii,
+                      const Blocked& blocked = {});
 
 }  // namespace espalier::render

@@ -336,7 +336,7 @@ ModelMesh surfaceOf(const std::vector<Limb>& limbs, double bark_m, double error_
     Skin& skin = skins[l];
     std::vector<Foot> feet;
     for (const std::size_t child : skin.standing) feet.push_back(limbs[child].foot);
-    skin.grid = gridOf(limbs[l], feet);
+    skin.grid = gridOf(limbs[l], feet, error_m);
     skin.collar_rings = collarRings(limbs[l], error_m);
     double thickest = 0.0;
     for (const TubeStation& station : limbs[l].line) thickest = std::max(thickest, station.radius_m);

@@ -35,22 +35,22 @@ namespace {
 
 constexpr const char *kModelFile = "plant.glb", *kWorldFile = "world.vdb";
 
-std::vector<render::PlantModel> modelPlants(const sim::Frame& frame, std::span<const sim::Plant> plants) {
+/// `bare`: what the scene alone occupies.
+std::vector<render::PlantModel> modelPlants(const sim::Frame& frame, std::span<const sim::Plant> plants,
+                                            const sim::BitVolume& bare) {
   std::vector<render::PlantModel> models(plants.size());
   sim::parallelFor(plants.size(), 1, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) {
-      render::ModelOptions options;
-      options.pipe.tip_radius_vx = static_cast<float>(plants[i].stem_radius_vx);
-      models[i] = render::modelPlant(plants[i], frame, options);
-    }
+    for (std::size_t i = begin; i < end; ++i)
+      models[i] = render::modelPlant(plants[i], frame, {.walls = &bare});
   });
   return models;
 }
 
 /// Models plants only when they are asked for, small ones some at once: all models of a large scene take more
 /// memory than all that has grown.
-render::PlantModels modelsOf(const sim::Frame& frame, std::span<const sim::Plant> plants) {
-  return [=](const std::function<void(const render::PlantModel&)>& take) {
+render::PlantModels modelsOf(const sim::Frame& frame, std::span<const sim::Plant> plants,
+                             const sim::BitVolume& bare) {
+  return [=, &bare](const std::function<void(const render::PlantModel&)>& take) {
     constexpr std::size_t kAtOnce = 4096;  // nodes and elements
     for (std::size_t first = 0, last = 0; first < plants.size(); first = last) {
       std::size_t pieces = 0;
@@ -58,21 +58,22 @@ render::PlantModels modelsOf(const sim::Frame& frame, std::span<const sim::Plant
         pieces += plants[last].skeleton.parent.size() + plants[last].elements.size();
         ++last;
       }
-      for (const auto& model : modelPlants(frame, plants.subspan(first, last - first))) take(model);
+      for (const auto& model : modelPlants(frame, plants.subspan(first, last - first), bare)) take(model);
     }
   };
 }
 
 /// `models`: of all plants, or empty.
 void writeGlb(std::ostream& out, const Site& site, std::span<const sim::Plant> plants,
-              const std::vector<render::PlantModel>& models, const sim::Provenance& made_by) {
+              const sim::BitVolume& bare, const std::vector<render::PlantModel>& models,
+              const sim::Provenance& made_by) {
   std::vector<const sim::Mesh*> meshes;
   for (const auto& tiled : site.meshes) meshes.push_back(&tiled.mesh);
   const auto kept = [&](const std::function<void(const render::PlantModel&)>& take) {
     for (const auto& model : models) take(model);
   };
   render::writeGlb(out, meshes,
-                   models.empty() ? modelsOf(site.world.frame(), plants) : render::PlantModels(kept),
+                   models.empty() ? modelsOf(site.world.frame(), plants, bare) : render::PlantModels(kept),
                    made_by);
 }
 
@@ -256,13 +257,14 @@ Report runScene(const Scene& scene, const RunOptions& options, const Keeping& ke
   report.light = light.about;
   std::vector<render::PlantModel> models;  // for pictures; else they are made while they are written
   if (options.pictures)
-    models = stages.run("modelling", [&] { return modelPlants(world.frame(), growth.plants); });
+    models = stages.run("modelling", [&] { return modelPlants(world.frame(), growth.plants, bare); });
   const GuideVolumes guides = inScene(scene, [&] { return guideVolumes(growth, usedFields(scene), world); });
   for (const render::VdbField& field : guides.fields)
     report.growth->fields.push_back({field.name, guides.near->count()});
   std::vector<OutputFile> files;
-  files.push_back(
-      {kModelFile, [&](std::ostream& out) { writeGlb(out, site, growth.plants, models, report.made_by); }});
+  files.push_back({kModelFile, [&](std::ostream& out) {
+                     writeGlb(out, site, growth.plants, bare, models, report.made_by);
+                   }});
   files.push_back({kWorldFile, [&](std::ostream& out) {
                      std::vector<render::VdbField> fields = worldFields(light, *layers);
                      fields.insert(fields.end(), guides.fields.begin(), guides.fields.end());
@@ -343,7 +345,8 @@ Report renderScene(Scene scene, const std::filesystem::path& from, const RunOpti
     return lightFor(scene, site, drawsVines(scene.images), nullptr);
   });
   report.light = light.about;
-  const auto models = stages.run("modelling", [&] { return modelPlants(site.world.frame(), growth.plants); });
+  const auto models =
+      stages.run("modelling", [&] { return modelPlants(site.world.frame(), growth.plants, bare); });
   std::vector<OutputFile> files = stages.run("drawing", [&] {
     const Finished finished{site.meshes, site.world, bare, growth, light, models};
     return inScene(scene, [&] { return drawPictures(picturesOf(scene, report.made_by), finished); });

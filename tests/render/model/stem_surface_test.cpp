@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "render/model/plant_model.h"
+#include "render/model/radii.h"
 #include "render/model/self_crossings.h"
 #include "sim/base/parallel.h"
 #include "tests/support/random_trees.h"
@@ -27,7 +28,7 @@ sim::Plant plantOf(sim::Skeleton skeleton) {
   return plant;
 }
 
-ModelMesh stemsOf(const sim::Skeleton& skeleton, double error = 0.2) {
+ModelMesh stemsOf(const sim::Skeleton& skeleton, double error = 0.4) {
   render::ModelOptions options;
   options.error = error;
   return render::modelPlant(plantOf(skeleton), kFrame, options).stems;
@@ -50,11 +51,11 @@ void expectOneSphere(const ModelMesh& mesh, std::size_t spheres = 1) {
 
 /// The limbs of which such a surface is made, in voxel widths.
 std::vector<render::Limb> limbsIn(const sim::Skeleton& skeleton) {
-  const render::PipeModel pipe;
-  const auto radii = render::pipeRadii(skeleton, pipe);
+  const sim::StemGirth girth;
+  const auto radii = render::stemRadii(skeleton, girth);
   const std::vector<float> ones(radii.size(), 1.0f);
   return render::limbsOf(render::stemCurves(skeleton, radii), {skeleton, radii, ones, ones},
-                         {sim::Vec3(0.0), 1.0, sim::Voxel(1)}, 0.2 * static_cast<double>(pipe.tip_radius_vx));
+                         {sim::Vec3(0.0), 1.0, sim::Voxel(1)}, 0.4 * girth.twig_vx);
 }
 
 /// Whether a limb comes back to where it was.
@@ -75,14 +76,16 @@ bool meetsItself(const render::Limb& limb) {
 bool keepsItsDistance(const std::vector<render::Limb>& limbs, std::size_t l) {
   if (limbs[l].host < 0) return true;
   const render::Limb &limb = limbs[l], &host = limbs[static_cast<std::size_t>(limb.host)];
-  for (std::size_t i = 1; i < limb.line.size(); ++i) {
+  constexpr std::size_t kEach = 8;
+  for (std::size_t i = kEach; i + 1 < kEach * limb.line.size(); ++i) {
+    const render::Section at = render::sectionAt(
+        limb, limb.length_m() * static_cast<double>(i) / static_cast<double>(kEach * limb.line.size()));
     for (std::size_t k = 0; k + 1 < host.line.size(); ++k) {
       const Vec3 step = host.line[k + 1].centre_m - host.line[k].centre_m;
-      const double share = std::clamp(
-          glm::dot(limb.line[i].centre_m - host.line[k].centre_m, step) / glm::dot(step, step), 0.0, 1.0);
+      const double share =
+          std::clamp(glm::dot(at.centre_m - host.line[k].centre_m, step) / glm::dot(step, step), 0.0, 1.0);
       const Vec3 near = host.line[k].centre_m + share * step;
-      if (glm::distance(near, limb.line[i].centre_m) < host.line[k].radius_m + limb.line[i].radius_m)
-        return false;
+      if (glm::distance(near, at.centre_m) < host.line[k].radius_m + at.radius_m) return false;
     }
   }
   for (std::size_t other = 0; other < limbs.size(); ++other) {
@@ -156,7 +159,7 @@ TEST(StemSurface, AnyNumberOfLimbsLeavesAtOnePlace) {
         const Vec3 at = skeleton.position_vx[static_cast<std::size_t>(fork)];
         tests::addNode(skeleton, fork, at + 3.0 * draws.onSphere());
       }
-      for (const double error : {0.05, 0.2, 2.0, 20.0}) expectOneSphere(stemsOf(skeleton, error));
+      for (const double error : {0.1, 0.4, 4.0, 40.0}) expectOneSphere(stemsOf(skeleton, error));
     }
   }
 }

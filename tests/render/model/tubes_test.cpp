@@ -109,6 +109,24 @@ TEST(Tubes, AFlatLoopBringsItsFrameBack) {  // parallel transport around a plane
   for (const auto& f : frames) EXPECT_NEAR(f.up.y, frames.front().up.y, 1e-9);
 }
 
+TEST(Tubes, OnAHelixFramesTurnBackByItsTorsion) {  // what Frenet's frame turns too much, in closed form
+  const double a = 1.0, b = 0.4, speed = std::sqrt(a * a + b * b), torsion = b / (speed * speed);
+  std::vector<TubeStation> line;
+  std::vector<Vec3> along, normals;
+  for (int i = 0; i <= 600; ++i) {
+    const double t = 0.02 * i;
+    line.push_back({{a * std::cos(t), a * std::sin(t), b * t}, 0.1, 0, 0});
+    along.push_back(Vec3(-a * std::sin(t), a * std::cos(t), b) / speed);
+    normals.emplace_back(-std::cos(t), -std::sin(t), 0.0);
+  }
+  const auto frames = render::rotationMinimizingFrames(line, along, normals[0]);
+  for (std::size_t i = 0; i < line.size(); ++i) {
+    const double angle = -torsion * speed * 0.02 * static_cast<double>(i);
+    const Vec3 wanted = std::cos(angle) * normals[i] + std::sin(angle) * glm::cross(along[i], normals[i]);
+    EXPECT_LT(glm::distance(frames[i].across, wanted), 1e-6) << i;
+  }
+}
+
 TEST(Tubes, ThinWhereTheyBendSharply) {
   std::vector<TubeStation> line{{{0, 0, 0}, 1, 0, 0},
                                 {{0, 1, 0}, 1, 0, 0},

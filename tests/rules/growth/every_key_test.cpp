@@ -276,21 +276,21 @@ INSTANTIATE_TEST_SUITE_P(Place, EveryKey,
 TEST(Stem, IsThatOfTheTopSet) {
   const Result plain = grown(lively());
   RuleSet red = lively();
-  red.stem_colour = sim::Colour(1.0f, 0.0f, 0.0f);
+  red.stem.colour = sim::Colour(1.0f, 0.0f, 0.0f);
   EXPECT_EQ(grown(red).state, plain.state);
   EXPECT_NE(grown(red).colours, plain.colours);
   RuleSet thick = lively();
-  thick.stem_radius = {0.4};
+  thick.stem.radius = {0.4};
   EXPECT_NE(grown(thick).state, plain.state);  // it takes more light
 
   RuleSet top = failing(), second = lively();
-  second.stem_colour = sim::Colour(1.0f, 0.0f, 0.0f);
-  second.stem_radius = {0.4};
-  top.stem_radius = {0.2};
+  second.stem.colour = sim::Colour(1.0f, 0.0f, 0.0f);
+  second.stem.radius = {0.4};
+  top.stem.radius = {0.2};
   top.otherwise = shared(second);
   const sim::Plant plant = makeProcess(shared(top), 0.04)->seedling();
-  EXPECT_EQ(plant.stem_colour, top.stem_colour);
-  EXPECT_EQ(plant.stem_radius_vx, 0.2);
+  EXPECT_EQ(plant.stem_colour, top.stem.colour);
+  EXPECT_EQ(plant.girth.twig_vx, 0.2);
 }
 
 }  // namespace

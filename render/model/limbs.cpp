@@ -23,7 +23,6 @@ constexpr double kFootRadii = 1.25;     // how much wider than its limb a foot i
 constexpr double kWidest = 0.45 * kPi;  // half of the angle of the widest foot
 constexpr double kBent = 0.06;          // radii that a centre line may be off ..
 constexpr double kOff = 0.5;            // of what is allowed that is left to stations that are left out
-constexpr double kRound = 0.03;         // .. and the sides of a ring: what shows in no picture
 constexpr double kLongest = 2.5;        // radii from where a line leaves its host to its first ring
 constexpr double kClear = 0.1;          // radii between the first ring and the host's surface
 
@@ -46,46 +45,11 @@ double interpolated(const std::vector<double>& xs, const std::vector<double>& ys
   return ys[i - 1] + share * (ys[i] - ys[i - 1]);
 }
 
-/// The point of a limb's line next to another.
-struct Nearest {
-  std::size_t segment = 0;
-  double share = 0.0;  // of the segment
-  Vec3 centre_m{0.0};
-  double distance_m = 0.0, radius_m = 0.0;
-};
-
-Nearest onSegment(const Limb& limb, std::size_t segment, Vec3 p) {
-  const TubeStation &a = limb.line[segment], &b = limb.line[segment + 1];
-  const Vec3 step = b.centre_m - a.centre_m;
-  const double share = std::clamp(glm::dot(p - a.centre_m, step) / glm::dot(step, step), 0.0, 1.0);
-  const Vec3 centre = a.centre_m + share * step;
-  return {segment, share, centre, glm::distance(p, centre), a.radius_m + share * (b.radius_m - a.radius_m)};
-}
-
-/// Downhill from a segment.
-Nearest nearestFrom(const Limb& limb, std::size_t segment, Vec3 p) {
-  Nearest best = onSegment(limb, segment, p);
-  for (const int way : {1, -1}) {
-    for (std::size_t i = best.segment; way > 0 ? i + 2 < limb.line.size() : i > 0;) {
-      i += static_cast<std::size_t>(way);
-      const Nearest next = onSegment(limb, i, p);
-      if (!(next.distance_m < best.distance_m)) break;
-      best = next;
-    }
-  }
-  return best;
-}
-
-double arcOf(const Limb& limb, const Nearest& place) {
-  return limb.arcs_m[place.segment] +
-         place.share * (limb.arcs_m[place.segment + 1] - limb.arcs_m[place.segment]);
-}
-
 /// How a stem leaves its host: the parameters at which its centre line does, and at which a whole ring has.
 struct Leaving {
   bool leaves = false;
   double exit = 0.0, clear = 0.0;
-  Nearest place, cleared;  // at the exit, or of the tip; where the ring is
+  NearLine place, cleared;  // at the exit, or of the tip; where the ring is
 };
 
 /// `v` turned as one has to turn to get from one unit vector to another by the shortest way.
@@ -165,7 +129,7 @@ Leaving Builder::leaving(std::size_t s, const Limb& host, double fork_arc_m) con
   const StemLine& curve = stem(s).curve;
   const auto segment = std::upper_bound(host.arcs_m.begin() + 1, host.arcs_m.end() - 1, fork_arc_m);
   Leaving result;
-  result.place.segment = static_cast<std::size_t>(segment - host.arcs_m.begin()) - 1;
+  result.place.stretch = static_cast<std::size_t>(segment - host.arcs_m.begin()) - 1;
   const double last = curve.last();
   const auto stepped = [&](double t, double way_m, double most = 0.5) {
     const double speed = std::max(glm::length(curve.derivative(t)) * frame_.voxel_m, 1e-9);
@@ -173,11 +137,11 @@ Leaving Builder::leaving(std::size_t s, const Limb& host, double fork_arc_m) con
   };
   double before = 0.0, gap_before = 0.0, t = 0.0;
   for (;;) {
-    result.place = nearestFrom(host, result.place.segment, position(s, t));
+    result.place = nearestOn(host, result.place.stretch, position(s, t));
     const double gap = result.place.radius_m - result.place.distance_m;
     if (gap <= 0.0) {
       if (gap < 0.0 && gap_before > 0.0) t = before + (t - before) * gap_before / (gap_before - gap);
-      result.place = nearestFrom(host, result.place.segment, position(s, t));
+      result.place = nearestOn(host, result.place.stretch, position(s, t));
       break;
     }
     if (t >= last) return result;
@@ -189,7 +153,7 @@ Leaving Builder::leaving(std::size_t s, const Limb& host, double fork_arc_m) con
   // Limbs that hardly part run into each other for a while, as grown ones do; a slot as long would look
   // worse.
   const double limit = std::min(t + 0.7 * (last - t), stepped(t, kLongest * radiusAt(s, t), last));
-  Nearest near = result.place;
+  NearLine near = result.place;
   for (;;) {
     const double radius = widening(sidesFor(radiusAt(s, t), error_m_)) * radiusAt(s, t);
     const Vec3 way = curve.derivative(t);
@@ -200,7 +164,7 @@ Leaving Builder::leaving(std::size_t s, const Limb& host, double fork_arc_m) con
     const double gap = near.radius_m + reach + kClear * radius - near.distance_m;
     if (gap <= 0.0 || t >= limit) break;
     t = std::min(stepped(t, std::max(gap, 0.15 * radius)), limit);
-    near = nearestFrom(host, near.segment, position(s, t));
+    near = nearestOn(host, near.stretch, position(s, t));
   }
   result.clear = t;
   result.cleared = near;
@@ -354,43 +318,6 @@ void Builder::build(std::size_t s) {
 }
 
 }  // namespace
-
-int sidesFor(double radius_m, double error_m) {
-  // Sides tell sooner than bends: by the tube's ends and its shading.
-  error_m = std::max(0.5 * error_m, kRound * radius_m);
-  if (!(error_m < 0.5 * radius_m)) return 3;
-  return std::clamp(static_cast<int>(std::ceil(kPi / std::acos(1.0 - error_m / radius_m) - 0.05)), 3, 48);
-}
-
-Vec3 Section::out(double angle) const {
-  const glm::dvec2 circle = sim::unitCircle(angle / (2.0 * kPi));
-  return circle.x * frame.across + circle.y * frame.up;
-}
-
-Section sectionAt(const Limb& limb, double arc_m) {
-  const auto above = std::upper_bound(limb.arcs_m.begin() + 1, limb.arcs_m.end() - 1, arc_m);
-  const auto i = static_cast<std::size_t>(above - limb.arcs_m.begin()) - 1;
-  const double share = std::clamp((arc_m - limb.arcs_m[i]) / (limb.arcs_m[i + 1] - limb.arcs_m[i]), 0.0, 1.0);
-  const TubeStation &a = limb.line[i], &b = limb.line[i + 1];
-  const TubeFrame &f = limb.frames[i], &g = limb.frames[i + 1];
-  Section section;
-  section.centre_m = glm::mix(a.centre_m, b.centre_m, share);
-  section.radius_m = glm::mix(a.radius_m, b.radius_m, share);
-  section.exposure = glm::mix(a.exposure, b.exposure, static_cast<float>(share));
-  section.youth = glm::mix(a.youth, b.youth, static_cast<float>(share));
-  if (share == 0.0 || share == 1.0) {
-    section.frame = share == 0.0 ? f : g;
-    return section;
-  }
-  // Between opposite ways (a hairpin) there is no mean: then the first of the two.
-  const Vec3 along = glm::mix(f.along, g.along, share), across = glm::mix(f.across, g.across, share);
-  section.frame = f;
-  if (glm::length(along) < 0.1 || glm::length(glm::cross(along, across)) < 0.01) return section;
-  section.frame.along = glm::normalize(along);
-  section.frame.across = glm::normalize(across - glm::dot(across, section.frame.along) * section.frame.along);
-  section.frame.up = glm::cross(section.frame.along, section.frame.across);
-  return section;
-}
 
 std::vector<Limb> limbsOf(const StemCurves& curves, const LimbData& data, const sim::Frame& frame,
                           double error_m) {

@@ -7,6 +7,7 @@
 #include "render/model/leaves.h"
 #include "render/model/limbs.h"
 #include "render/model/radii.h"
+#include "render/model/self_crossings.h"
 #include "render/model/stem_curves.h"
 #include "render/model/stem_surface.h"
 #include "render/model/tubes.h"
@@ -79,7 +80,9 @@ PlantModel modelPlant(const sim::Plant& plant, const sim::Frame& frame, const Mo
   PlantModel model;
   const double twig_m = plant.girth.twig_vx * frame.voxel_m;
   const double error_m = options.error * twig_m;
-  model.stems = surfaceOf(limbsOf(curves, data, frame, error_m), kBarkRadii * twig_m, error_m);
+  const std::vector<Limb> limbs = limbsOf(curves, data, frame, error_m);
+  model.stems = surfaceOf(limbs, kBarkRadii * twig_m, error_m);
+  model.meeting_limbs = meetingLimbs(limbs);
   model.name = plant.name;
   model.stems.name = plant.name + " stems";
   model.stems.base_colour = plant.stem_colour;

@@ -8,9 +8,16 @@
 
 namespace espalier::render {
 
+/// Levels of detail: each may be off by four times as much as the one before.
+inline constexpr int kLevels = 4;
+/// In radii of the thinnest twig.
+inline double errorOfLevel(int level) {
+  return 0.4 * static_cast<double>(1 << (2 * level));
+}
+
 struct ModelOptions {
   /// How far surfaces of stems may be from what they stand for, in radii of the thinnest twig.
-  double error = 0.4;
+  double error = errorOfLevel(0);
   const sim::BitVolume* walls = nullptr;  ///< voxels that centre lines keep out of where the skeleton does
 };
 
@@ -18,6 +25,7 @@ struct ModelOptions {
 struct PlantModel {
   std::string name;
   ModelMesh stems;
+  std::size_t meeting_limbs = 0;    ///< pairs of limbs that run into each other where none leaves the other
   std::vector<ModelMesh> elements;  ///< one for each of the plant's shapes: blades with their stalks
 };
 

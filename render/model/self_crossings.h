@@ -2,6 +2,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "render/model/limbs.h"
 #include "render/model/model_mesh.h"
 
 namespace espalier::render {
@@ -19,5 +20,9 @@ struct Crossing {
 /// other. Triangles that lie in one plane do not cross, nor do those that share a side, and those that share
 /// a point only elsewhere.
 std::vector<Crossing> selfCrossings(const ModelMesh& mesh);
+
+/// How many pairs of limbs run into each other other than where one leaves the other, limbs that come back
+/// into themselves among them: by their lines and radii, without a mesh.
+std::size_t meetingLimbs(const std::vector<Limb>& limbs);
 
 }  // namespace espalier::render

@@ -199,6 +199,49 @@ TEST(StemSurface, EachSeedHasASurfaceOfItsOwn) {
   expectOneSphere(stemsOf(tests::smallVine().skeleton), 2);
 }
 
+/// On the tubes themselves, whose triangles are nearly right-angled, u and v are to the same scale.
+TEST(StemSurface, BarkIsToOneScaleAlongAndAround) {
+  sim::Skeleton skeleton = pole(8.0);
+  for (int i = 0; i < 200; ++i) tests::addNode(skeleton, 4, {0.02 * i - 2.0, 36, 0.3 * (i % 9)});
+  const ModelMesh mesh = stemsOf(skeleton);
+  std::size_t seen = 0;
+  float most = 0.0f;
+  for (const auto& t : mesh.triangles) {
+    bool below = mesh.pieces[t[0]] == 0;  // on the trunk, clear of its ends
+    for (const std::uint32_t corner : t) {
+      const float y = (mesh.positions_m[corner].y + 2.0f) / 0.04f;
+      below = below && y > 1.0f && y < 30.0f;
+      most = std::max(most, mesh.uvs[corner].x);
+    }
+    if (!below) continue;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const std::uint32_t a = t[k], b = t[(k + 1) % 3];
+      const float way = glm::distance(mesh.positions_m[a], mesh.positions_m[b]);
+      const float scaled = glm::distance(mesh.uvs[a], mesh.uvs[b]);
+      const float around = 2.0f * static_cast<float>(M_PI) * render::stemRadii(skeleton, {})[1] * 0.04f;
+      EXPECT_NEAR(scaled / way * around / std::round(most), 1.0f, 0.1f);
+      ++seen;
+    }
+  }
+  EXPECT_GT(seen, 30u);
+  EXPECT_EQ(most, std::round(most));  // whole repeats around
+}
+
+TEST(StemSurface, LimbsThatMeetAreCounted) {
+  std::size_t by_lines = 0, by_triangles = 0;
+  for (std::uint32_t number = 0; number < 10; ++number) {
+    const sim::Skeleton skeleton = tests::randomTree(number);
+    const std::vector<render::Limb> limbs = limbsIn(skeleton);
+    by_lines += render::meetingLimbs(limbs);
+    for (const render::Crossing& one : render::selfCrossings(stemsOf(skeleton)))
+      by_triangles +=
+          one.first != one.second && limbs[one.second].host != static_cast<std::int32_t>(one.first);
+  }
+  EXPECT_GT(by_triangles, 10u);
+  EXPECT_NEAR(static_cast<double>(by_lines) / static_cast<double>(by_triangles), 1.0, 0.5);
+  EXPECT_EQ(render::meetingLimbs(limbsIn(pole())), 0u);
+}
+
 TEST(StemSurface, IsTheSameOnAnyNumberOfThreads) {
   const sim::Skeleton skeleton = tests::randomTree(5, 2000);
   std::vector<ModelMesh> meshes;

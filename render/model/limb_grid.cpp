@@ -274,50 +274,50 @@ LimbGrid gridOf(const Limb& limb, std::span<const Foot> standing, double error_m
   }
 
   const double side = 2.0 * kPi / grid.sides;
-  std::vector<glm::dvec2> circle;
-  for (int c = 0; c < grid.sides; ++c)
-    circle.push_back(sim::unitCircle(static_cast<double>(c) / static_cast<double>(grid.sides)));
-  grid.points.reserve(grid.arcs_m.size() * circle.size());
-  for (const double arc : grid.arcs_m) {
-    const Section ring = sectionAt(limb, arc);
-    for (int c = 0; c < grid.sides; ++c) {
-      const glm::dvec2 way = circle[static_cast<std::size_t>(c)];
-      const Vec3 out = way.x * ring.frame.across + way.y * ring.frame.up;
-      grid.points.push_back({ring.centre_m + ring.radius_m * out, arc, side * c});
-    }
-    grid.rings.push_back(ring);
-  }
-  // Where rims meet, their corners lie half way between what they wish for.
-  std::vector<std::uint8_t> wishes(grid.points.size(), 0);
+  std::vector<RimPoint> wishes;
   for (Patch& patch : grid.patches) {
     fit(patch, grid);
-    const auto index = [&](int ring, int column) {
-      return static_cast<std::size_t>(ring * grid.sides + wrapped(column, grid.sides));
-    };
     for (int r = 1; r < patch.rows; ++r) {
       for (int c = 1; c < patch.columns; ++c)
-        grid.points[index(patch.row + r, patch.column + c)].inside = true;
+        grid.inside.push_back(grid.corner(patch.row + r, patch.column + c));
     }
     const Rim rim = rimOf(patch);
     for (std::size_t k = 0; k < rim.corners.size(); ++k) {
+      const auto [ring, column] = rim.corners[k];
       const glm::dvec2 turn = sim::unitCircle(rim.turns[k] / (2.0 * kPi));
-      const std::size_t i = index(rim.corners[k].first, rim.corners[k].second);
-      GridPoint& point = grid.points[i];
-      // In the terms of the point's own column, which may lie a turn below the patch's.
-      const double angle =
-          point.angle +
-          std::remainder(patch.foot.angle - patch.foot.half_angle * turn.y - point.angle, 2.0 * kPi);
-      const double arc = patch.foot.arc_m + patch.foot.half_arc_m * turn.x;
-      const double share = 1.0 / ++wishes[i];
-      point.angle += share * (angle - point.angle);
-      point.arc_m += share * (arc - point.arc_m);
+      // In the terms of the corner's own column, which may lie a turn below the patch's.
+      const double own = side * wrapped(column, grid.sides);
+      const double away = std::remainder(patch.foot.angle - patch.foot.half_angle * turn.y - own, 2.0 * kPi);
+      wishes.push_back(
+          {grid.corner(ring, column), patch.foot.arc_m + patch.foot.half_arc_m * turn.x, own + away, {}});
     }
   }
-  for (std::size_t i = 0; i < wishes.size(); ++i) {
-    if (wishes[i] > 0)
-      grid.points[i].at_m = sectionAt(limb, grid.points[i].arc_m).surface(grid.points[i].angle);
+  std::sort(grid.inside.begin(), grid.inside.end());
+  std::stable_sort(wishes.begin(), wishes.end(),
+                   [](const RimPoint& a, const RimPoint& b) { return a.corner < b.corner; });
+  // Where rims meet, their corners lie half way between what they wish for.
+  for (std::size_t k = 0, end = 0; k < wishes.size(); k = end) {
+    RimPoint point{wishes[k].corner};
+    for (end = k; end < wishes.size() && wishes[end].corner == point.corner; ++end) {
+      point.arc_m += wishes[end].arc_m;
+      point.angle += wishes[end].angle;
+    }
+    point.arc_m /= static_cast<double>(end - k);
+    point.angle /= static_cast<double>(end - k);
+    point.at_m = sectionAt(limb, point.arc_m).surface(point.angle);
+    grid.rim.push_back(point);
   }
   return grid;
+}
+
+std::uint32_t LimbGrid::pointOf(std::uint32_t corner) const {
+  return corner -
+         static_cast<std::uint32_t>(std::lower_bound(inside.begin(), inside.end(), corner) - inside.begin());
+}
+
+const RimPoint& LimbGrid::rimPoint(std::uint32_t corner) const {
+  return *std::lower_bound(rim.begin(), rim.end(), corner,
+                           [](const RimPoint& point, std::uint32_t wanted) { return point.corner < wanted; });
 }
 
 }  // namespace espalier::render

@@ -14,26 +14,32 @@ struct Patch {
   Foot foot;  ///< where the hole's rim lies: the limb's own foot, as near as there was room
 };
 
-/// A corner of a limb's grid.
-struct GridPoint {
-  sim::Vec3 at_m{0.0};
+/// A corner of a limb's grid that lies on the rim of a patch, and so not in its own place.
+struct RimPoint {
+  std::uint32_t corner = 0;  ///< ring * sides + column
   double arc_m = 0.0, angle = 0.0;
-  bool inside = false;  ///< a patch's inside: no part of the surface
+  sim::Vec3 at_m{0.0};
 };
 
-/// A limb's surface between its first ring and its last: `sides` columns by rings.size() - 1 rows of quads,
-/// with a patch for each limb that stands on it. A sphere's topology follows from it, whatever the geometry:
+/// A limb's surface between its first ring and its last: `sides` columns by rows of quads between rings, with
+/// a patch for each limb that stands on it. A sphere's topology follows from it, whatever the geometry:
 /// every patch is a disc, no two share a quad, and each is filled by a disc, the limb that stands there.
 struct LimbGrid {
   int sides = 0;
-  std::vector<Section> rings;
-  std::vector<double> arcs_m;     ///< of the rings
-  std::vector<GridPoint> points;  ///< ring by ring, `sides` each
-  std::vector<Patch> patches;     ///< of each of the limbs that stand here, in their order
+  std::vector<double> arcs_m;         ///< of the rings
+  std::vector<Patch> patches;         ///< of each of the limbs that stand here, in their order
+  std::vector<RimPoint> rim;          ///< by their corners
+  std::vector<std::uint32_t> inside;  ///< corners inside of patches, which are no part of the surface
 
-  const GridPoint& point(int ring, int column) const {
-    return points[static_cast<std::size_t>(ring * sides + column % sides)];
+  std::uint32_t corner(int ring, int column) const {
+    return static_cast<std::uint32_t>(ring * sides + column % sides);
   }
+  /// Points of the surface: corners but those inside of patches.
+  std::size_t points() const { return arcs_m.size() * static_cast<std::size_t>(sides) - inside.size(); }
+  /// The number of a corner's point among them.
+  std::uint32_t pointOf(std::uint32_t corner) const;
+  /// Of a corner on a rim.
+  const RimPoint& rimPoint(std::uint32_t corner) const;
 };
 
 /// `standing`: the feet of the limbs that stand on it. Where they would overlap they are made smaller; where

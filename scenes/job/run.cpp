@@ -221,12 +221,12 @@ Report runScene(const Scene& scene, const RunOptions& options, const Keeping& ke
   for (const render::VdbField& field : guides.fields)
     report.growth->fields.push_back({field.name, guides.near->count()});
   std::vector<OutputFile> files;
-  const render::PlantModels kept = [&](const std::function<void(const render::PlantModel&)>& take) {
+  const render::PlantModels in_memory = [&](const std::function<void(const render::PlantModel&)>& take) {
     for (const auto& model : models) take(model);
   };
   files.push_back({kModelFile, [&](std::ostream& out) {
                      const auto plants = modelsOf(world.frame(), growth.plants, bare, 0);
-                     writeGlb(out, site, models.empty() ? plants : kept, report.made_by,
+                     writeGlb(out, site, models.empty() ? plants : in_memory, report.made_by,
                               [&](std::size_t plant, std::size_t limbs) {
                                 report.growth->plants[plant].meeting_limbs = limbs;
                               });

@@ -49,7 +49,7 @@ void addGrow(CLI::App& app, int& exit_status) {
   addWhole(
       *command, "--lods", levels,
       [arguments](std::int64_t number) { arguments->coarser = static_cast<int>(number); },
-      "Write so many coarser models too, plant_lod1.glb and so on: each with an error four times as large");
+      "Write so many coarser models too, plant_lod1.glb and so on: each with an error three times as large");
   command->add_flag("--resume", arguments->keeping.resume,
                     "Go on from the state in the output folder, or begin if there is none");
   command->add_flag("--no-state", arguments->no_state, "Leave no state of growth behind at the end");

@@ -51,7 +51,7 @@ NearLine nearestOn(const Limb& limb, std::size_t stretch, sim::Vec3 p_m);
 double arcOf(const Limb& limb, const NearLine& place);
 
 /// Sides of a ring: its circle is at most half of `error_m` away from them, or a thirtieth of its radius.
-/// From 3 on.
+/// Five at least, or three of what hardly shows.
 int sidesFor(double radius_m, double error_m);
 
 }  // namespace espalier::render

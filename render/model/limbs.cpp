@@ -22,6 +22,7 @@ constexpr double kTipRadius = 0.5;      // of the last segment's
 constexpr double kFootRadii = 1.25;     // how much wider than its limb a foot is
 constexpr double kWidest = 0.45 * kPi;  // half of the angle of the widest foot
 constexpr double kBent = 0.06;          // radii that a centre line may be off ..
+constexpr double kThinner = 0.05;       // and of their radii
 constexpr double kOff = 0.5;            // of what is allowed that is left to stations that are left out
 constexpr double kLongest = 2.5;        // radii from where a line leaves its host to its first ring
 constexpr double kClear = 0.1;          // radii between the first ring and the host's surface
@@ -79,6 +80,8 @@ class Builder {
   Leaving leaving(std::size_t s, const Limb& host, double fork_arc_m) const;
   int piecesIn(std::size_t s, std::size_t segment) const;
   void addStations(Limb& limb, std::size_t s, double from) const;
+  /// Whether a tip is worth being thinner than its twig.
+  bool tapers(const Limb& limb) const { return error_m_ < limb.line.back().radius_m; }
   void leaveOutStraight(Limb& limb) const;
   void standOnHost(Limb& limb, std::size_t s) const;
   Vec3 footFor(Limb& limb, const Limb& host, const Leaving& leaving, Vec3 exit_m, Vec3 way) const;
@@ -204,17 +207,21 @@ void Builder::leaveOutStraight(Limb& limb) const {
       const TubeStation& station = limb.line[i];
       const double share = length2 > 0.0 ? glm::dot(station.centre_m - p.centre_m, step) / length2 : 0.5;
       if (!(share > 0.0 && share < 1.0)) return false;
-      const double off = glm::distance(station.centre_m, p.centre_m + share * step) +
-                         std::abs(station.radius_m - glm::mix(p.radius_m, q.radius_m, share));
+      const double off = glm::distance(station.centre_m, p.centre_m + share * step);
+      const double thinner = std::abs(station.radius_m - glm::mix(p.radius_m, q.radius_m, share));
       if (off > kOff * std::max(error_m_, kBent * station.radius_m)) return false;
+      if (thinner > kThinner * station.radius_m) return false;
     }
     return true;
   };
+  // The last piece before a tip is short, as it tapers.
   const std::size_t last = limb.line.size() - 1;
-  for (std::size_t i = 2; i <= last; ++i) {
+  const std::size_t end = tapers(limb) ? last - 1 : last;
+  for (std::size_t i = 2; i <= end; ++i) {
     if (i - kept.back() > kFarthest || !between(kept.back(), i)) kept.push_back(i - 1);
   }
-  kept.push_back(last);
+  if (end > kept.back()) kept.push_back(end);
+  if (last > kept.back()) kept.push_back(last);
   for (std::size_t k = 0; k < kept.size(); ++k) {
     limb.line[k] = limb.line[kept[k]];
     limb.params[k] = limb.params[kept[k]];
@@ -287,7 +294,7 @@ void Builder::standOnHost(Limb& limb, std::size_t s) const {
 /// Widens the rings, and fills in what follows from the stations.
 void Builder::finish(Limb& limb, Vec3 across) const {
   if (limb.line.size() > 2) leaveOutStraight(limb);
-  limb.line.back().radius_m *= kTipRadius;
+  if (tapers(limb)) limb.line.back().radius_m *= kTipRadius;
   std::vector<bool> left_out(limb.line.size(), false);
   keepRingsApart(limb.line, [&](std::size_t i) { left_out[i] = true; });
   std::size_t kept = 0;

@@ -8,11 +8,11 @@
 
 namespace espalier::render {
 
-/// Levels of detail: each may be off by four times as much as the one before.
+/// Levels of detail, each three times as coarse as the one before: how far surfaces of stems may be from what
+/// they stand for, in radii of the thinnest twig.
 inline constexpr int kLevels = 4;
-/// In radii of the thinnest twig.
-inline double errorOfLevel(int level) {
-  return 0.4 * static_cast<double>(1 << (2 * level));
+constexpr double errorOfLevel(int level) {
+  return level == 0 ? 0.4 : 3.0 * errorOfLevel(level - 1);
 }
 
 struct ModelOptions {

@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "render/finish/ray_scene.h"
@@ -19,14 +20,14 @@ render::PlantModel levelOf(const sim::Plant& plant, int level) {
   return render::modelPlant(plant, kUnit, {.error = render::errorOfLevel(level)});
 }
 
-/// How much of a picture a model covers, in pixels, by 16 rays in each.
+/// How much of a picture a model covers, in pixels, by 16 rays in each at least.
 double coverage(const render::PlantModel& model, const render::Camera& camera, int pixels) {
   render::ModelScene scene;
   scene.plants = {&model};
   const render::RayScene rays(scene);
   const render::CameraRays view(camera, 1.0);
   std::size_t hits = 0;
-  const int across = 4 * pixels;
+  const int fine = std::max(1, 200 / pixels), across = 4 * fine * pixels;
   for (int y = 0; y < across; ++y) {
     for (int x = 0; x < across; x += 4) {
       std::array<sim::Vec3f, 4> ways;
@@ -36,7 +37,7 @@ double coverage(const render::PlantModel& model, const render::Camera& camera, i
       for (const auto& hit : rays.firstHits(sim::Vec3f(camera.eye_m), ways)) hits += hit.any();
     }
   }
-  return static_cast<double>(hits) / 16.0;
+  return static_cast<double>(hits) / (16.0 * fine * fine);
 }
 
 TEST(Levels, CoverTheSamePixelsWhereTheirErrorIsAPixel) {

@@ -7,6 +7,7 @@
 #include <limits>
 #include <numbers>
 
+#include "render/model/collar.h"
 #include "render/model/limb_grid.h"
 #include "sim/base/parallel.h"
 #include "sim/base/random.h"
@@ -224,39 +225,6 @@ void Sewing::addEnds(Part& part) const {
       part.addVertex(part.addPoint(), first.centre_m, middle, -0.5 * part.skin.repeats / kPi, first);
   for (std::size_t c = 0; c < sides; ++c) part.addTriangle(part.vertices[c + 1], part.vertices[c], root);
 }
-
-/// A collar from a rim to a first ring: it comes to the ring along the limb, and leaves the host's surface
-/// the more along it the wider the rim is than the ring.
-class Collar {
- public:
-  Collar(const Limb& host, const Foot& foot, const Section& ring)
-      : host_(host), foot_(foot), ring_(ring), middle_(sectionAt(host, foot.arc_m).surface(foot.angle)) {}
-
-  Vec3 at(double turn, double share) const {
-    const Vec3 from = onRim(host_, foot_, turn), to = ring_.surface(turn);
-    const Vec3 inwards = middle_ - from;
-    const double wide = glm::length(inwards);
-    const double flare = std::clamp(2.0 * (wide - ring_.radius_m) / std::max(wide, 1e-12), 0.0, 0.8);
-    const Vec3 third = (to - from) / 3.0;
-    const Vec3 out = outAt(turn);
-    const Vec3 left = from + third - flare * std::max(glm::dot(third, out), 0.0) * out;
-    const Vec3 comes = to - std::max(glm::dot(third, ring_.frame.along), 0.0) * ring_.frame.along;
-    const double s = share, q = 1.0 - share;
-    return q * q * q * from + 3.0 * q * q * s * left + 3.0 * q * s * s * comes + s * s * s * to;
-  }
-
- private:
-  Vec3 outAt(double turn) const {
-    const glm::dvec2 circle = sim::unitCircle(turn / (2.0 * kPi));
-    return sectionAt(host_, foot_.arc_m + foot_.half_arc_m * circle.x)
-        .out(foot_.angle - foot_.half_angle * circle.y);
-  }
-
-  const Limb& host_;
-  const Foot& foot_;
-  const Section& ring_;
-  Vec3 middle_;
-};
 
 void Sewing::addJoint(Part& part) const {
   const auto host_number = static_cast<std::size_t>(part.limb.host);

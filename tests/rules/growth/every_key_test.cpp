@@ -76,6 +76,10 @@ const std::map<std::string, std::string> kWithoutEffect = {
     {"propagate", "one for all sets of a plant"},
     {"stem.colour", "a plant has one stem: that of the top rule set"},
     {"stem.radius", "the same"},
+    {"stem.by", "girth is for models alone"},
+    {"stem.exponent", "the same"},
+    {"stem.thickens", "the same"},
+    {"stem.thickest", "the same"},
     {"otherwise", "has tests of its own below"},
     {"regions", "the same"},
     // Of a front: tests/rules/growth/colonization_test.cpp says what they change.
@@ -291,6 +295,20 @@ TEST(Stem, IsThatOfTheTopSet) {
   const sim::Plant plant = makeProcess(shared(top), 0.04)->seedling();
   EXPECT_EQ(plant.stem_colour, top.stem.colour);
   EXPECT_EQ(plant.girth.twig_vx, 0.2);
+}
+
+TEST(Stem, ItsGirthIsForModelsAlone) {
+  RuleSet girth = lively();
+  girth.stem.by = sim::StemGirth::By::age;
+  girth.stem.exponent = 3.0;
+  girth.stem.thickens = {4e-4, true};
+  girth.stem.thickest = {0.08, true};
+  EXPECT_EQ(grown(girth).state, grown(lively()).state);
+  const sim::StemGirth made = makeProcess(shared(girth), 0.04)->seedling().girth;
+  EXPECT_EQ(made.by, sim::StemGirth::By::age);
+  EXPECT_EQ(made.exponent, 3.0);
+  EXPECT_DOUBLE_EQ(made.thickens_vx, 0.01);
+  EXPECT_DOUBLE_EQ(made.most_vx, 2.0);
 }
 
 }  // namespace

@@ -4,6 +4,8 @@ include(CMakePackageConfigHelpers)
 
 set(package_folder ${CMAKE_INSTALL_LIBDIR}/cmake/espalier)
 install(TARGETS espalier_flags espalier_sim espalier_rules espalier_render espalier_scenes espalier EXPORT espalier)
+install(TARGETS espalier_oiio DESTINATION lib/espalier)
+set_target_properties(espalier PROPERTIES INSTALL_RPATH "$ORIGIN/../lib/espalier")
 foreach(room sim rules render scenes)
   install(DIRECTORY ${room} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/espalier FILES_MATCHING PATTERN "*.h")
 endforeach()

@@ -12,7 +12,7 @@
 namespace espalier::scenes {
 namespace {
 
-constexpr std::size_t kLongestWord = 64;  ///< that may be a misspelt one
+constexpr std::size_t kLongestMisspelt = 64;  ///< that may be a misspelt one
 constexpr std::size_t kMostShown = 40;    ///< characters of a text in a message
 
 char lower(char c) {
@@ -22,10 +22,10 @@ char lower(char c) {
 /// Insertions, deletions, substitutions and swaps of neighbours, in any letter case; `most` + 1 where it is
 /// more than that. A message may ask for thousands of words.
 std::size_t editDistance(std::string_view a, std::string_view b, std::size_t most) {
-  if (std::max(a.size(), b.size()) > kLongestWord) return most + 1;
+  if (std::max(a.size(), b.size()) > kLongestMisspelt) return most + 1;
   const auto [less, more] = std::minmax({a.size(), b.size()});  // in braces: by value
   if (more - less > most) return most + 1;
-  using Row = std::array<std::size_t, kLongestWord + 1>;
+  using Row = std::array<std::size_t, kLongestMisspelt + 1>;
   std::array<Row, 3> rows{};  // of this letter of `a` and the two before it
   for (std::size_t j = 0; j <= b.size(); ++j) rows[0][j] = j;
   const auto same = [&](std::size_t i, std::size_t j) { return lower(a[i - 1]) == lower(b[j - 1]); };

@@ -46,7 +46,7 @@ const std::map<std::string, Setting>& settings() {
 
 constexpr float kPad = 16, kHead = 42, kGap = 26, kRowGap = 12, kLeastRow = 30, kCorner = 7;
 constexpr float kName = 15, kSmall = 12.5f, kLine = 17;
-constexpr float kWide = 1100, kMargin = 14, kBetween = 34;
+constexpr float kPage = 1100, kMargin = 14, kBetween = 34;
 constexpr Colour kCard(0.995f, 0.995f, 0.99f), kSoft(0.36f, 0.37f, 0.39f);
 
 Names wrapped(const Names& names, float width) {
@@ -222,7 +222,7 @@ render::Image house() {
     if (!drawn.contains(name) || drawn.at(name) != room.builds_on)
       throw sim::InputError("docs/figures/house.cpp draws other rooms than tests/house/wings.txt says");
   }
-  const float inside = kWide - 2 * kMargin, rules_wide = 0.42f * (inside - kBetween);
+  const float inside = kPage - 2 * kMargin, rules_wide = 0.42f * (inside - kBetween);
   RoomPlan cli("cli", rooms.at("cli"), inside), scenes("scenes", rooms.at("scenes"), inside),
       rules("rules", rooms.at("rules"), rules_wide),
       render("render", rooms.at("render"), inside - kBetween - rules_wide),
@@ -231,7 +231,7 @@ render::Image house() {
 
   const float scenes_y = kMargin + cli.high() + kBetween, middle_y = scenes_y + scenes.high() + kBetween,
               sim_y = middle_y + render.high() + kBetween;
-  render::Image image(static_cast<int>(kWide), static_cast<int>(sim_y + sim.high() + kMargin), 3);
+  render::Image image(static_cast<int>(kPage), static_cast<int>(sim_y + sim.high() + kMargin), 3);
   render::fillBox(image, {0, 0}, {image.width, image.height}, {kPaper});
   const float render_x = kMargin + rules_wide + kBetween;
   cli.draw(image, {kMargin, kMargin});
@@ -242,8 +242,8 @@ render::Image house() {
   const auto down = [&](float x, float below) {
     arrow(image, {x, below - kBetween + 1}, {x, below - 3}, kInk);
   };
-  const float rules_x = kMargin + 0.5f * rules_wide, render_middle = 0.5f * (render_x + kWide - kMargin);
-  down(0.5f * kWide, scenes_y);
+  const float rules_x = kMargin + 0.5f * rules_wide, render_middle = 0.5f * (render_x + kPage - kMargin);
+  down(0.5f * kPage, scenes_y);
   for (const float y : {middle_y, sim_y}) {
     down(rules_x, y);
     down(render_middle, y);

@@ -9,9 +9,7 @@ namespace espalier::render {
 namespace {
 
 constexpr sim::Colour kAxes[3] = {{0.80f, 0.17f, 0.11f}, {0.10f, 0.53f, 0.22f}, {0.12f, 0.33f, 0.76f}};
-constexpr sim::Colour kRim(0.99f, 0.985f, 0.975f);
-constexpr float kHaze = 0.55f;    // what is farthest is mixed with the rim's colour so far
-constexpr float kHidden = 0.10f;  // opacity of what something stands before
+constexpr float kFarHaze = 0.55f;  // what is farthest is mixed with the rim's colour so far
 constexpr float kHeadWidth = 4.2f, kHeadLength = 4.6f;  // of a head, in widths of its shaft
 constexpr float kLongestHead = 0.5f;                    // of an arrow's length
 
@@ -66,7 +64,7 @@ void drawArrows(Image& picture, const std::vector<SpaceArrow>& arrows, const Cam
     const float far = static_cast<float>(1.0 - (farthest - arrow.depth_m) / range);
     const float opacity = arrow.hidden ? kHidden : 1.0f;
     if (!arrow.hidden) drawOne(picture, arrow, {kRim, 0.8f}, std::max(0.6f, 0.25f * arrow.width));
-    drawOne(picture, arrow, {glm::mix(arrow.colour, kRim, kHaze * far), opacity}, 0.0f);
+    drawOne(picture, arrow, {glm::mix(arrow.colour, kRim, kFarHaze * far), opacity}, 0.0f);
   }
 }
 

@@ -1,12 +1,12 @@
 #include "render/image/colour_map.h"
 
-#include <OpenImageIO/imagebufalgo.h>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include <algorithm>
 #include <array>
 
+#include "render/image/oiio.h"
 #include "sim/base/error.h"
 
 namespace espalier::render {
@@ -22,20 +22,7 @@ ColourMap::ColourMap(const std::string& name) {
     throw sim::InputError(
         fmt::format("unknown colour map '{}'; expected one of {}", name, fmt::join(kNames, ", ")));
   }
-  OIIO::ImageBuf ramp(OIIO::ImageSpec(kEntries, 1, 1, OIIO::TypeDesc::FLOAT));
-  for (int i = 0; i < kEntries; ++i) {
-    const float value = static_cast<float>(i) / (kEntries - 1);
-    ramp.setpixel(i, 0, OIIO::cspan<float>(value));
-  }
-  const OIIO::ImageBuf mapped = OIIO::ImageBufAlgo::color_map(ramp, 0, name, {}, 1);
-  if (mapped.has_error()) throw sim::InputError(fmt::format("colour map '{}': {}", name, mapped.geterror()));
-  table_.resize(kEntries);
-  for (int i = 0; i < kEntries; ++i) {
-    std::array<float, 3> rgb{};
-    mapped.getpixel(i, 0, rgb.data(), 3);
-    // note: the maps are published as display values; OpenImageIO gives them back linear.
-    table_[static_cast<std::size_t>(i)] = sim::Colour(rgb[0], rgb[1], rgb[2]);
-  }
+  table_ = oiio().colour_map(name, kEntries);
 }
 
 sim::Colour ColourMap::operator()(float value) const {

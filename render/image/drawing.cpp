@@ -1,6 +1,5 @@
 #include "render/image/drawing.h"
 
-#include <OpenImageIO/imagebufalgo.h>
 #include <fmt/format.h>
 #include <sstream>
 
@@ -9,14 +8,13 @@
 #include <sstream>
 #include <utility>
 
+#include "render/image/oiio.h"
 #include "sim/base/error.h"
 
 // OpenImageIO draws text, resizes and copies. Its lines and boxes have hard edges one pixel wide, so those
 // two are laid down here by the share of each pixel that they cover.
 namespace espalier::render {
 namespace {
-
-namespace algo = OIIO::ImageBufAlgo;
 
 const char* fontName(Font font) {
   return font == Font::bold ? "DejaVuSans-Bold" : "DejaVuSans";
@@ -37,14 +35,17 @@ std::string drawable(const std::string& text) {
   return out;
 }
 
-OIIO::ROI textBounds(const std::string& text, float size_px, Font font) {
-  const OIIO::ROI bounds =
-      algo::text_size(text, static_cast<int>(std::lround(size_px * kTextScale)), fontName(font));
-  if (!bounds.defined()) {
+int enlarged(float size_px) {
+  return static_cast<int>(std::lround(size_px * kTextScale));
+}
+
+TextBox textBounds(const std::string& text, float size_px, Font font) {
+  const std::optional<TextBox> bounds = oiio().text_box(text, enlarged(size_px), fontName(font));
+  if (!bounds) {
     throw sim::InputError(fmt::format(
         "cannot find the font {} for the text in pictures; install fonts-dejavu-core", fontName(font)));
   }
-  return bounds;
+  return *bounds;
 }
 
 void blend(Image& image, int x, int y, const Ink& ink, float coverage) {
@@ -75,23 +76,21 @@ void cover(Image& image, const Reach& reach, const Ink& ink, Coverage coverage) 
   }
 }
 
-OIIO::ImageBuf wrapped(Image& image) {
-  return OIIO::ImageBuf(OIIO::ImageSpec(image.width, image.height, image.channels, OIIO::TypeDesc::FLOAT),
-                        image.pixels.data());
-}
-
 }  // namespace
 
 float textWidth(const std::string& text, float size_px, Font font) {
   const std::string shown = drawable(text);
-  return shown.empty() ? 0.0f : static_cast<float>(textBounds(shown, size_px, font).width()) / kTextScale;
+  if (shown.empty()) return 0.0f;
+  const TextBox bounds = textBounds(shown, size_px, font);
+  return static_cast<float>(bounds.right - bounds.left) / kTextScale;
 }
 
 void drawText(Image& image, glm::vec2 at, const std::string& text, const TextStyle& style) {
   const std::string shown = drawable(text);
   if (shown.empty()) return;
-  const OIIO::ROI bounds = textBounds(shown, style.size_px, style.font);
-  const float width = static_cast<float>(bounds.width()) / kTextScale;
+  const TextBox bounds = textBounds(shown, style.size_px, style.font);
+  const int wide = bounds.right - bounds.left;
+  const float width = static_cast<float>(wide) / kTextScale;
   const float shift = style.align == Align::left ? 0.0f : style.align == Align::centre ? 0.5f : 1.0f;
 
   // The text's place in the enlarged picture, and the whole pixels around it.
@@ -100,27 +99,18 @@ void drawText(Image& image, glm::vec2 at, const std::string& text, const TextSty
   const auto floorDiv = [](int v) {
     return static_cast<int>(std::floor(static_cast<float>(v) / kTextScale));
   };
-  const int x0 = floorDiv(left) - 1, x1 = floorDiv(left + bounds.width()) + 2;
-  const int y0 = floorDiv(base + bounds.ybegin) - 1, y1 = floorDiv(base + bounds.yend) + 2;
+  const int x0 = floorDiv(left) - 1, x1 = floorDiv(left + wide) + 2;
+  const int y0 = floorDiv(base + bounds.top) - 1, y1 = floorDiv(base + bounds.bottom) + 2;
 
-  OIIO::ImageBuf mask(
-      OIIO::ImageSpec((x1 - x0) * kTextScale, (y1 - y0) * kTextScale, 1, OIIO::TypeDesc::FLOAT));
-  algo::zero(mask);
-  const float white = 1.0f;
-  if (!algo::render_text(mask, left - bounds.xbegin - x0 * kTextScale, base - y0 * kTextScale, shown,
-                         static_cast<int>(std::lround(style.size_px * kTextScale)), fontName(style.font),
-                         OIIO::cspan<float>(white), algo::TextAlignX::Left, algo::TextAlignY::Baseline, 0, {},
-                         1))
-    throw sim::InputError(fmt::format("cannot draw the text '{}': {}", text, mask.geterror()));
-
-  const float* letters = static_cast<const float*>(mask.localpixels());
-  const std::ptrdiff_t stride = mask.spec().width;
+  Image mask((x1 - x0) * kTextScale, (y1 - y0) * kTextScale, 1);
+  oiio().text(mask, left - bounds.left - x0 * kTextScale, base - y0 * kTextScale, shown,
+              enlarged(style.size_px), fontName(style.font));
   for (int y = std::max(0, y0); y < std::min(image.height, y1); ++y) {
     for (int x = std::max(0, x0); x < std::min(image.width, x1); ++x) {
       float sum = 0.0f;
       for (int j = 0; j < kTextScale; ++j)
         for (int i = 0; i < kTextScale; ++i)
-          sum += letters[((y - y0) * kTextScale + j) * stride + (x - x0) * kTextScale + i];
+          sum += *mask.at((x - x0) * kTextScale + i, (y - y0) * kTextScale + j);
       if (sum > 0.0f) blend(image, x, y, style.ink, sum / (kTextScale * kTextScale));
     }
   }
@@ -183,19 +173,12 @@ void fillBox(Image& image, glm::vec2 low, glm::vec2 high, Ink ink, float corner_
 }
 
 void paste(Image& onto, const Image& picture, int x, int y) {
-  Image copy = picture;  // ImageBuf wants memory that it may write to
-  OIIO::ImageBuf target = wrapped(onto);
-  if (!algo::paste(target, x, y, 0, 0, wrapped(copy)))
-    throw sim::InputError(fmt::format("cannot place a picture on a sheet: {}", target.geterror()));
+  oiio().paste(onto, picture, x, y);
 }
 
 Image resized(const Image& image, int width_px, int height_px) {
-  Image copy = image;
   Image small(width_px, height_px, image.channels);
-  OIIO::ImageBuf target = wrapped(small);
-  // note: lanczos3 takes six times as long here and rings at the sky's edges.
-  if (!algo::resize(target, wrapped(copy), "triangle", 0.0f, {}, 1))
-    throw sim::InputError(fmt::format("cannot resize a picture: {}", target.geterror()));
+  oiio().resize(image, small);
   return small;
 }
 

@@ -17,6 +17,11 @@ struct Ink {
   float opacity = 1.0f;
 };
 
+/// Around lines that pass over others, so that they are told apart.
+inline constexpr sim::Colour kRim(0.99f, 0.985f, 0.975f);
+/// The opacity of what something stands before.
+inline constexpr float kHidden = 0.10f;
+
 enum class Align { left, centre, right };
 enum class Font { regular, bold };
 

@@ -8,10 +8,9 @@ namespace espalier::render {
 namespace {
 
 constexpr sim::Colour kNode(0.80f, 0.12f, 0.10f), kWaiting(0.13f, 0.36f, 0.74f), kEnded(0.76f, 0.81f, 0.87f),
-    kEdge(0.15f, 0.13f, 0.12f), kRim(0.99f, 0.985f, 0.975f);
+    kEdge(0.15f, 0.13f, 0.12f);
 /// What is farthest is mixed with the rim's colour so far.
 constexpr float kHaze = 0.42f;
-constexpr float kHidden = 0.10f;      // opacity of what something stands before
 constexpr float kFaintly = 0.45f;     // of attractors beside a graph
 constexpr float kLeastRimmed = 4.0f;  // pixels: a smaller disc is not told from another by a rim
 

@@ -27,4 +27,8 @@ std::string encodePng(const Image& display, const Metadata& metadata = {});
 std::string encodeExr(const Image& measured, const std::vector<std::string>& channel_names,
                       const Metadata& metadata = {});
 
+/// Loads what draws and encodes pictures, which otherwise happens with the first of them: for jobs that would
+/// learn too late that it is missing.
+void makeReadyToDraw();
+
 }  // namespace espalier::render

@@ -14,7 +14,7 @@ namespace {
 
 constexpr sim::Colour kSheet(0.965f, 0.957f, 0.94f), kPaper(0.995f, 0.992f, 0.985f);
 constexpr Ink kBorder{sim::Colour(0.2f, 0.2f, 0.2f), 0.5f};
-constexpr Ink kGrid{sim::Colour(0.25f, 0.3f, 0.35f), 0.13f};
+constexpr Ink kSquares{sim::Colour(0.25f, 0.3f, 0.35f), 0.13f};
 constexpr Ink kTakenVoxel{sim::Colour(0.66f, 0.74f, 0.62f), 0.85f};
 constexpr Ink kRejected{sim::Colour(0.78f, 0.40f, 0.24f), 0.55f};
 constexpr Ink kTaken{sim::Colour(0.09f, 0.10f, 0.11f), 1.0f};
@@ -59,9 +59,9 @@ Image drawAttempts(std::span<const Attempt> attempts, std::span<const glm::ivec2
   if (cell >= 3.0f) {
     const glm::dvec2 end = glm::dvec2(look.size) - 0.5;
     for (int i = 1; i < look.size.x; ++i)
-      drawSegment(left.paper, left.pixel({i - 0.5, -0.5}), left.pixel({i - 0.5, end.y}), 1.0f, kGrid);
+      drawSegment(left.paper, left.pixel({i - 0.5, -0.5}), left.pixel({i - 0.5, end.y}), 1.0f, kSquares);
     for (int j = 1; j < look.size.y; ++j)
-      drawSegment(left.paper, left.pixel({-0.5, j - 0.5}), left.pixel({end.x, j - 0.5}), 1.0f, kGrid);
+      drawSegment(left.paper, left.pixel({-0.5, j - 0.5}), left.pixel({end.x, j - 0.5}), 1.0f, kSquares);
   }
   const float line = std::clamp(0.09f * cell, 0.7f, 3.0f);
   left.all(attempts, false, 0.7f * line, kRejected);

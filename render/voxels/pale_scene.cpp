@@ -9,7 +9,7 @@
 namespace espalier::render {
 namespace {
 
-constexpr sim::Colour kPaper(0.985f, 0.98f, 0.97f);
+constexpr sim::Colour kPale(0.985f, 0.98f, 0.97f);
 /// Display values of a face of no relief and of full relief.
 constexpr sim::Colour kDeep(0.70f, 0.71f, 0.715f), kBright(0.925f, 0.925f, 0.92f);
 
@@ -17,7 +17,7 @@ constexpr sim::Colour kDeep(0.70f, 0.71f, 0.715f), kBright(0.925f, 0.925f, 0.92f
 
 Image paper(int width_px, int height_px) {
   Image image(width_px, height_px, 3);
-  fillBox(image, {0, 0}, {static_cast<float>(width_px), static_cast<float>(height_px)}, {kPaper, 1.0f});
+  fillBox(image, {0, 0}, {static_cast<float>(width_px), static_cast<float>(height_px)}, {kPale, 1.0f});
   return image;
 }
 
@@ -34,7 +34,7 @@ Image paleScene(const Visibility& seen, const sim::BitVolume& occupied) {
         all += weight;
         if (f.face != kSky) near.goTo(f);
         sum +=
-            weight * (f.face == kSky ? kPaper : glm::mix(kDeep, kBright, std::min(near.relief(f.at), 1.0f)));
+            weight * (f.face == kSky ? kPale : glm::mix(kDeep, kBright, std::min(near.relief(f.at), 1.0f)));
       }
       const sim::Colour mean = sum / all;
       std::copy_n(&mean.r, 3, image.at(x, static_cast<int>(row)));

@@ -13,7 +13,7 @@ using sim::kFaceNormals;
 /// Rays start this far in front of the face, voxel widths: clear of rounding, too near to skip anything.
 constexpr double kLift = 1e-4;
 /// A pixel at a shadow's edge is judged at these places of it, in pixels, along each side.
-constexpr std::array<double, 3> kGrid = {1 / 6.0, 3 / 6.0, 5 / 6.0};
+constexpr std::array<double, 3> kWithinPixel = {1 / 6.0, 3 / 6.0, 5 / 6.0};
 
 class Sun {
  public:
@@ -83,8 +83,8 @@ std::vector<float> castShadows(const Visibility& seen, const sim::BitVolume& occ
                           (y + 1 < seen.height && differs(pixel + width, f, lit[i]));
         if (!edge) continue;
         int tried = 0, reached = 0;
-        for (const double dy : kGrid) {
-          for (const double dx : kGrid) {
+        for (const double dy : kWithinPixel) {
+          for (const double dx : kWithinPixel) {
             const glm::dvec2 at = placeOnFace(seen, eye_vx, f, x + dx, y + dy);
             if (!(std::abs(at.x) <= 0.5 && std::abs(at.y) <= 0.5)) continue;
             ++tried;

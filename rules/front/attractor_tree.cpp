@@ -7,12 +7,6 @@
 namespace espalier::rules {
 namespace {
 
-constexpr double kFar = std::numeric_limits<double>::infinity();
-
-std::size_t asIndex(std::int32_t i) {
-  return static_cast<std::size_t>(i);
-}
-
 /// Every third bit, from bit 0 on.
 std::uint64_t spread(std::uint64_t v) {
   v = (v | v << 32) & 0x1f00000000ffffULL;

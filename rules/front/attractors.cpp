@@ -16,15 +16,10 @@
 namespace espalier::rules {
 namespace {
 
-constexpr double kFar = std::numeric_limits<double>::infinity();
 /// Levels of lists below each other, each at most as long as the one before: one for every three bits of the
 /// curve, and one for each halving of what lies in one place.
 constexpr std::size_t kRoom = 2 + kCurveBits + 32;
 constexpr std::size_t kWorthTasks = 100'000;  // new nodes times attractors that are worth tasks of their own
-
-std::size_t asIndex(std::int32_t i) {
-  return static_cast<std::size_t>(i);
-}
 
 /// From the box of a tree node; never more than distance2 of anything in it, whichever way that rounds.
 double boxDistance2(const Attractors& of, std::size_t node, sim::Vec3 p) {

@@ -18,6 +18,12 @@ enum class Fate : std::int32_t {
 };
 
 inline constexpr std::int32_t kNobody = -1;
+
+/// Of a number that is not kNobody.
+inline std::size_t asIndex(std::int32_t i) {
+  return static_cast<std::size_t>(i);
+}
+
 /// The most attractors in a leaf of their tree.
 inline constexpr std::int32_t kMostInLeaf = 32;
 

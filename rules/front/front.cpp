@@ -13,10 +13,6 @@ namespace {
 
 constexpr double kEverywhere = std::numeric_limits<double>::infinity();
 
-std::size_t asIndex(std::int32_t i) {
-  return static_cast<std::size_t>(i);
-}
-
 sim::Vec3 unitTo(sim::Vec3 from, sim::Vec3 to) {
   return (to - from) / std::sqrt(distance2(from, to));
 }

@@ -22,13 +22,9 @@ double areaOf(const std::vector<sim::Vec3>& corners) {
 
 using Voxels = std::vector<sim::Voxel>;
 
-bool before(sim::Voxel a, sim::Voxel b) {
-  return std::tie(a.y, a.z, a.x) < std::tie(b.y, b.z, b.x);
-}
-
 /// Whether a voxel is among some that are in order.
 bool among(const Voxels& sorted, sim::Voxel v) {
-  return std::binary_search(sorted.begin(), sorted.end(), v, before);
+  return std::binary_search(sorted.begin(), sorted.end(), v, sim::beforeInRows);
 }
 
 /// Whether a voxel is part of the scene.
@@ -99,7 +95,7 @@ std::vector<sim::ProposedElement> proposeElements(const sim::SiteView& view, con
                                                   std::int32_t first_shape, const sim::RandomKey& key) {
   std::vector<sim::ProposedElement> placed;
   Voxels own = segment, tiled;
-  std::sort(own.begin(), own.end(), before);
+  std::sort(own.begin(), own.end(), sim::beforeInRows);
   const sim::Vec3 stem = glm::normalize(to_vx - around.at_vx);
   // What stands, and elements of this very proposal. They keep their memory.
   thread_local sim::Nearby nearby;

@@ -9,10 +9,6 @@
 namespace espalier::rules {
 namespace {
 
-std::size_t asIndex(std::int32_t i) {
-  return static_cast<std::size_t>(i);
-}
-
 const Colonization& ruleFor(const RuleBook& book, std::int32_t order) {
   return book.ofOrder(order).colonization;
 }

@@ -132,18 +132,16 @@ double traced(const Site& site, const render::RayScene& scene, const std::vector
   return most > 0.0 ? received / most * sim::openSky(site.sky.weighting, point.normal) : 0.0;
 }
 
-struct RowOrder {
-  bool operator()(Voxel a, Voxel b) const { return std::tie(a.y, a.z, a.x) < std::tie(b.y, b.z, b.x); }
-};
-
 struct Mapped {
   double value;
   Vec3f normal;
 };
 
 /// The map's values at the points' voxels.
-std::map<Voxel, Mapped, RowOrder> mapAt(const Site& site, const std::vector<Point>& points) {
-  std::map<Voxel, Mapped, RowOrder> values;
+using MappedVoxels = std::map<Voxel, Mapped, decltype(&sim::beforeInRows)>;
+
+MappedVoxels mapAt(const Site& site, const std::vector<Point>& points) {
+  MappedVoxels values(sim::beforeInRows);
   for (const Point& point : points) values[point.voxel] = {};
   std::vector<sim::TiledVoxel> tiled;
   for (const auto& [voxel, value] : values) {

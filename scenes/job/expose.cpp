@@ -6,6 +6,7 @@
 #include <ostream>
 
 #include "render/files/vdb.h"
+#include "render/image/image_io.h"
 #include "scenes/accuracy/certificate.h"
 #include "scenes/foretell/foretell.h"
 #include "scenes/job/stages.h"
@@ -98,6 +99,7 @@ ExposeResult exposeScene(const Scene& scene, const RunOptions& options) {
   const PicturesWanted pictures = exposurePictures(scene, options);
   for (std::string& name : fileNames(pictures.images)) names.push_back(std::move(name));
   names.emplace_back(kReportFile);
+  if (options.pictures) render::makeReadyToDraw();
   OutputFolder output(options.folder, std::move(names), scene.read_paths);
   const Site site = exposureSite(scene, options, report, stages);
   output.protect(site.mesh_paths);

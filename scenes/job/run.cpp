@@ -7,6 +7,7 @@
 #include <span>
 
 #include "render/files/vdb.h"
+#include "render/image/image_io.h"
 #include "render/model/plant_model.h"
 #include "scenes/foretell/foretell.h"
 #include "scenes/job/plant_models.h"
@@ -182,6 +183,7 @@ Report runScene(const Scene& scene, const RunOptions& options, const Keeping& ke
   if (keeping.keep || keeping.every > 0) names.emplace_back(kStateFile);
   if (options.pictures) {
     for (std::string& name : fileNames(scene.images)) names.push_back(std::move(name));
+    render::makeReadyToDraw();
   }
   OutputFolder output(options.folder, std::move(names), scene.read_paths);
   Report report;
@@ -291,6 +293,7 @@ Report renderScene(Scene scene, const std::filesystem::path& from, const RunOpti
         fmt::format("{}: it has no images to draw; expected at least one", scene.file.string()));
   }
   requirePicturesFit(scene, picturesOf(scene));
+  render::makeReadyToDraw();
   OutputFolder output(options.folder, fileNames(scene.images), scene.read_paths);
   Report report;
   Stages stages(options, report);

@@ -1,6 +1,7 @@
 #include "scenes/read/field_keys.h"
 
 #include "rules/language/key_builder.h"
+#include "scenes/read/units.h"
 #include "scenes/scene.h"
 
 namespace espalier::scenes {
@@ -11,11 +12,8 @@ using rules::GuidePoint;
 using rules::Limits;
 using rules::TableOf;
 
-constexpr Limits kCoordinate{-1e6, 1e6};
 constexpr Limits kAngle{-36'000.0, 36'000.0};
 constexpr Limits kStrength{0.0, 1000.0};
-const char* const kMetres = "metres";
-const char* const kDegrees = "degrees";
 
 std::shared_ptr<const rules::Table> boxKeys() {
   using Box = std::array<sim::Vec3, 2>;

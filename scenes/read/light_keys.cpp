@@ -8,6 +8,7 @@
 
 #include "rules/language/key_builder.h"
 #include "scenes/lights.h"
+#include "scenes/read/units.h"
 #include "sim/base/error.h"
 
 namespace espalier::scenes {
@@ -18,7 +19,6 @@ using rules::TableOf;
 using Given = rules::Check::Given;
 using Complain = rules::Check::Complain;
 
-const char* const kDegrees = "degrees";
 const char* const kHours = "hours";
 
 std::shared_ptr<const Table> placeKeys() {

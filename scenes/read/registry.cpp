@@ -4,6 +4,7 @@
 #include "rules/language/key_builder.h"
 #include "scenes/read/field_keys.h"
 #include "scenes/read/light_keys.h"
+#include "scenes/read/units.h"
 #include "scenes/scene.h"
 #include "sim/tile/build_world.h"
 
@@ -19,11 +20,8 @@ using rules::Table;
 using rules::TableOf;
 
 constexpr Limits kPositive{0.0, 1e6, true};
-constexpr Limits kCoordinate{-1e6, 1e6};
 constexpr Limits kTypes{0.0, 1e6};
 constexpr std::size_t kMostEntries = 1000;
-const char* const kMetres = "metres";
-const char* const kDegrees = "degrees";
 
 std::shared_ptr<const Table> meshKeys() {
   return TableOf<SceneMesh>()

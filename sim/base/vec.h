@@ -2,6 +2,7 @@
 #include <glm/geometric.hpp>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
+#include <tuple>
 
 namespace espalier::sim {
 
@@ -13,5 +14,10 @@ using Vec3f = glm::vec3;
 using Voxel = glm::ivec3;
 /// Linear RGB, 0..1 for surfaces.
 using Colour = glm::vec3;
+
+/// The order in which voxels are stored and listed: rows along x, rows by z, slices by y.
+inline bool beforeInRows(Voxel a, Voxel b) {
+  return std::tie(a.y, a.z, a.x) < std::tie(b.y, b.z, b.x);
+}
 
 }  // namespace espalier::sim

@@ -8,6 +8,7 @@
 #include "sim/base/memory.h"
 #include "sim/base/parallel.h"
 #include "sim/light/lit_faces.h"
+#include "sim/light/sky_shares.h"
 #include "sim/light/surface.h"
 #include "sim/sweep/sweep.h"
 
@@ -36,10 +37,6 @@ std::array<float, 6> unobstructed(const DirectionSet& directions, Amount amount)
   return sums;
 }
 
-double share(const LatticeDirection& direction) {
-  return static_cast<double>(direction.weight) / ExposureField::kWhole;
-}
-
 /// For each place the sum of its open directions by their brightness: the first moment of the sky in sight.
 /// Directions are looked up eight at a time.
 std::vector<Vec3f> moments(const OpenTable& open, const Sky& sky) {
@@ -52,7 +49,7 @@ std::vector<Vec3f> moments(const OpenTable& open, const Sky& sky) {
       if (i >= sky.directions.size()) continue;
       const Vec3 unit = glm::normalize(Vec3(sky.directions[i].v));
       const double luminance = sky.weighting == Weighting::cie_overcast ? (1.0 + 2.0 * unit.y) / 3.0 : 1.0;
-      sums[eight][byte] += Vec3f(share(sky.directions[i]) * luminance * unit);
+      sums[eight][byte] += Vec3f(shareOf(sky.directions[i]) * luminance * unit);
     }
   }
   std::vector<Vec3f> moments(open.where->count());
@@ -223,10 +220,10 @@ Lighting lightOf(const World& world, const Sky& sky, const Sun& sun, const Light
   light.surfaces.resize(count);
   light.sky.beyond = unobstructed(sky.directions, [&](std::size_t i, Vec3 normal) {
     const auto& d = sky.directions[i];
-    return share(d) * received(sky.weighting, glm::normalize(Vec3(d.v)), normal);
+    return shareOf(d) * received(sky.weighting, glm::normalize(Vec3(d.v)), normal);
   });
   light.sun.beyond =
-      unobstructed(sun.directions, [&](std::size_t i, Vec3) { return share(sun.directions[i]); });
+      unobstructed(sun.directions, [&](std::size_t i, Vec3) { return shareOf(sun.directions[i]); });
   light.sun_hours.beyond = unobstructed(sun.directions, [&](std::size_t i, Vec3) { return sun.hours[i]; });
   if (wanted.dense || wanted.space) findInSpace(light, world, sky, sun, wanted);
   return light;

@@ -26,10 +26,6 @@ Vec3 spiralPoint(int i, int n) {
   return {across * std::cos(azimuth), height, across * std::sin(azimuth)};
 }
 
-bool before(Voxel a, Voxel b) {
-  return std::tie(a.y, a.z, a.x) < std::tie(b.y, b.z, b.x);
-}
-
 /// Vectors along points evenly spread over the sky. A longer vector lies nearer to its point, but a sweep
 /// along it costs more: each takes the least of (angle in spacings)^2 + length_cost * length. With this cost
 /// the error of the sky is that of the points themselves, while the vectors are two fifths shorter than those
@@ -38,8 +34,7 @@ bool before(Voxel a, Voxel b) {
 std::vector<Voxel> spreadVectors(int count) {
   const double length_cost = 0.0008 * std::min(1.0, 512.0 / count);
   const double spacing2 = 2.0 * std::numbers::pi / count;
-  const auto earlier = [](Voxel a, Voxel b) { return before(a, b); };
-  std::set<Voxel, decltype(earlier)> taken(earlier);
+  std::set<Voxel, decltype(&beforeInRows)> taken(beforeInRows);
   for (int i = 0; i < count; ++i) {
     const Vec3 point = spiralPoint(i, count);
     Voxel best(0);

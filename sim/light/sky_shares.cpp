@@ -21,9 +21,9 @@ Moments momentsOf(Vec3 d) {
 /// A convex polygon in the plane that touches the sphere at `pole`: great circles are straight lines there.
 struct TangentPolygon {
   explicit TangentPolygon(Vec3 p) : pole(p), across(perpendicular(p)), along(glm::cross(p, across)) {
-    constexpr double kFar = 100.0;  // as good as the pole's own horizon
+    constexpr double kNearlyLevel = 100.0;  // as good as the pole's own horizon
     for (const auto& [s, t] : {std::pair{-1.0, -1.0}, {1.0, -1.0}, {1.0, 1.0}, {-1.0, 1.0}})
-      corners.push_back(pole + kFar * (s * across + t * along));
+      corners.push_back(pole + kNearlyLevel * (s * across + t * along));
   }
 
   /// Keeps what lies on the side to which `normal` points of the great circle perpendicular to it.

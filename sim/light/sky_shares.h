@@ -3,6 +3,8 @@
 #include <vector>
 
 #include "sim/base/vec.h"
+#include "sim/sweep/directions.h"
+#include "sim/world/field.h"
 
 /// What part of the sky each direction of a set stands for.
 namespace espalier::sim {
@@ -19,5 +21,10 @@ void meetMoments(const std::vector<Vec3>& units, std::vector<double>& shares);
 /// The shares as whole numbers that add up to ExposureField::kWhole, each at most one unit from its share,
 /// rounded up or down so that the sums of x, y, z and y^2 move as little as may be.
 std::vector<std::uint16_t> wholeShares(const std::vector<Vec3>& units, const std::vector<double>& shares);
+
+/// A weight as a share again.
+inline double shareOf(const LatticeDirection& direction) {
+  return static_cast<double>(direction.weight) / ExposureField::kWhole;
+}
 
 }  // namespace espalier::sim

@@ -17,10 +17,6 @@ namespace {
 
 constexpr double kRadians = std::numbers::pi / 180.0;
 
-bool before(Voxel a, Voxel b) {
-  return std::tie(a.y, a.z, a.x) < std::tie(b.y, b.z, b.x);
-}
-
 /// The vector of least cost whose angle to a unit vector has at most this sine.
 std::optional<Voxel> cheapest(Vec3 unit, int lowest, double sine) {
   std::optional<Voxel> best;
@@ -91,7 +87,7 @@ void SunPath::add(double hours, const std::function<Vec3(double)>& at) {
 Sun SunPath::sun(int days, std::string about) const {
   auto places = places_;
   std::stable_sort(places.begin(), places.end(),
-                   [](const Place& a, const Place& b) { return before(a.v, b.v); });
+                   [](const Place& a, const Place& b) { return beforeInRows(a.v, b.v); });
   Sun sun;
   sun.about = std::move(about);
   sun.worst_angle_deg = degreesOf(worst_sine_);

@@ -10,6 +10,7 @@
 #include <numbers>
 
 #include "sim/base/parallel.h"
+#include "sim/light/sky_shares.h"
 #include "sim/light/surface.h"
 #include "sim/world/field.h"
 
@@ -145,10 +146,6 @@ std::vector<float> gathered(const SurfaceSensors& sensors, const OpenTable& open
   return values;
 }
 
-double share(const LatticeDirection& d) {
-  return static_cast<double>(d.weight) / ExposureField::kWhole;
-}
-
 /// By scalar amounts, as they are.
 std::vector<float> summed(const SurfaceSensors& sensors, const OpenTable& open,
                           const DirectionSet& directions, const std::function<double(std::size_t)>& amount) {
@@ -172,7 +169,7 @@ std::vector<float> surfaceSky(const SurfaceSensors& sensors, const OpenTable& op
   std::vector<Amount> amounts;
   for (const LatticeDirection& d : sky.directions) {
     const Vec3 unit = glm::normalize(Vec3(d.v));
-    const double straight = share(d) * received(sky.weighting, unit, unit);
+    const double straight = shareOf(d) * received(sky.weighting, unit, unit);
     if (sky.weighting == Weighting::uniform) {
       amounts.push_back({static_cast<float>(straight), 0.0f, 0.0f, 0.0f});
     } else {
@@ -188,7 +185,7 @@ std::vector<float> surfaceSky(const SurfaceSensors& sensors, const OpenTable& op
 }
 
 std::vector<float> surfaceSun(const SurfaceSensors& sensors, const OpenTable& open, const Sun& sun) {
-  return summed(sensors, open, sun.directions, [&](std::size_t d) { return share(sun.directions[d]); });
+  return summed(sensors, open, sun.directions, [&](std::size_t d) { return shareOf(sun.directions[d]); });
 }
 
 std::vector<float> surfaceSunHours(const SurfaceSensors& sensors, const OpenTable& open, const Sun& sun) {

@@ -19,23 +19,6 @@ namespace {
 constexpr float kBand_vx = 3.0f;  // a point looks at distances up to two diagonals from the surface
 constexpr int kRim = 3;           // free voxels around the mesh
 
-/// Lines that run through the corners of a closed mesh may be counted wrongly, here and there for a voxel. A
-/// hole lets whole lines through.
-constexpr double kNoLeak = 2e-5;
-
-/// A mesh in voxels, as OpenVDB asks for it.
-struct InVoxels {
-  const Triangles& triangles;
-
-  std::size_t polygonCount() const { return triangles.size(); }
-  std::size_t pointCount() const { return 3 * triangles.size(); }
-  std::size_t vertexCount(std::size_t) const { return 3; }
-  void getIndexSpacePoint(std::size_t n, std::size_t v, openvdb::Vec3d& p) const {
-    const Vec3& corner = triangles[n][v];
-    p = openvdb::Vec3d(corner.x, corner.y, corner.z);
-  }
-};
-
 struct Grid {
   Frame frame;
   Triangles triangles_vx;
@@ -86,11 +69,21 @@ Grid fineGridOf(const Mesh& mesh) {
 class Distance {
  public:
   explicit Distance(const Grid& grid) : inside_(grid.filled.inside) {
+    std::vector<openvdb::Vec3s> corners;
+    std::vector<openvdb::Vec3I> triangles;
+    for (const auto& triangle : grid.triangles_vx) {
+      const auto first = static_cast<std::uint32_t>(corners.size());
+      triangles.emplace_back(first, first + 1, first + 2);
+      for (const Vec3& p : triangle) corners.emplace_back(p.x, p.y, p.z);
+    }
+    // Of types that OpenVDB's library holds compiled: its templates take a minute for any others.
+    const openvdb::tools::QuadAndTriangleDataAdapter<openvdb::Vec3s, openvdb::Vec3I> mesh(corners, triangles);
+    const auto unit = openvdb::math::Transform::createLinearTransform(1.0);
+    openvdb::util::NullInterrupter never;
     // On one thread: which of two equally near triangles comes first would depend on their number.
     onThreads(1, [&] {
       distance_ = openvdb::tools::meshToVolume<openvdb::FloatGrid>(
-          InVoxels{grid.triangles_vx}, *openvdb::math::Transform::createLinearTransform(1.0), kBand_vx,
-          kBand_vx, openvdb::tools::UNSIGNED_DISTANCE_FIELD);
+          never, mesh, *unit, kBand_vx, kBand_vx, openvdb::tools::UNSIGNED_DISTANCE_FIELD, nullptr);
     });
   }
 
@@ -176,9 +169,8 @@ InsideDoubt soundInside(const Mesh& mesh, const Filled& filled, const char* inst
                     mesh.name, instead));
   }
   const auto may_be = static_cast<double>(sure + filled.outvoted);
-  InsideDoubt doubt{static_cast<double>(filled.doubtful) / may_be,
-                    static_cast<double>(filled.undecided) / may_be};
-  if (doubt.doubtful < kNoLeak) doubt.doubtful = 0.0;
+  const InsideDoubt doubt{static_cast<double>(filled.doubtful) / may_be,
+                          static_cast<double>(filled.undecided) / may_be};
   if (doubt.undecided > kMostUndecided) {
     throw InputError(fmt::format(
         "mesh '{}': is so open that its inside is a guess for {:.0f} % of it; expected at most {:.0f} %{}",

@@ -14,7 +14,7 @@
 namespace espalier::sim {
 namespace {
 
-enum Slot : unsigned { kTriangle, kAcross, kAlong };
+enum Drawn : unsigned { kTriangle, kAcross, kAlong };
 
 constexpr std::size_t kMostPoints = std::numeric_limits<std::uint32_t>::max();
 

@@ -20,7 +20,7 @@ LatticeTriangle triangleOf(const Facets& element, std::size_t i) {
 }  // namespace
 
 /// Whether two boxes share no point.
-inline bool Nearby::apart(const Bounds& a, const Bounds& b) {
+bool Nearby::apart(const Bounds& a, const Bounds& b) {
   int signs = 0;  // one is negative where the boxes are apart; no branches, so that lanes do it
   for (int i = 0; i < 4; ++i) signs |= (b.high[i] - a.low[i]) | (a.high[i] - b.low[i]);
   return signs < 0;
@@ -50,7 +50,7 @@ class Beyond {
 
 }  // namespace
 
-inline bool Nearby::apart(const Slab& slab, std::span<const Facet> facets) {
+bool Nearby::apart(const Slab& slab, std::span<const Facet> facets) {
   Beyond beyond(slab.normal, slab.low, slab.high);
   return std::all_of(facets.begin(), facets.end(), [&](const Facet& facet) {
     return std::all_of(facet.corners.begin(), facet.corners.end(),
@@ -58,7 +58,7 @@ inline bool Nearby::apart(const Slab& slab, std::span<const Facet> facets) {
   });
 }
 
-inline bool Nearby::apart(const Slab& slab, const Facets& element) {
+bool Nearby::apart(const Slab& slab, const Facets& element) {
   Beyond beyond(slab.normal, slab.low, slab.high);
   return std::all_of(element.corners.begin(), element.corners.end(),
                      [&](LatticePoint corner) { return beyond.add(corner); });

@@ -11,12 +11,26 @@
 namespace espalier::sim {
 namespace {
 
+/// Whether a point moved by (e, e^2, e^3) along the world's axes goes the way of a linear form of the sheared
+/// coordinates.
+bool movedAlong(const LineDirection& d, glm::i64vec3 form) {
+  glm::i64vec3 of_axis;
+  of_axis[d.axis] = form.x - d.a * form.y - d.b * form.z;
+  of_axis[(d.axis + 1) % 3] = form.y;
+  of_axis[(d.axis + 2) % 3] = form.z;
+  for (int axis = 0; axis < 3; ++axis) {
+    if (of_axis[axis] != 0) return of_axis[axis] > 0;
+  }
+  return false;
+}
+
 /// The lines that go through the projected triangle: outerEdges' counterpart for points instead of cubes.
-std::array<HalfPlane, 3> innerEdges(glm::i64vec2 p, glm::i64vec2 q, glm::i64vec2 r, bool anticlockwise) {
+std::array<HalfPlane, 3> innerEdges(const LineDirection& d, glm::i64vec2 p, glm::i64vec2 q, glm::i64vec2 r,
+                                    bool anticlockwise) {
   if (!anticlockwise) std::swap(q, r);
-  const auto edge = [](glm::i64vec2 from, glm::i64vec2 to) {
+  const auto edge = [&](glm::i64vec2 from, glm::i64vec2 to) {
     const glm::i64vec2 out{to.y - from.y, from.x - to.x};
-    const bool moved_out = out.x > 0 || (out.x == 0 && out.y > 0);
+    const bool moved_out = movedAlong(d, {0, out.x, out.y});
     return HalfPlane{out.x, out.y, (out.x * from.x + out.y * from.y - (moved_out ? 1 : 0)) >> 12};
   };
   return {edge(p, q), edge(q, r), edge(r, p)};
@@ -49,7 +63,8 @@ void Lines::cross(const std::array<Vec3, 3>& triangle_vx, std::vector<Crossing>&
   // The sheared coordinates reach 2^27 and their normal 2^57.
   const glm::i64vec3 n = normalOf(q);
   if (n.x == 0) return;
-  const auto edges = innerEdges({q[0].y, q[0].z}, {q[1].y, q[1].z}, {q[2].y, q[2].z}, n.x > 0);
+  const auto edges = innerEdges(direction_, {q[0].y, q[0].z}, {q[1].y, q[1].z}, {q[2].y, q[2].z}, n.x > 0);
+  const bool before_its_plane = movedAlong(direction_, n) != (n.x > 0);
   const Int128 outside_low = (first_.x - 1) * kFixedOne, outside_high = (last_.x + 1) * kFixedOne + 1;
   for (int v = first; v <= last; ++v) {
     IntRange ws{first_.z, last_.z};
@@ -57,7 +72,9 @@ void Lines::cross(const std::array<Vec3, 3>& triangle_vx, std::vector<Crossing>&
     for (int w = ws.first; w <= ws.last; ++w) {
       const Int128 along = Int128{n.x} * q[0].x - Int128{n.y} * (v * kFixedOne - q[0].y) -
                            Int128{n.z} * (w * kFixedOne - q[0].z);
-      const Int128 upwards = -floorDiv<Int128>(n.x > 0 ? -along : along, std::abs(n.x));
+      Int128 upwards = -floorDiv<Int128>(n.x > 0 ? -along : along, std::abs(n.x));
+      const bool at_a_centre = upwards % kFixedOne == 0 && upwards * n.x == along;
+      if (at_a_centre && before_its_plane) ++upwards;
       const Int128 at = std::clamp<Int128>(upwards, outside_low, outside_high);
       crossings.push_back({line(v, w), static_cast<std::int32_t>(at), n.x > 0 ? 1 : -1});
     }

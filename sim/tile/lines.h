@@ -1,7 +1,8 @@
 #pragma once
 // Internal to the room: lines of voxel centres and where they cross a mesh's triangles, found exactly in
-// whole numbers. A crossing exactly through an edge or a corner is settled by moving the line by (e, e^2), so
-// that triangles which share an edge are crossed once together.
+// whole numbers. A line that meets an edge or a corner, and a centre that lies on a triangle, are settled by
+// moving all centres by (e, e^2, e^3) (Edelsbrunner and Muecke 1990): triangles which share an edge are
+// crossed once together, and lines of all directions agree on a centre, as they all go through the moved one.
 #include <array>
 #include <cstddef>
 #include <cstdint>

@@ -10,12 +10,6 @@
 namespace espalier::sim {
 namespace {
 
-bool beforeInRows(Voxel a, Voxel b) {
-  if (a.y != b.y) return a.y < b.y;
-  if (a.z != b.z) return a.z < b.z;
-  return a.x < b.x;
-}
-
 void sortTail(std::vector<Voxel>& voxels, std::size_t from) {
   std::sort(voxels.begin() + static_cast<std::ptrdiff_t>(from), voxels.end(), beforeInRows);
 }

@@ -9,7 +9,7 @@
 namespace espalier::bench {
 namespace {
 
-constexpr const char* kRow = "2 every voxel";
+constexpr const char* kEveryVoxel = "2 every voxel";
 constexpr std::size_t kPlaces = 20'000;
 
 /// Voxels all over the world, in a scattered order.
@@ -31,7 +31,7 @@ void benchLevels(const sim::BitVolume& occupied, const sim::DirectionSet& sky, d
     sim::lanes::useLevel(level);
     sim::ExposureField field;
     const double seconds = medianSeconds([&] { field = sim::sweepExposure(occupied, sky); });
-    report.add({kRow, "the sweep's rays by " + level, rays / seconds / 1e6, "Mray/s", hashOf(field.values)});
+    report.add({kEveryVoxel, "the sweep's rays by " + level, rays / seconds / 1e6, "Mray/s", hashOf(field.values)});
   }
   sim::lanes::useLevel(best);
 }
@@ -62,20 +62,20 @@ void benchEveryVoxel(const scenes::Scene& scene, const scenes::Site& site, Repor
                      [&] { cast(prepared, [&](sim::Voxel p) { return lookout.from(occupied, p); }); }});
   const std::uint64_t state = hashOf(field.values);
   const double rate = rays / seconds[0];
-  report.add({kRow, "the sweep", seconds[0] * 1e3, "ms", state});
-  report.add({kRow, "  rays", rate / 1e6, "Mray/s", state});
+  report.add({kEveryVoxel, "the sweep", seconds[0] * 1e3, "ms", state});
+  report.add({kEveryVoxel, "  rays", rate / 1e6, "Mray/s", state});
   const auto compare = [&](const std::string& what, double time, const std::vector<std::uint16_t>& sums) {
     std::size_t other = 0;
     for (std::size_t i = 0; i < places.size(); ++i)
       other += sums[i] != field.values[field.index(places[i])] ? 1u : 0u;
-    report.add({kRow, what, sample_rays / time / 1e6, "Mray/s", hashOf(sums)});
+    report.add({kEveryVoxel, what, sample_rays / time / 1e6, "Mray/s", hashOf(sums)});
     report.note(fmt::format("  {} of {} places differ from the sweep", other, places.size()));
   };
   compare("the plain traversal, ray by ray", seconds[1], plain);
   compare("the prepared traversal of growth, ray by ray", seconds[2], prepared);
-  report.add({kRow, "the sweep's rays a second over the plain traversal's", rate * seconds[1] / sample_rays,
+  report.add({kEveryVoxel, "the sweep's rays a second over the plain traversal's", rate * seconds[1] / sample_rays,
               "times", state, Target{3000.0}});
-  report.add({kRow, "over the prepared traversal's", rate * seconds[2] / sample_rays, "times", state});
+  report.add({kEveryVoxel, "over the prepared traversal's", rate * seconds[2] / sample_rays, "times", state});
   benchLevels(occupied, sky, rays, report);
 }
 

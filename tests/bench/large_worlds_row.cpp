@@ -11,7 +11,7 @@
 namespace espalier::bench {
 namespace {
 
-constexpr const char* kRow = "3 large worlds";
+constexpr const char* kLargeWorlds = "3 large worlds";
 
 /// Bits that one direction's sweep and its counting read and write for each voxel: an occupied bit for each
 /// voxel crossed in a period, the blocked bit of the next period, its own blocked bit written, and that read
@@ -36,7 +36,7 @@ void benchLargeWorlds(double most_voxels, Report& report) {
       moved_bits, moved_bits - 3.0));
   report.note("  written, one read again to be counted); for each voxel its sum written, two bytes");
   report.note("memory, at least: each occupied bit read once, each sum written once");
-  report.add({kRow, "copying: bytes read and written", copy / 1e9, "GB/s", 0});
+  report.add({kLargeWorlds, "copying: bytes read and written", copy / 1e9, "GB/s", 0});
 
   constexpr std::array<sim::Voxel, 5> kSizes = {sim::Voxel(256, 80, 256), sim::Voxel(512, 160, 512),
                                                 sim::Voxel(1024, 280, 1024), sim::Voxel(1024, 1024, 1024),
@@ -56,21 +56,21 @@ void benchLargeWorlds(double most_voxels, Report& report) {
     const double picoseconds = seconds / voxels / directions * 1e12;
     moved = voxels * (directions * moved_bits / 8.0 + 2.0) / seconds;
     memory = voxels * (1.0 / 8.0 + 2.0) / seconds;
-    report.add({kRow, fmt::format("{} x {} x {}: a voxel and direction", size.x, size.y, size.z), picoseconds,
+    report.add({kLargeWorlds, fmt::format("{} x {} x {}: a voxel and direction", size.x, size.y, size.z), picoseconds,
                 "ps", state});
-    report.add({kRow, "  moved", moved / 1e9, "GB/s", state});
-    report.add({kRow, "  memory, at least", memory / 1e9, "GB/s", state});
+    report.add({kLargeWorlds, "  moved", moved / 1e9, "GB/s", state});
+    report.add({kLargeWorlds, "  memory, at least", memory / 1e9, "GB/s", state});
     cheapest = cheapest == 0.0 ? picoseconds : std::min(cheapest, picoseconds);
     dearest = std::max(dearest, picoseconds);
     if (smallest == 0.0) smallest = picoseconds;
     largest = picoseconds;
   }
   if (cheapest == 0.0) return;
-  report.add({kRow, "the dearest voxel and direction over the cheapest", dearest / cheapest, "times", state,
+  report.add({kLargeWorlds, "the dearest voxel and direction over the cheapest", dearest / cheapest, "times", state,
               Target{1.5, false}});
-  report.add({kRow, "the largest world: moved over copying", moved / copy, "times", state, Target{0.5}});
-  report.add({kRow, "the largest world: memory, at least, over copying", memory / copy, "times", state});
-  report.add({kRow, "a voxel and direction: the largest world over the smallest", largest / smallest, "times",
+  report.add({kLargeWorlds, "the largest world: moved over copying", moved / copy, "times", state, Target{0.5}});
+  report.add({kLargeWorlds, "the largest world: memory, at least, over copying", memory / copy, "times", state});
+  report.add({kLargeWorlds, "a voxel and direction: the largest world over the smallest", largest / smallest, "times",
               state});
   report.note(largest < 1.25 * smallest
                   ? "No dearer than in the smallest world, which the caches hold: the processor is the bound."

@@ -16,7 +16,7 @@
 namespace espalier::bench {
 namespace {
 
-constexpr const char* kRow = "1 surfaces";
+constexpr const char* kSurfaces = "1 surfaces";
 constexpr std::size_t kRun = 1024, kSampleEvery = 16;
 
 /// One run of neighbouring places out of sixteen.
@@ -79,7 +79,7 @@ Fastest fastestOf(const Peers& peers, const Question& sample, const Sums& ours, 
   double least = 0.0, least_on_faces = 0.0;
   for (std::size_t i = 0; i < peers.size(); ++i) {
     const Difference off = difference(ours, answers[i]);
-    report.add({kRow, fmt::format("{}, sample: off by {:.4f}", peers[i]->name(), off.mean),
+    report.add({kSurfaces, fmt::format("{}, sample: off by {:.4f}", peers[i]->name(), off.mean),
                 sample.rays() / seconds[i] / 1e6, "Mray/s", hashOf(answers[i])});
     if (off.mean >= kSameQuestion) continue;
     if (fastest.of_all == nullptr || seconds[i] < least) {
@@ -133,8 +133,8 @@ void benchSurfaces(const scenes::Scene& scene, const scenes::Site& site, Report&
        [&] { theirs[2] = rivals[2]->answer(question); }});
   const std::uint64_t state = hashOf(ours);
   const auto add = [&](const std::string& what, double time, std::uint64_t hash) {
-    report.add({kRow, what, time * 1e3, "ms", hash});
-    report.add({kRow, "  rays", question.rays() / time / 1e6, "Mray/s", hash});
+    report.add({kSurfaces, what, time * 1e3, "ms", hash});
+    report.add({kSurfaces, "  rays", question.rays() / time / 1e6, "Mray/s", hash});
   };
   add("the sweep, at the places", seconds[0], state);
   add("the sweep, a bit a direction, and what each surface receives", seconds[1], state);
@@ -146,11 +146,11 @@ void benchSurfaces(const scenes::Scene& scene, const scenes::Site& site, Report&
                     100.0 * off.places, off.mean));
   }
   const double fastest = std::min(seconds[2], seconds[3]);
-  report.add({kRow, "the better peer's time (voxel faces, HDDA) over the sweep's, at the places",
+  report.add({kSurfaces, "the better peer's time (voxel faces, HDDA) over the sweep's, at the places",
               fastest / seconds[0], "times", state, Target{50.0}});
   report.add(
-      {kRow, "the same over that of what each surface receives", fastest / seconds[1], "times", state});
-  report.add({kRow, "Embree's best, with faces joined into large ones, over the sweep's",
+      {kSurfaces, "the same over that of what each surface receives", fastest / seconds[1], "times", state});
+  report.add({kSurfaces, "Embree's best, with faces joined into large ones, over the sweep's",
               seconds[4] / seconds[0], "times", state});
 }
 

@@ -140,11 +140,11 @@ TEST_F(Say, AFolderOfAnyNameCanBeWorkedIn) {
     EXPECT_EQ(grown.status, 0) << grown.output;
     expectHarmless(grown, vile);
     EXPECT_EQ(grown.output.find("\nespalier: all is well"), std::string::npos) << grown.output;
-    const Ran json = shell("grow " + name + "/scene.yaml -o " + name + "/out --json 2>/dev/null");
-    EXPECT_EQ(json.status, 0) << json.output;
-    expectHarmless(json, vile);
+    const Ran told = shell("grow " + name + "/scene.yaml -o " + name + "/out --json 2>/dev/null");
+    EXPECT_EQ(told.status, 0) << told.output;
+    expectHarmless(told, vile);
     const auto kept = nlohmann::json::parse(tests::fileText(scratch_.path(vile) / "out/report.json"));
-    EXPECT_EQ(nlohmann::json::parse(json.output)["run"]["scene"], kept["run"]["scene"]);
+    EXPECT_EQ(nlohmann::json::parse(told.output)["run"]["scene"], kept["run"]["scene"]);
   }
 }
 

@@ -14,7 +14,7 @@
 namespace espalier::fuzz {
 namespace {
 
-namespace samples = scenes::testing;
+namespace samples = tests;
 
 constexpr std::string_view kCompanion = "\n=== beside it\n";
 constexpr std::string_view kFormat = ESPALIER_FUZZ_MESH;

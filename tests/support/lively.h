@@ -13,6 +13,13 @@
 /// A rule set in which everything has an effect, for asking what does; made for tests::wallPlot().
 namespace espalier::tests {
 
+inline rules::Value range(double low, double high) {
+  rules::Value value(low);
+  value.kind = rules::Value::Kind::range;
+  value.high = high;
+  return value;
+}
+
 inline rules::RuleSet lively() {
   rules::RuleSet rules;
   rules.name = "lively";

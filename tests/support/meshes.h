@@ -13,6 +13,11 @@ namespace espalier::tests {
 using sim::Mesh;
 using sim::Vec3;
 
+/// A cube of 2 m that stands on the ground about the upright axis.
+inline constexpr const char* kCubeObj =
+    "v -1 0 -1\nv 1 0 -1\nv 1 0 1\nv -1 0 1\nv -1 2 -1\nv 1 2 -1\nv 1 2 1\nv -1 2 1\n"
+    "f 1 2 3 4\nf 5 8 7 6\nf 1 5 6 2\nf 2 6 7 3\nf 3 7 8 4\nf 4 8 5 1\n";
+
 inline Mesh emptyMesh(std::string name) {
   Mesh mesh;
   mesh.name = std::move(name);

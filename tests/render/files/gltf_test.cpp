@@ -16,7 +16,7 @@ namespace {
 
 using render::glbBytes;
 
-tinygltf::Model readBack(const std::string& bytes) {
+tinygltf::Model readGlb(const std::string& bytes) {
   tinygltf::Model model;
   tinygltf::TinyGLTF reader;
   std::string error, warning;
@@ -42,7 +42,7 @@ class Glb : public testing::Test {
 };
 
 TEST_F(Glb, HoldsWhatWasModelled) {
-  const auto model = readBack(bytes_);
+  const auto model = readGlb(bytes_);
   EXPECT_EQ(model.asset.generator, "Espalier");
   EXPECT_EQ(at(model.scenes, model.defaultScene).nodes.size(), 2u);
   std::set<std::string> names;
@@ -78,7 +78,7 @@ TEST_F(Glb, HoldsWhatWasModelled) {
 }
 
 TEST_F(Glb, TheSceneKeepsItsMaterials) {
-  const auto model = readBack(bytes_);
+  const auto model = readGlb(bytes_);
   const auto& primitives = at(model.meshes, model.nodes[0].mesh).primitives;
   ASSERT_EQ(primitives.size(), 2u);
   for (std::size_t m = 0; m < 2; ++m) {
@@ -96,7 +96,7 @@ TEST_F(Glb, PlantsOfOneKindShareTheirMaterials) {
   other.name = "another";
   other.stems.name = "another stems";
   for (auto& element : other.elements) element.name = "another" + element.name.substr(vine_.name.size());
-  const auto model = readBack(glbBytes({{}, {&vine_, &other}}));
+  const auto model = readGlb(glbBytes({{}, {&vine_, &other}}));
   EXPECT_EQ(model.materials.size(), 2u);
   EXPECT_EQ(model.meshes.size(), 4u);
 }
@@ -107,10 +107,10 @@ TEST_F(Glb, TheSameBytesAgain) {
 
 TEST_F(Glb, EmptyAndStrangeThings) {
   const render::PlantModel nothing;
-  EXPECT_TRUE(readBack(glbBytes({{}, {&nothing}})).nodes.empty());
+  EXPECT_TRUE(readGlb(glbBytes({{}, {&nothing}})).nodes.empty());
   sim::Mesh latin = wall_;
   latin.name = "caf\xe9";  // not UTF-8
-  EXPECT_EQ(readBack(glbBytes({{&latin}, {}})).nodes[0].name, "caf\xef\xbf\xbd");
+  EXPECT_EQ(readGlb(glbBytes({{&latin}, {}})).nodes[0].name, "caf\xef\xbf\xbd");
   sim::Mesh broken = wall_;
   broken.triangles[3][1] = 999;
   EXPECT_THROW(glbBytes({{&broken}, {}}), sim::InputError);
@@ -119,7 +119,7 @@ TEST_F(Glb, EmptyAndStrangeThings) {
 TEST_F(Glb, SaysByWhatAndFromWhatItWasMade) {
   const sim::Provenance made_by{
       "Espalier 9.8.7", 9007199254740991u, {{"s.yaml", "scene", 0xabcu}, {"caf\xe9", "mesh", 1}}};
-  const auto asset = readBack(glbBytes({{&wall_}, {}}, made_by)).asset;
+  const auto asset = readGlb(glbBytes({{&wall_}, {}}, made_by)).asset;
   EXPECT_EQ(asset.generator, "Espalier 9.8.7");
   EXPECT_EQ(asset.extras.Get("seed").Get<std::string>(), "9007199254740991");
   const auto& inputs = asset.extras.Get("inputs");

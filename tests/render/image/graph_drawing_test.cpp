@@ -14,7 +14,7 @@ namespace {
 
 using sim::Vec3;
 
-const Camera kCamera{{0.0, 2.0, 9.0}, {0.0, 2.0, 0.0}, 36.0};
+const Camera kAtTheTree{{0.0, 2.0, 9.0}, {0.0, 2.0, 0.0}, 36.0};
 
 Image white(int width = 200, int height = 150) {
   return Image(width, height, 3, 1.0f);
@@ -64,7 +64,7 @@ PointGraph tree() {
 
 TEST(Projection, IsTheOtherWayOfTheRays) {
   for (const Camera& camera :
-       {kCamera, Camera{{3, 1, -2}, {0, 5, 1}, 70.0}, Camera{{1, 9, 1}, {1, 0, 1}, 50.0}}) {
+       {kAtTheTree, Camera{{3, 1, -2}, {0, 5, 1}, 70.0}, Camera{{1, 9, 1}, {1, 0, 1}, 50.0}}) {
     const CameraRays rays(camera, 320.0 / 200.0);
     const Projection projection(camera, 320, 200);
     for (const glm::dvec2 at : {glm::dvec2(0.5, 0.5), glm::dvec2(0.1, 0.8), glm::dvec2(0.97, 0.03)}) {
@@ -76,7 +76,7 @@ TEST(Projection, IsTheOtherWayOfTheRays) {
       EXPECT_LT(projection.depth_m(camera.eye_m - rays.direction(at.x, at.y)), 0.0);
     }
   }
-  const Projection projection(kCamera, 320, 200);
+  const Projection projection(kAtTheTree, 320, 200);
   const glm::vec2 a = projection.pixel({0, 2, 0}), b = projection.pixel({1, 2, 0});
   EXPECT_NEAR(projection.pixelsAt(9.0), b.x - a.x, 1e-3);
 }
@@ -93,16 +93,16 @@ TEST(GraphDrawing, WhatIsNearLiesOverWhatIsFar) {
   graph.nodes = {node({0, 2, -1})};
   graph.waiting = {{{0, 2, 1}}};
   Image image = white();
-  drawPoints(image, graph, kCamera, sizes);
+  drawPoints(image, graph, kAtTheTree, sizes);
   EXPECT_GT(middle(image).b, middle(image).r + 0.2f);
   std::swap(graph.nodes[0].point.at_m, graph.waiting[0].at_m);
   image = white();
-  drawPoints(image, graph, kCamera, sizes);
+  drawPoints(image, graph, kAtTheTree, sizes);
   EXPECT_GT(middle(image).r, middle(image).b + 0.2f);
 }
 
-/// How much of a white picture is covered, in pixels of black.
-double covered(const Image& image) {
+/// How much of a white picture is blackened, in pixels of black.
+double blackened(const Image& image) {
   double sum = 0.0;
   for (const float v : image.pixels) sum += 1.0 - static_cast<double>(v);
   return sum / 3.0;
@@ -113,8 +113,8 @@ TEST(GraphDrawing, SizesFollowTheDistanceButForALeast) {
     PointGraph graph;
     graph.waiting = {{{0, 2, z}}};
     Image image = white();
-    drawPoints(image, graph, kCamera, {.point_m = size, .nearest_m = 1.0, .farthest_m = 1e9});
-    return covered(image);
+    drawPoints(image, graph, kAtTheTree, {.point_m = size, .nearest_m = 1.0, .farthest_m = 1e9});
+    return blackened(image);
   };
   EXPECT_NEAR(coverage(4.5, 0.6) / coverage(0.0, 0.6), 4.0, 0.5);  // half as far
   EXPECT_GT(coverage(0.0, 1e-6), 0.3);
@@ -125,13 +125,13 @@ TEST(GraphDrawing, LinesThatPassTheEyeAreCutOff) {
   PointGraph graph;
   graph.nodes = {node({0, 1, 0}), node({0.2, 2.3, 30}, 0)};
   Image image = white();
-  drawGraph(image, graph, kCamera, {.twig_m = 0.05, .nearest_m = 1.0, .farthest_m = 10.0});
-  EXPECT_GT(covered(image), 30.0);
+  drawGraph(image, graph, kAtTheTree, {.twig_m = 0.05, .nearest_m = 1.0, .farthest_m = 10.0});
+  EXPECT_GT(blackened(image), 30.0);
   for (const float v : image.pixels) ASSERT_TRUE(v >= 0.0f && v <= 1.0f);
   graph.nodes[0].point.at_m.z = 10.0;  // all of it behind
   image = white();
-  drawGraph(image, graph, kCamera, {.twig_m = 0.05, .nearest_m = 1.0, .farthest_m = 10.0});
-  EXPECT_EQ(covered(image), 0.0);
+  drawGraph(image, graph, kAtTheTree, {.twig_m = 0.05, .nearest_m = 1.0, .farthest_m = 10.0});
+  EXPECT_EQ(blackened(image), 0.0);
 }
 
 TEST(GraphDrawing, AnEdgeIsWiderTheMoreEndsItLeadsTo) {
@@ -140,7 +140,7 @@ TEST(GraphDrawing, AnEdgeIsWiderTheMoreEndsItLeadsTo) {
     graph.nodes = {node({0, 1, 0}), node({0, 2.5, 0}, 0)};
     for (int i = 0; i < ends; ++i) graph.nodes.push_back(node({0.01 * i, 2.52, 0}, 1));
     Image image = white();
-    drawGraph(image, graph, kCamera, {.twig_m = 0.05, .nearest_m = 1.0, .farthest_m = 1e9});
+    drawGraph(image, graph, kAtTheTree, {.twig_m = 0.05, .nearest_m = 1.0, .farthest_m = 1e9});
     double sum = 0.0;
     const int row = image.height / 2;
     for (int x = 0; x < image.width; ++x) sum += 1.0 - static_cast<double>(*image.at(x, row));
@@ -151,14 +151,14 @@ TEST(GraphDrawing, AnEdgeIsWiderTheMoreEndsItLeadsTo) {
 
 TEST(GraphDrawing, WhatIsHiddenIsFaint) {
   PointGraph graph = tree();
-  const GraphSizes sizes = sizesFor(graph, kCamera, 200, 150);
+  const GraphSizes sizes = sizesFor(graph, kAtTheTree, 200, 150);
   Image open = white(), hidden = white();
-  drawGraph(open, graph, kCamera, sizes);
+  drawGraph(open, graph, kAtTheTree, sizes);
   for (auto& n : graph.nodes) n.point.hidden = true;
   for (auto& p : graph.waiting) p.hidden = true;
-  drawGraph(hidden, graph, kCamera, sizes);
-  EXPECT_LT(covered(hidden), 0.4 * covered(open));
-  EXPECT_GT(covered(hidden), 0.02 * covered(open));
+  drawGraph(hidden, graph, kAtTheTree, sizes);
+  EXPECT_LT(blackened(hidden), 0.4 * blackened(open));
+  EXPECT_GT(blackened(hidden), 0.02 * blackened(open));
 }
 
 TEST(GraphDrawing, SizesSuitHowMuchThereIs) {
@@ -167,13 +167,13 @@ TEST(GraphDrawing, SizesSuitHowMuchThereIs) {
   for (int k = 0; k < 200; ++k) {
     for (SpacePoint p : few.waiting) many.waiting.push_back({p.at_m + 1e-3 * Vec3(k, -k, k)});
   }
-  EXPECT_GT(sizesFor(few, kCamera, 640, 480).point_m, 2.0 * sizesFor(many, kCamera, 640, 480).point_m);
-  EXPECT_GT(sizesFor(tree(), kCamera, 640, 480).node_m, 0.0);
-  EXPECT_EQ(sizesFor({}, kCamera, 640, 480).point_m, 0.0);
+  EXPECT_GT(sizesFor(few, kAtTheTree, 640, 480).point_m, 2.0 * sizesFor(many, kAtTheTree, 640, 480).point_m);
+  EXPECT_GT(sizesFor(tree(), kAtTheTree, 640, 480).node_m, 0.0);
+  EXPECT_EQ(sizesFor({}, kAtTheTree, 640, 480).point_m, 0.0);
   PointGraph neighbours = tree();
   for (const SpacePoint& p : many.waiting) neighbours.waiting.push_back({p.at_m + Vec3(20, 0, 0)});
-  const GraphSizes alone = sizesFor(tree(), kCamera, 640, 480),
-                   beside = sizesFor(neighbours, kCamera, 640, 480);
+  const GraphSizes alone = sizesFor(tree(), kAtTheTree, 640, 480),
+                   beside = sizesFor(neighbours, kAtTheTree, 640, 480);
   EXPECT_EQ(beside.point_m, alone.point_m) << "what lies beside the picture has no say";
   EXPECT_EQ(beside.farthest_m, alone.farthest_m);
 }
@@ -181,7 +181,7 @@ TEST(GraphDrawing, SizesSuitHowMuchThereIs) {
 TEST(Golden, PointsOfATree) {
   const PointGraph graph = tree();
   Image image = paper(240, 180);
-  drawPoints(image, graph, kCamera, sizesFor(graph, kCamera, 240, 180));
+  drawPoints(image, graph, kAtTheTree, sizesFor(graph, kAtTheTree, 240, 180));
   tests::expectLikeGolden(image, "points");
 }
 

@@ -16,11 +16,11 @@ namespace {
 using sim::faceAxis;
 using sim::kFaceNormals;
 
-constexpr int kWidth = 200, kHeight = 150;
+constexpr int kAcross = 200, kDown = 150;
 
-struct Scene {
-  explicit Scene(int scale = 1) : garden(scale), bricks(garden.occupied()) {}
-  Visibility look(int width = kWidth, int height = kHeight) const {
+struct Garden {
+  explicit Garden(int scale = 1) : garden(scale), bricks(garden.occupied()) {}
+  Visibility look(int width = kAcross, int height = kDown) const {
     return see(garden.frame(), garden.occupied(), bricks, tests::LittleGarden::camera(), width, height);
   }
   tests::LittleGarden garden;
@@ -34,15 +34,15 @@ int samplesOf(std::span<const Fragment> pixel) {
 }
 
 TEST(Visibility, APixelSeenWholeIsWhatItsMiddleRayHits) {
-  const Scene scene(2);
+  const Garden scene(2);
   const Visibility seen = scene.look();
   const sim::Vec3 eye = sim::voxelFromWorld(scene.garden.frame(), seen.rays.eye_m());
   int whole = 0, sky = 0;
-  for (int y = 0; y < kHeight; ++y) {
-    for (int x = 0; x < kWidth; ++x) {
-      const auto pixel = seen.pixel(static_cast<std::size_t>(y * kWidth + x));
+  for (int y = 0; y < kDown; ++y) {
+    for (int x = 0; x < kAcross; ++x) {
+      const auto pixel = seen.pixel(static_cast<std::size_t>(y * kAcross + x));
       if (samplesOf(pixel) != 1) continue;
-      const sim::Vec3 direction = seen.rays.direction((x + 0.5) / kWidth, (y + 0.5) / kHeight);
+      const sim::Vec3 direction = seen.rays.direction((x + 0.5) / kAcross, (y + 0.5) / kDown);
       const auto hit = sim::firstHit(scene.garden.occupied(), scene.bricks, eye, direction);
       ++whole;
       if (!hit) {
@@ -67,21 +67,21 @@ TEST(Visibility, APixelSeenWholeIsWhatItsMiddleRayHits) {
 
 /// The share of each face in each divided pixel against 16 x 16 rays through it.
 TEST(Visibility, DividedPixelsHoldTheSharesOfWhatTheyShow) {
-  const Scene scene(2);
+  const Garden scene(2);
   const Visibility seen = scene.look();
   const sim::Vec3 eye = sim::voxelFromWorld(scene.garden.frame(), seen.rays.eye_m());
   double off = 0.0;
   int divided = 0;
-  for (std::size_t i = 0; i < kWidth * kHeight; i += 7) {
+  for (std::size_t i = 0; i < kAcross * kDown; i += 7) {
     const auto pixel = seen.pixel(i);
     if (samplesOf(pixel) == 1) continue;
     ASSERT_EQ(samplesOf(pixel), 8);
     std::map<std::tuple<int, int, int, int>, double> shares;
     for (int j = 0; j < 256; ++j) {
-      const double x = static_cast<double>(i % kWidth) + (j % 16 + 0.5) / 16.0;
-      const double y = static_cast<double>(i / kWidth) + (j / 16 + 0.5) / 16.0;
+      const double x = static_cast<double>(i % kAcross) + (j % 16 + 0.5) / 16.0;
+      const double y = static_cast<double>(i / kAcross) + (j / 16 + 0.5) / 16.0;
       const auto hit = sim::firstHit(scene.garden.occupied(), scene.bricks, eye,
-                                     seen.rays.direction(x / kWidth, y / kHeight));
+                                     seen.rays.direction(x / kAcross, y / kDown));
       int face = kSky;
       for (int k = 0; hit && k < kSky; ++k)
         if (kFaceNormals[static_cast<std::size_t>(k)] == hit->face) face = k;
@@ -121,7 +121,7 @@ TEST(Visibility, TheAreaOfACubesFaceIsRight) {
 }
 
 TEST(Visibility, DoesNotDependOnTheNumberOfThreads) {
-  const Scene scene;
+  const Garden scene;
   const Visibility many = scene.look();
   const tbb::global_control one(tbb::global_control::max_allowed_parallelism, 1);
   const Visibility alone = scene.look();

@@ -20,13 +20,6 @@ namespace {
 
 using tests::lively;
 
-Value range(double low, double high) {
-  Value value(low);
-  value.kind = Value::Kind::range;
-  value.high = high;
-  return value;
-}
-
 Value curve(Over over, double level) {
   Value value;
   value.kind = Value::Kind::curve;
@@ -67,13 +60,13 @@ TEST(Draws, ABiasWithoutWeightChangesNothing) {
   ASSERT_GT(before.elements.size(), 5u);
   for (Value Bias::*const weight : {&Bias::gravity, &Bias::light, &Bias::away, &Bias::toward, &Bias::twist}) {
     for (const Value& none :
-         {Value(0.0), range(0.0, 0.0), curve(Over::age, 0.0), curve(Over::exposure, 0.0)}) {
+         {Value(0.0), tests::range(0.0, 0.0), curve(Over::age, 0.0), curve(Over::exposure, 0.0)}) {
       RuleSet more = plain;
       more.bias.*weight = none;
       expectSame(before, grown(more).plants[0], "a bias");
     }
     RuleSet more = plain;
-    more.bias.*weight = range(0.0, 0.5);  // this test can tell
+    more.bias.*weight = tests::range(0.0, 0.5);  // this test can tell
     EXPECT_NE(before.skeleton.position_vx, grown(more).plants[0].skeleton.position_vx);
   }
 }
@@ -193,7 +186,7 @@ TEST(Draws, ARangeOfOneQuantityMovesNoOther) {
   rules.random_tree.trials_min = 20;
   rules.random_tree.trials_max = 20;
   RuleSet longer = rules;
-  longer.random_tree.length = {range(2.0, 4.0)};
+  longer.random_tree.length = {tests::range(2.0, 4.0)};
   const auto a = firstTrials(rules), b = firstTrials(longer);
   ASSERT_EQ(a.size(), 20u);  // each trial once, the one that was taken too
   ASSERT_EQ(b.size(), 20u);

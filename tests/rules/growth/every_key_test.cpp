@@ -19,13 +19,6 @@ namespace {
 using tests::failing;
 using tests::lively;
 
-Value range(double low, double high) {
-  Value value(low);
-  value.kind = Value::Kind::range;
-  value.high = high;
-  return value;
-}
-
 std::vector<std::vector<sim::Vec3>> square() {
   return {{{-0.5, 0, 0}, {0.5, 0, 0}, {0.5, 1.5, 0}, {-0.5, 1.5, 0}}};
 }
@@ -36,7 +29,7 @@ const std::map<std::string, Datum>& otherValues() {
       {"random_tree.length", Length{3.1}},
       {"random_tree.branch_age_range", WholeRange{2, 2}},
       {"random_tree.branch_angle", Value(35.0)},
-      {"random_tree.wander", range(5.0, 60.0)},
+      {"random_tree.wander", tests::range(5.0, 60.0)},
       {"random_tree.trials.min", std::int64_t{3}},
       {"random_tree.trials.max", std::int64_t{60}},
       {"bias.up", Value(0.3)},
@@ -158,7 +151,7 @@ struct Result {
   std::size_t elements = 0;
 };
 
-Result grown(const RuleSet& book, int iterations = 7) {
+Result resultOf(const RuleSet& book, int iterations = 7) {
   sim::World world = tests::wallPlot();
   const auto growth = sim::grow(world, tests::planting(world, book, {tests::kOpenSeed, {30, 2, 23}}),
                                 tests::brightSettings(iterations));
@@ -216,10 +209,10 @@ class EveryKey : public testing::TestWithParam<std::string> {
 };
 
 TEST_P(EveryKey, ChangesWhatGrows) {
-  const Result plain = grown(book(lively()));
+  const Result plain = resultOf(book(lively()));
   ASSERT_GT(plain.segments, 15);
   ASSERT_GT(plain.elements, 10u);
-  EXPECT_EQ(plain.state, grown(book(lively())).state);
+  EXPECT_EQ(plain.state, resultOf(book(lively())).state);
   std::set<std::string> unused;
   for (const auto& [path, datum] : otherValues()) unused.insert(path);
   for (const auto& [path, why] : kWithoutEffect) unused.insert(path);
@@ -230,7 +223,7 @@ TEST_P(EveryKey, ChangesWhatGrows) {
     if (other == otherValues().end()) return;
     RuleSet changed = lively();
     ASSERT_TRUE(set(changed, path, other->second)) << path;
-    const Result result = grown(book(changed));
+    const Result result = resultOf(book(changed));
     if (path == "elements[].name") {
       EXPECT_NE(result.shapes, plain.shapes);
       EXPECT_EQ(result.state, plain.state);
@@ -246,7 +239,7 @@ TEST_P(EveryKey, ChangesWhatGrows) {
 
 TEST_P(EveryKey, OtherwiseAndRegionsTooChangeWhatGrows) {
   constexpr int kUntilSomeFail = 14;
-  const std::uint64_t plain = grown(book(lively()), kUntilSomeFail).state;
+  const std::uint64_t plain = resultOf(book(lively()), kUntilSomeFail).state;
   RuleSet backed = lively();
   backed.otherwise = shared([] {
     RuleSet rules = lively();
@@ -254,10 +247,10 @@ TEST_P(EveryKey, OtherwiseAndRegionsTooChangeWhatGrows) {
     rules.require.clear = false;
     return rules;
   }());
-  EXPECT_NE(grown(book(backed), kUntilSomeFail).state, plain);
+  EXPECT_NE(resultOf(book(backed), kUntilSomeFail).state, plain);
   RuleSet forbids = lively();
   forbids.regions["brick"] = {true, nullptr};
-  EXPECT_NE(grown(book(forbids), kUntilSomeFail).state, plain);
+  EXPECT_NE(resultOf(book(forbids), kUntilSomeFail).state, plain);
   RuleSet others = lively();
   others.regions["soil"] = {false, nullptr};
   others.others = RegionRule{false, shared([] {
@@ -265,7 +258,7 @@ TEST_P(EveryKey, OtherwiseAndRegionsTooChangeWhatGrows) {
                                rules.bias.up = 0.5;
                                return rules;
                              }())};
-  EXPECT_NE(grown(book(others), kUntilSomeFail).state, plain);
+  EXPECT_NE(resultOf(book(others), kUntilSomeFail).state, plain);
 }
 
 INSTANTIATE_TEST_SUITE_P(Place, EveryKey,
@@ -278,14 +271,14 @@ INSTANTIATE_TEST_SUITE_P(Place, EveryKey,
                          });
 
 TEST(Stem, IsThatOfTheTopSet) {
-  const Result plain = grown(lively());
+  const Result plain = resultOf(lively());
   RuleSet red = lively();
   red.stem.colour = sim::Colour(1.0f, 0.0f, 0.0f);
-  EXPECT_EQ(grown(red).state, plain.state);
-  EXPECT_NE(grown(red).colours, plain.colours);
+  EXPECT_EQ(resultOf(red).state, plain.state);
+  EXPECT_NE(resultOf(red).colours, plain.colours);
   RuleSet thick = lively();
   thick.stem.radius = {0.4};
-  EXPECT_NE(grown(thick).state, plain.state);  // it takes more light
+  EXPECT_NE(resultOf(thick).state, plain.state);  // it takes more light
 
   RuleSet top = failing(), second = lively();
   second.stem.colour = sim::Colour(1.0f, 0.0f, 0.0f);
@@ -303,7 +296,7 @@ TEST(Stem, ItsGirthIsForModelsAlone) {
   girth.stem.exponent = 3.0;
   girth.stem.thickens = {4e-4, true};
   girth.stem.thickest = {0.08, true};
-  EXPECT_EQ(grown(girth).state, grown(lively()).state);
+  EXPECT_EQ(resultOf(girth).state, resultOf(lively()).state);
   const sim::StemGirth made = makeProcess(shared(girth), 0.04)->seedling().girth;
   EXPECT_EQ(made.by, sim::StemGirth::By::age);
   EXPECT_EQ(made.exponent, 3.0);

@@ -163,7 +163,7 @@ struct Ball {
   }
 };
 
-sim::Growth grown(const Ball& ball, const std::optional<Guide>& guide) {
+sim::Growth grownOn(const Ball& ball, const std::optional<Guide>& guide) {
   sim::World world({Vec3(0.0), 0.05, {64, 64, 64}});
   world.setLayers(2);
   rules::RuleSet rules;
@@ -215,7 +215,7 @@ TEST_P(Whorls, AreTighterByMoreAngle) {
   std::vector<double> winding;
   for (const double angle : {0.0, 120.0, 360.0, 720.0}) {
     guide.angle_deg = angle;
-    const sim::Growth growth = grown(ball, guide);
+    const sim::Growth growth = grownOn(ball, guide);
     EXPECT_GT(growth.plants[0].skeleton.size(), 1000) << angle;
     winding.push_back(meanWinding(growth));
     RecordProperty("winding", std::to_string(winding.back()));
@@ -232,11 +232,11 @@ TEST_P(Whorls, AreNoneWithoutStrength) {
   guide.axis = GetParam() ? GuideAxis::attractor_normal : GuideAxis::direction;
   guide.angle_deg = 720.0;
   guide.strength = 0.0;
-  EXPECT_EQ(grown(ball, guide).plants[0].skeleton.position_vx,
-            grown(ball, std::nullopt).plants[0].skeleton.position_vx);
+  EXPECT_EQ(grownOn(ball, guide).plants[0].skeleton.position_vx,
+            grownOn(ball, std::nullopt).plants[0].skeleton.position_vx);
   guide.strength = 0.5;  // the control
-  EXPECT_NE(grown(ball, guide).plants[0].skeleton.position_vx,
-            grown(ball, std::nullopt).plants[0].skeleton.position_vx);
+  EXPECT_NE(grownOn(ball, guide).plants[0].skeleton.position_vx,
+            grownOn(ball, std::nullopt).plants[0].skeleton.position_vx);
 }
 
 INSTANTIATE_TEST_SUITE_P(Shape, Whorls, testing::Bool(), [](const auto& on) {

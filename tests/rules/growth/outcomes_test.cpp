@@ -15,7 +15,7 @@ using sim::Outcome;
 using tests::failing;
 using tests::lively;
 
-struct Result {
+struct Outcomes {
   sim::OutcomeCounts sites;
   int segments = 0;
   std::size_t alive = 0;
@@ -23,7 +23,7 @@ struct Result {
   std::uint64_t of(Outcome outcome) const { return sites[static_cast<std::size_t>(outcome)]; }
 };
 
-Result grown(const RuleSet& rules, int iterations, sim::Vec3 seed = tests::kOpenSeed) {
+Outcomes outcomesOf(const RuleSet& rules, int iterations, sim::Vec3 seed = tests::kOpenSeed) {
   sim::World world = tests::wallPlot();
   sim::Growing growing(world, tests::planting(world, rules, {seed}), tests::brightSettings(iterations));
   while (growing.step()) {
@@ -52,15 +52,15 @@ RuleSet withOtherwise(RuleSet first, RuleSet second) {
 
 TEST(Outcomes, ASetFailsWhereItIsTooDarkOrTooBrightOrNoTrialIsGood) {
   for (const RuleSet& first : {tooDark(), tooBright(), failing()}) {
-    EXPECT_EQ(grown(first, 4).segments, 0);
-    EXPECT_GT(grown(withOtherwise(first, lively()), 4).segments, 1);
-    EXPECT_GT(grown(withOtherwise(first, withOtherwise(failing(), lively())), 4).segments, 1);
+    EXPECT_EQ(outcomesOf(first, 4).segments, 0);
+    EXPECT_GT(outcomesOf(withOtherwise(first, lively()), 4).segments, 1);
+    EXPECT_GT(outcomesOf(withOtherwise(first, withOtherwise(failing(), lively())), 4).segments, 1);
   }
 }
 
 TEST(Outcomes, SayWhyASiteDidNotGrow) {
   const auto why = [](const RuleSet& rules) {
-    const Result result = grown(rules, 1);
+    const Outcomes result = outcomesOf(rules, 1);
     for (std::size_t k = 0; k < sim::kOutcomes; ++k) {
       if (result.sites[k] > 0) return static_cast<Outcome>(k);
     }
@@ -86,8 +86,8 @@ TEST(Outcomes, RestingDoesNotGoOnToOtherwise) {
   first.require = {};
   first.require.clear = false;
   first.random_tree.trials_max = 300;
-  const auto grownFar = [](const RuleSet& rules) { return grown(rules, 4, {24, 16, 27}); };
-  const Result alone = grownFar(first);
+  const auto grownFar = [](const RuleSet& rules) { return outcomesOf(rules, 4, {24, 16, 27}); };
+  const Outcomes alone = grownFar(first);
   EXPECT_GT(alone.of(Outcome::resting), 0u);
   EXPECT_EQ(alone.of(Outcome::no_trial), 0u);
   RuleSet other = lively();
@@ -99,7 +99,7 @@ TEST(Outcomes, RestingDoesNotGoOnToOtherwise) {
 TEST(Outcomes, ASecondSetMayRestInThePlaceOfTheFirst) {
   RuleSet second = lively();
   second.light.boost = 10.0;
-  const Result result = grown(withOtherwise(tooDark(), second), 5);
+  const Outcomes result = outcomesOf(withOtherwise(tooDark(), second), 5);
   EXPECT_GT(result.of(Outcome::resting), 0u);
   EXPECT_EQ(result.of(Outcome::too_dark), 0u);
   EXPECT_GT(result.alive, 0u);
@@ -117,10 +117,10 @@ TEST(Outcomes, ElementsAreThoseOfTheSetThatGrew) {
 }
 
 TEST(Outcomes, ASeedThatFoundNoWayTriesAgainAndNoOther) {
-  const Result failed = grown(failing(), 5);
+  const Outcomes failed = outcomesOf(failing(), 5);
   EXPECT_EQ(failed.of(Outcome::no_trial), 5u);
   EXPECT_EQ(failed.alive, 1u);
-  const Result dark = grown(tooDark(), 5);
+  const Outcomes dark = outcomesOf(tooDark(), 5);
   EXPECT_EQ(dark.of(Outcome::too_dark), 1u);
   EXPECT_EQ(dark.alive, 0u);
   // Buds that are no seeds retire: up along the column of light, and no farther than the roof.
@@ -132,7 +132,7 @@ TEST(Outcomes, ASeedThatFoundNoWayTriesAgainAndNoOther) {
   up.elements.clear();
   up.light.boost = 1.0;
   up.random_tree.branch_age_min = up.random_tree.branch_age_max = 100;
-  const Result ended = grown(up, 40);
+  const Outcomes ended = outcomesOf(up, 40);
   EXPECT_EQ(ended.of(Outcome::no_trial), 1u);
   EXPECT_EQ(ended.segments, 18);  // of 2.4 in 45.5 voxel widths
 }

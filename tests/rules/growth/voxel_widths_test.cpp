@@ -11,17 +11,10 @@ namespace {
 
 constexpr double kVoxel = 0.02;
 
-Value range(double low, double high) {
-  Value value(low);
-  value.kind = Value::Kind::range;
-  value.high = high;
-  return value;
-}
-
 RuleSet inMetres() {
   RuleSet rules;
   rules.name = "metric";
-  rules.random_tree.length = {range(0.04, 0.06), true};
+  rules.random_tree.length = {tests::range(0.04, 0.06), true};
   rules.bias.twist_radius = {0.3, true};
   rules.require.proximity_min = {0.01, true};
   rules.require.proximity_max = {0.08, true};
@@ -40,13 +33,13 @@ RuleSet inMetres() {
   return rules;
 }
 
-std::shared_ptr<RuleSet> shared(const RuleSet& rules) {
+std::shared_ptr<RuleSet> sharedCopy(const RuleSet& rules) {
   return std::make_shared<RuleSet>(rules);
 }
 
 std::string complaint(const RuleSet& rules, double voxel_m = kVoxel) {
   try {
-    inVoxelWidths(shared(rules), voxel_m);
+    inVoxelWidths(sharedCopy(rules), voxel_m);
   } catch (const sim::InputError& error) {
     return error.what();
   }
@@ -54,8 +47,8 @@ std::string complaint(const RuleSet& rules, double voxel_m = kVoxel) {
 }
 
 TEST(VoxelWidths, DividesEveryLengthByTheVoxel) {
-  const auto rules = inVoxelWidths(shared(inMetres()), kVoxel);
-  EXPECT_EQ(rules->random_tree.length, (Length{range(2.0, 3.0)}));
+  const auto rules = inVoxelWidths(sharedCopy(inMetres()), kVoxel);
+  EXPECT_EQ(rules->random_tree.length, (Length{tests::range(2.0, 3.0)}));
   EXPECT_EQ(rules->bias.twist_radius, Distance{15.0});
   EXPECT_EQ(rules->require.proximity_min, Distance{0.5});
   EXPECT_EQ(rules->require.proximity_max, Distance{4.0});
@@ -71,7 +64,7 @@ TEST(VoxelWidths, DividesEveryLengthByTheVoxel) {
 TEST(VoxelWidths, LeavesPlainNumbersAsTheyAre) {
   const RuleSet plain = tests::lively();
   for (const double voxel_m : {0.01, 0.3}) {
-    const auto rules = inVoxelWidths(shared(plain), voxel_m);
+    const auto rules = inVoxelWidths(sharedCopy(plain), voxel_m);
     EXPECT_EQ(rules->random_tree.length, plain.random_tree.length);
     EXPECT_EQ(rules->require.proximity_max, plain.require.proximity_max);
     EXPECT_EQ(rules->bias.twist_radius, plain.bias.twist_radius);
@@ -81,12 +74,12 @@ TEST(VoxelWidths, LeavesPlainNumbersAsTheyAre) {
 }
 
 TEST(VoxelWidths, GoesWhereverTheBookLeadsAndASharedSetStaysOne) {
-  const auto brick = shared(inMetres());
-  const auto top = shared(inMetres());
+  const auto brick = sharedCopy(inMetres());
+  const auto top = sharedCopy(inMetres());
   top->regions["brick"] = top->regions["stone"] = {false, brick};
   top->regions["soil"] = {true, nullptr};
   top->others = RegionRule{false, brick};
-  top->otherwise = shared(inMetres());
+  top->otherwise = sharedCopy(inMetres());
   const auto rules = inVoxelWidths(top, kVoxel);
   EXPECT_EQ(rules->regions.at("brick").rules, rules->regions.at("stone").rules);
   EXPECT_EQ(rules->regions.at("brick").rules, rules->others->rules);
@@ -132,7 +125,7 @@ TEST(VoxelWidths, RefusesWhatSuchVoxelsCannotHold) {
             "rule set 'metric': elements[1] has a corner 2e+05 voxel widths away at a voxel of 0.02 m; "
             "expected at most 100000");
   RuleSet top;
-  top.otherwise = shared(crossed);
+  top.otherwise = sharedCopy(crossed);
   EXPECT_EQ(complaint(top).find("rule set 'metric', otherwise: require.proximity.min is "), 0u);
 }
 
@@ -182,7 +175,7 @@ TEST(LayersNeeded, AreTheFarthestThatIsAskedAndOneMore) {
   rules.require.proximity_max = {501.0};
   EXPECT_EQ(layers(rules), 9) << "as far as that no voxel is from another";
   RuleSet top;
-  top.others = RegionRule{false, shared(rules)};
+  top.others = RegionRule{false, sharedCopy(rules)};
   EXPECT_EQ(layers(top), 9);
   EXPECT_EQ(layersNeeded(top, kVoxel, 500.0).asked_by,
             "rule set 'unnamed', regions.others: require.proximity.min is 8 voxel widths");
@@ -219,7 +212,7 @@ TEST(VoxelWidths, ElementsOfASegmentAreBoundedBeforeAnyIsTiled) {
   EXPECT_NE(complaint(many), "") << "together";
   RuleSet hidden;
   hidden.name = "top";
-  hidden.otherwise = shared(squares(2000, 1, 1.0));
+  hidden.otherwise = sharedCopy(squares(2000, 1, 1.0));
   EXPECT_EQ(complaint(hidden).find("rule set 'square', otherwise: elements may take"), 0u);
 }
 
@@ -237,7 +230,7 @@ TEST(VoxelWidths, AnElementThatHasNoRoomInTheWorldIsRefused) {
   RuleSet in_the_dark = squares(250, 1, 0.5);  // half as long in full light
   EXPECT_NO_THROW(requireElementsFit(in_the_dark, frame));
   RuleSet hidden;
-  hidden.otherwise = shared(squares(131, 1, 1.0));
+  hidden.otherwise = sharedCopy(squares(131, 1, 1.0));
   EXPECT_THROW(requireElementsFit(hidden, frame), sim::InputError);
 }
 

@@ -5,6 +5,7 @@
 #include <random>
 
 #include "sim/sweep/lanes.h"
+#include "tests/support/lively.h"
 #include "tests/support/plain_trials.h"
 #include "tests/support/plots.h"
 
@@ -12,13 +13,6 @@
 /// processor has.
 namespace espalier::rules {
 namespace {
-
-Value range(double low, double high) {
-  Value value(low);
-  value.kind = Value::Kind::range;
-  value.high = high;
-  return value;
-}
 
 sim::Vec3 anyUnit(std::mt19937& random) {
   const auto number = [&] { return static_cast<double>(random()) / 2147483648.0 - 1.0; };
@@ -35,7 +29,7 @@ RuleSet anyRules(std::mt19937& random) {
       case 1:
         return Value(high);
       default:
-        return range(low, high);
+        return tests::range(low, high);
     }
   };
   RuleSet rules;

@@ -14,9 +14,9 @@ namespace espalier::scenes {
 namespace {
 
 using nlohmann::json;
-using testing::glb;
-using testing::gltfBuffer;
-using testing::gltfDocument;
+using tests::glb;
+using tests::gltfBuffer;
+using tests::gltfDocument;
 
 struct Mutation {
   const char* name;
@@ -206,7 +206,7 @@ const std::vector<Mutation>& mutations() {
   return all;
 }
 
-class GltfCheck : public testing::MeshFiles {
+class GltfCheck : public tests::MeshFiles {
  protected:
   static std::string problemOf(const std::filesystem::path& file) {
     ChildLimits little;
@@ -340,7 +340,7 @@ TEST_F(GltfCheck, LengthsInTheHeadersOfAGlb) {
 TEST_F(GltfCheck, WhatIsSoundIsRead) {
   json document = gltfDocument();
   std::string buffer = gltfBuffer();
-  for (const float c : {0.f, 0.f, 5.f}) testing::append(buffer, c);
+  for (const float c : {0.f, 0.f, 5.f}) tests::append(buffer, c);
   document["buffers"][0] = {{"byteLength", buffer.size()}, {"uri", "my%20data.bin"}};
   write("my data.bin", buffer + "more");
   document["bufferViews"].push_back({{"buffer", 0}, {"byteOffset", 44}, {"byteLength", 12}});

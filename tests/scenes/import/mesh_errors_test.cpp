@@ -11,17 +11,17 @@
 namespace espalier::scenes {
 namespace {
 
-using testing::binarySquarePly;
-using testing::binaryStl;
-using testing::glb;
-using testing::gltfBuffer;
-using testing::gltfDocument;
-using testing::kSquareObj;
-using testing::kSquarePly;
+using tests::binarySquarePly;
+using tests::binaryStl;
+using tests::glb;
+using tests::gltfBuffer;
+using tests::gltfDocument;
+using tests::kSquareObj;
+using tests::kSquarePly;
 
 constexpr char kTriangle[] = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
 
-class MeshErrors : public testing::MeshFiles {
+class MeshErrors : public tests::MeshFiles {
  protected:
   static void expectRefused(const std::filesystem::path& file, const std::string& because) {
     try {

@@ -12,13 +12,13 @@
 #include <vector>
 
 /// Small mesh files for the tests of mesh import.
-namespace espalier::scenes::testing {
+namespace espalier::tests {
 
 /// A folder of its own for each test, gone afterwards.
-class MeshFiles : public ::testing::Test {
+class MeshFiles : public testing::Test {
  protected:
   MeshFiles() {
-    const auto* test = ::testing::UnitTest::GetInstance()->current_test_info();
+    const auto* test = testing::UnitTest::GetInstance()->current_test_info();
     folder_ =
         std::filesystem::temp_directory_path() / (std::string("espalier-") + test->test_suite_name() + "-" +
                                                   test->name() + "-" + std::to_string(::getpid()));
@@ -155,4 +155,4 @@ inline std::string glb(const nlohmann::json& document, const std::string& buffer
   return bytes;
 }
 
-}  // namespace espalier::scenes::testing
+}  // namespace espalier::tests

@@ -12,16 +12,16 @@
 namespace espalier::scenes {
 namespace {
 
-using testing::binarySquarePly;
-using testing::binaryStl;
-using testing::glb;
-using testing::gltfBuffer;
-using testing::gltfDocument;
-using testing::kPaintMtl;
-using testing::kSquareObj;
-using testing::kSquarePly;
+using tests::binarySquarePly;
+using tests::binaryStl;
+using tests::glb;
+using tests::gltfBuffer;
+using tests::gltfDocument;
+using tests::kPaintMtl;
+using tests::kSquareObj;
+using tests::kSquarePly;
 using Names = std::vector<std::string>;
-class MeshImport : public testing::MeshFiles {};
+class MeshImport : public tests::MeshFiles {};
 
 double areaOf(const sim::Mesh& mesh) {
   double area = 0;

@@ -9,12 +9,12 @@
 namespace espalier::scenes {
 namespace {
 
-using testing::kPaintMtl;
-using testing::kSquareObj;
+using tests::kPaintMtl;
+using tests::kSquareObj;
 
 const sim::Colour kGrey(0.318547f);  // what sRGB 0.6 means as light
 
-class ObjMaterials : public testing::MeshFiles {
+class ObjMaterials : public tests::MeshFiles {
  protected:
   struct Read {
     sim::Mesh mesh;

@@ -16,7 +16,7 @@ std::string problemIn(const std::string& obj) {
   return "none";
 }
 
-constexpr const char* kTriangle = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
+constexpr const char* kCorners = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
 
 TEST(ObjText, KeepsShapesAndKnowsWhatTheyBelongTo) {
   const ObjText obj = takeApart(
@@ -63,7 +63,7 @@ TEST(ObjText, ReadsWhatOtherProgramsWrite) {
 }
 
 TEST(ObjText, SaysWhichLineIsWrong) {
-  const std::string triangle = kTriangle;
+  const std::string triangle = kCorners;
   EXPECT_EQ(problemIn("v 0 0\n"), "line 1: a vertex has 2 numbers; expected three: x, y and z");
   EXPECT_EQ(problemIn("v 0 0 zero\n"), "line 1: 'zero' is not a finite number");
   for (const std::string word :

@@ -15,7 +15,7 @@ using Names = std::vector<std::string>;
 namespace fs = std::filesystem;
 const fs::path kMeshes = fs::path(ESPALIER_SOURCE_DIR) / "scenes/meshes";
 
-class OwnMeshes : public testing::MeshFiles {};
+class OwnMeshes : public tests::MeshFiles {};
 
 TEST_F(OwnMeshes, HaveTheRegionsThatScenesName) {
   const auto courtyard = importMesh(kMeshes / "courtyard.obj", RegionsFrom::group);
@@ -64,7 +64,7 @@ TEST_F(OwnMeshes, AreWhatTheirScriptMakes) {
        {"courtyard", "column", "maze_walls", "street", "lean_to", "sphere", "wren", "lawn", "cut_earth"}) {
     for (const char* ending : {".obj", ".mtl"}) {
       const auto made = folder_ / (std::string(name) + ending);
-      EXPECT_TRUE(testing::readAll(made) == testing::readAll(kMeshes / made.filename())) << made.filename();
+      EXPECT_TRUE(tests::readAll(made) == tests::readAll(kMeshes / made.filename())) << made.filename();
     }
   }
 }

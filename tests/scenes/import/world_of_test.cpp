@@ -7,7 +7,7 @@
 namespace espalier::scenes {
 namespace {
 
-class WorldOf : public testing::MeshFiles {};
+class WorldOf : public tests::MeshFiles {};
 
 constexpr const char* kWall = "v 0 0 0\nv 2 0 0\nv 2 1 0\nv 0 1 0\n";
 

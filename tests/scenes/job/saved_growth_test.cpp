@@ -18,7 +18,7 @@
 namespace espalier::scenes {
 namespace {
 
-constexpr const char* kScene = R"(espalier: scene
+constexpr const char* kPlot = R"(espalier: scene
 world: {voxel: 10 cm, bounds: {min: [0, 0, 0], max: [2, 2, 2]}}
 sky: {directions: 16}
 plants:
@@ -29,7 +29,7 @@ iterations: 8
 class KeptMemory : public testing::Test {
  protected:
   void SetUp() override {
-    auto read = readScene(scratch_.write("scene.yaml", kScene));
+    auto read = readScene(scratch_.write("scene.yaml", kPlot));
     ASSERT_TRUE(read);
     scene_ = *read;
     options_.folder = scratch_.path("out");
@@ -89,7 +89,7 @@ TEST_F(KeptMemory, ThatIsNoneIsADamagedState) {
 /// What a run says that goes on from half of another.
 std::string goesOnWith(const tests::Scratch& scratch, const std::string& first, const std::string& second) {
   const std::string half =
-      std::string(kScene).replace(std::string(kScene).find("iterations: 8"), 13, "iterations: 4");
+      std::string(kPlot).replace(std::string(kPlot).find("iterations: 8"), 13, "iterations: 4");
   RunOptions options;
   options.folder = scratch.path("out");
   options.pictures = false;
@@ -101,7 +101,7 @@ std::string goesOnWith(const tests::Scratch& scratch, const std::string& first, 
   runScene(read(half + first), options);
   scratch.write("points.csv", "1,1.5,1\n0.5,1,1\n");
   try {
-    runScene(read(kScene + second), options, {.resume = true});
+    runScene(read(kPlot + second), options, {.resume = true});
   } catch (const sim::InputError& error) {
     return error.what();
   }
@@ -192,7 +192,7 @@ class KeptFields : public testing::Test {
                                                                       [=](sim::Vec3) { return vector; })});
   }
   Report run(int iterations, const char* folder, bool resume = false) {
-    std::string text = std::string(kScene) + kTree;
+    std::string text = std::string(kPlot) + kTree;
     const std::string walk = "rules: {random_tree: {trials: {min: 2, max: 9}}}";
     text.replace(text.find(walk), walk.size(), kTreeRules);
     text.replace(text.find("iterations: 8"), 13, "iterations: " + std::to_string(iterations));

@@ -7,21 +7,18 @@
 #include "scenes/prepare/plantings.h"
 #include "scenes/read/read_scene.h"
 #include "sim/base/error.h"
+#include "tests/support/meshes.h"
 #include "tests/support/messages.h"
 #include "tests/support/scratch.h"
 
 namespace espalier::scenes {
 namespace {
 
-constexpr const char* kCube =
-    "v -1 0 -1\nv 1 0 -1\nv 1 0 1\nv -1 0 1\nv -1 2 -1\nv 1 2 -1\nv 1 2 1\nv -1 2 1\n"
-    "f 1 2 3 4\nf 5 8 7 6\nf 1 5 6 2\nf 2 6 7 3\nf 3 7 8 4\nf 4 8 5 1\n";
-
 class Attractors : public testing::Test {
  protected:
   /// Of a world from -4 to 4 and 0 to 8 high, in voxels of 10 cm, in whose middle a cube of 2 m stands.
   std::vector<NamedPoints> made(const std::string& attractors, const std::string& meshes = kStands) {
-    scratch_.write("cube.obj", kCube);
+    scratch_.write("cube.obj", tests::kCubeObj);
     scratch_.write("sheet.obj", "v 0 0 0\nv 1 0 0\nv 1 0 1\nf 1 2 3\n");
     const auto path = scratch_.write(
         "scene.yaml", "espalier: scene\nworld: {voxel: 10 cm, bounds: {min: [-4, 0, -4], max: [4, 8, 4]}}\n" +
@@ -122,7 +119,7 @@ TEST_F(Attractors, InAShape) {
 }
 
 TEST_F(Attractors, InAMeshThatLeaksSaySo) {
-  std::string open = kCube;
+  std::string open = tests::kCubeObj;
   open = open.substr(0, open.find("f 5")) + open.substr(open.find("f 1 5"));  // without its lid
   scratch_.write("open.obj", open);
   made("{inside: open, count: 50}", "meshes: [{file: open.obj, tiled: false}]\n");

@@ -9,6 +9,7 @@
 #include "scenes/read/read_scene.h"
 #include "sim/base/error.h"
 #include "sim/grow/grow.h"
+#include "tests/support/meshes.h"
 #include "tests/support/messages.h"
 #include "tests/support/scratch.h"
 #include "tests/support/volumes.h"
@@ -18,14 +19,10 @@ namespace {
 
 using sim::Vec3;
 
-constexpr const char* kCube =
-    "v -1 0 -1\nv 1 0 -1\nv 1 0 1\nv -1 0 1\nv -1 2 -1\nv 1 2 -1\nv 1 2 1\nv -1 2 1\n"
-    "f 1 2 3 4\nf 5 8 7 6\nf 1 5 6 2\nf 2 6 7 3\nf 3 7 8 4\nf 4 8 5 1\n";
-
 class Fields : public testing::Test {
  protected:
   Fields() {
-    scratch_.write("cube.obj", kCube);
+    scratch_.write("cube.obj", tests::kCubeObj);
     scratch_.write("sheet.obj", "v 0 0 0\nv 1 0 0\nv 1 0 1\nf 1 2 3\n");
     tests::writeVolume(scratch_.path("up.vdb"),
                        {tests::vectorGrid("up", 0.5, {-12, -2, -12}, {25, 25, 25},
@@ -143,7 +140,7 @@ TEST_F(Fields, AskForAMeshThatHasAnInside) {
   EXPECT_EQ(refusal("{within: sheet}"),
             "scene.yaml:5:26: fields 'whorl': mesh 'sheet': is a sheet, which has no inside; expected a mesh "
             "that holds something");
-  std::string open = kCube;
+  std::string open = tests::kCubeObj;
   open = open.substr(0, open.find("f 5")) + open.substr(open.find("f 1 5"));  // without its lid
   scratch_.write("cube.obj", open);
   const Site& site = made("{within: cube}");

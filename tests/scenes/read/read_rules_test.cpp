@@ -13,19 +13,19 @@ using rules::RuleSet;
 using rules::Value;
 using tests::Scratch;
 
-std::shared_ptr<const RuleSet> good(const std::filesystem::path& path) {
+std::shared_ptr<const RuleSet> goodRules(const std::filesystem::path& path) {
   const auto result = readRules(path);
   EXPECT_TRUE(result) << format(result.problems());
   return result ? *result : std::make_shared<const RuleSet>();
 }
 
-std::shared_ptr<const RuleSet> goodText(const std::string& text) {
+std::shared_ptr<const RuleSet> goodRulesText(const std::string& text) {
   const Scratch scratch;
-  return good(scratch.write("r.yaml", "espalier: rules\n" + text));
+  return goodRules(scratch.write("r.yaml", "espalier: rules\n" + text));
 }
 
 TEST(ReadRules, ReadsFigure4) {
-  const auto vine = good(tests::sourceFolder() / "rules/library/courtyard_vine.yaml");
+  const auto vine = goodRules(tests::sourceFolder() / "rules/library/courtyard_vine.yaml");
   EXPECT_EQ(vine->name, "courtyard vine");
   EXPECT_EQ(vine->random_tree.length, rules::Length{2.4});
   EXPECT_EQ(vine->random_tree.branch_age_min, 1);
@@ -57,7 +57,7 @@ TEST(ReadRules, ReadsFigure4) {
 }
 
 TEST(ReadRules, LeavesDefaultsWhereAFileIsSilent) {
-  const auto rules = goodText("");
+  const auto rules = goodRulesText("");
   const RuleSet plain;
   EXPECT_EQ(rules->random_tree.length, plain.random_tree.length);
   EXPECT_EQ(rules->require.proximity_max, plain.require.proximity_max);
@@ -65,7 +65,7 @@ TEST(ReadRules, LeavesDefaultsWhereAFileIsSilent) {
 }
 
 TEST(ReadRules, ReadsConstantsRangesAndCurves) {
-  const auto rules = goodText(
+  const auto rules = goodRulesText(
       "bias:\n  up: [0.1, 0.3]\n  light: {over: exposure, points: [[0, 0.5], [1, 0]]}\n  gravity: {points: "
       "[[-1, 0], [2, 1]], over: height}\n");
   EXPECT_EQ(rules->bias.up.kind, Value::Kind::range);
@@ -79,7 +79,7 @@ TEST(ReadRules, ReadsConstantsRangesAndCurves) {
 
 TEST(ReadRules, KeepsLengthsInTheUnitInWhichTheyAreWritten) {
   const auto length = [](const std::string& text) {
-    return goodText(fmt::format("random_tree: {{length: {}}}", text))->random_tree.length;
+    return goodRulesText(fmt::format("random_tree: {{length: {}}}", text))->random_tree.length;
   };
   EXPECT_EQ(length("3"), rules::Length{3});
   EXPECT_EQ(length("3 vx"), rules::Length{3});
@@ -94,7 +94,7 @@ TEST(ReadRules, KeepsLengthsInTheUnitInWhichTheyAreWritten) {
 }
 
 TEST(ReadRules, ReadsEveryDistanceWithAUnitOrWithout) {
-  const auto rules = goodText(
+  const auto rules = goodRulesText(
       "bias: {twist: {amount: 0.1, radius: 30 cm}}\n"
       "require: {proximity: {min: 5 mm, max: \"0.12 m\"}}\nprefer: {proximity: 2 vx}\nstem: {radius: 1.5 "
       "mm}\n");
@@ -104,13 +104,14 @@ TEST(ReadRules, ReadsEveryDistanceWithAUnitOrWithout) {
   EXPECT_EQ(rules->prefer.proximity, rules::Distance{2.0});
   EXPECT_EQ(rules->stem.radius, (rules::Distance{0.0015, true}));
   // Which is the greater only the voxel size will tell.
-  EXPECT_EQ(goodText("require: {proximity: {min: 3, max: 2 cm}}")->require.proximity_min,
+  EXPECT_EQ(goodRulesText("require: {proximity: {min: 3, max: 2 cm}}")->require.proximity_min,
             rules::Distance{3.0});
 }
 
 TEST(ReadRules, ReadsSizesAndPolygonsWithAUnitOrWithout) {
   const auto element = [](const std::string& size, const std::string& corners) {
-    return goodText(fmt::format("elements: [{{size: {}, polygons: [[{}]]}}]", size, corners))->elements[0];
+    return goodRulesText(fmt::format("elements: [{{size: {}, polygons: [[{}]]}}]", size, corners))
+        ->elements[0];
   };
   const auto plain = element("0.5", "[0, 0, 0], [1, 0, 0], [0, 1, 0]");
   EXPECT_FALSE(plain.size_metres || plain.polygons_metres);
@@ -128,34 +129,34 @@ TEST(ReadRules, ReadsSizesAndPolygonsWithAUnitOrWithout) {
 }
 
 TEST(ReadRules, TakesANumberForATwistsAmount) {
-  EXPECT_EQ(goodText("bias: {twist: 0.3}")->bias.twist, Value(0.3));
-  EXPECT_EQ(goodText("bias: {twist: [0.1, 0.2]}")->bias.twist.kind, Value::Kind::range);
-  EXPECT_EQ(goodText("bias: {twist: {over: age, points: [[0, 0], [9, 1]]}}")->bias.twist.kind,
+  EXPECT_EQ(goodRulesText("bias: {twist: 0.3}")->bias.twist, Value(0.3));
+  EXPECT_EQ(goodRulesText("bias: {twist: [0.1, 0.2]}")->bias.twist.kind, Value::Kind::range);
+  EXPECT_EQ(goodRulesText("bias: {twist: {over: age, points: [[0, 0], [9, 1]]}}")->bias.twist.kind,
             Value::Kind::curve);
-  const auto both = goodText("bias: {twist: {amount: 0.3, radius: 5}}");
+  const auto both = goodRulesText("bias: {twist: {amount: 0.3, radius: 5}}");
   EXPECT_EQ(both->bias.twist, Value(0.3));
   EXPECT_EQ(both->bias.twist_radius, rules::Distance{5.0});
 }
 
 TEST(ReadRules, TakesANumberForTheAmountOfTheBiasToLight) {
-  const auto plain = goodText("bias: {light: 0.3}")->bias;
+  const auto plain = goodRulesText("bias: {light: 0.3}")->bias;
   EXPECT_EQ(plain.light, Value(0.3));
   EXPECT_EQ(plain.brightest, rules::Brightest::moment);
-  const auto both = goodText("bias: {light: {amount: 0.2, brightest: table}}")->bias;
+  const auto both = goodRulesText("bias: {light: {amount: 0.2, brightest: table}}")->bias;
   EXPECT_EQ(both.light, Value(0.2));
   EXPECT_EQ(both.brightest, rules::Brightest::table);
 }
 
 TEST(ReadRules, TakesOneNumberForARangeOfAges) {
-  const auto rules = goodText("random_tree: {branch_age_range: 4}");
+  const auto rules = goodRulesText("random_tree: {branch_age_range: 4}");
   EXPECT_EQ(rules->random_tree.branch_age_min, 4);
   EXPECT_EQ(rules->random_tree.branch_age_max, 4);
 }
 
 TEST(ReadRules, ReadsColoursAsSrgb) {
-  const auto grey = goodText("stem: {colour: [0.5, 0.5, 0.5]}")->stem.colour;
+  const auto grey = goodRulesText("stem: {colour: [0.5, 0.5, 0.5]}")->stem.colour;
   EXPECT_NEAR(grey.r, 0.21404f, 1e-4f);
-  EXPECT_EQ(rules::hexFromLinear(goodText("stem: {colour: '#A05F46'}")->stem.colour), "#a05f46");
+  EXPECT_EQ(rules::hexFromLinear(goodRulesText("stem: {colour: '#A05F46'}")->stem.colour), "#a05f46");
 }
 
 TEST(ReadRules, BuildsOnABase) {
@@ -166,7 +167,7 @@ TEST(ReadRules, BuildsOnABase) {
   scratch.write("near.yaml",
                 "espalier: rules\nbase: sub/far.yaml\nbias: {up: 0.2}\nelements:\n  - {polygons: "
                 "[[[0,0,0],[1,0,0],[0,1,0]]]}\n");
-  const auto rules = good(scratch.write(
+  const auto rules = goodRules(scratch.write(
       "r.yaml", "espalier: rules\nbase: near.yaml\nbias: {twist: 0.9}\nrequire: {clear: false}\n"));
   EXPECT_EQ(rules->random_tree.length, rules::Length{5});
   EXPECT_EQ(rules->bias.up, Value(0.2));
@@ -174,14 +175,15 @@ TEST(ReadRules, BuildsOnABase) {
   EXPECT_EQ(rules->bias.twist_radius, rules::Distance{3.0});
   EXPECT_FALSE(rules->require.clear);
   EXPECT_EQ(rules->elements.size(), 1u);
-  const auto fewer = good(scratch.write("fewer.yaml", "espalier: rules\nbase: near.yaml\nelements: []\n"));
+  const auto fewer =
+      goodRules(scratch.write("fewer.yaml", "espalier: rules\nbase: near.yaml\nelements: []\n"));
   EXPECT_TRUE(fewer->elements.empty());
 }
 
 TEST(ReadRules, ReadsRegionsInEveryForm) {
   const Scratch scratch;
   scratch.write("ivy.yaml", "espalier: rules\nname: ivy\n");
-  const auto rules = good(scratch.write(
+  const auto rules = goodRules(scratch.write(
       "r.yaml",
       "espalier: rules\nname: vine\nbias: {up: 0.4, light: 0.3}\nregions:\n  paving: forbid\n  wall: "
       "ivy.yaml\n"
@@ -199,31 +201,31 @@ TEST(ReadRules, ReadsRegionsInEveryForm) {
 }
 
 TEST(ReadRules, ReadsWhatHoldsInTheOtherRegions) {
-  EXPECT_FALSE(goodText("regions: {wall: forbid}")->others);
-  const auto forbidden = goodText("regions: {wall: {}, others: forbid}");
+  EXPECT_FALSE(goodRulesText("regions: {wall: forbid}")->others);
+  const auto forbidden = goodRulesText("regions: {wall: {}, others: forbid}");
   ASSERT_TRUE(forbidden->others);
   EXPECT_TRUE(forbidden->others->forbidden);
   EXPECT_EQ(forbidden->regions.size(), 1u) << "others is no region";
-  const auto keys = goodText("bias: {up: 0.4, light: 0.3}\nregions: {others: {bias: {up: 0.1}}}\n");
+  const auto keys = goodRulesText("bias: {up: 0.4, light: 0.3}\nregions: {others: {bias: {up: 0.1}}}\n");
   EXPECT_EQ(keys->others->rules->bias.up, Value(0.1));
   EXPECT_EQ(keys->others->rules->bias.light, Value(0.3));
   EXPECT_FALSE(keys->others->rules->others) << "a region's own rule set has no regions but its own";
   const Scratch scratch;
   scratch.write("ivy.yaml", "espalier: rules\nname: ivy\n");
-  EXPECT_EQ(
-      good(scratch.write("f.yaml", "espalier: rules\nregions: {others: ivy.yaml}\n"))->others->rules->name,
-      "ivy");
+  EXPECT_EQ(goodRules(scratch.write("f.yaml", "espalier: rules\nregions: {others: ivy.yaml}\n"))
+                ->others->rules->name,
+            "ivy");
 }
 
 TEST(ReadRules, ReplacesTheOthersOfABaseAndKeepsItsRegions) {
   const Scratch scratch;
   scratch.write("base.yaml", "espalier: rules\nregions: {wall: {}, others: forbid}\n");
   const auto silent =
-      good(scratch.write("a.yaml", "espalier: rules\nbase: base.yaml\nregions: {roof: forbid}\n"));
+      goodRules(scratch.write("a.yaml", "espalier: rules\nbase: base.yaml\nregions: {roof: forbid}\n"));
   EXPECT_TRUE(silent->others->forbidden);
   EXPECT_EQ(silent->regions.size(), 2u);
-  const auto rules =
-      good(scratch.write("b.yaml", "espalier: rules\nbase: base.yaml\nregions: {others: {bias: {up: 1}}}\n"));
+  const auto rules = goodRules(
+      scratch.write("b.yaml", "espalier: rules\nbase: base.yaml\nregions: {others: {bias: {up: 1}}}\n"));
   EXPECT_FALSE(rules->others->forbidden);
   EXPECT_EQ(rules->others->rules->bias.up, Value(1));
   EXPECT_TRUE(rules->regions.contains("wall"));
@@ -233,7 +235,7 @@ TEST(ReadRules, BuildsTheRegionsOfABaseFromTheNewValues) {
   const Scratch scratch;
   scratch.write("base.yaml",
                 "espalier: rules\nbias: {light: 0.1}\nregions: {wall: {bias: {up: 0.5}}, paving: forbid}\n");
-  const auto rules = good(scratch.write(
+  const auto rules = goodRules(scratch.write(
       "r.yaml",
       "espalier: rules\nbase: base.yaml\nbias: {light: 0.7}\nregions: {paving: {bias: {up: 1}}}\n"));
   EXPECT_EQ(rules->regions.at("wall").rules->bias.light, Value(0.7));
@@ -244,9 +246,10 @@ TEST(ReadRules, BuildsTheRegionsOfABaseFromTheNewValues) {
 TEST(ReadRules, ReadsWhatToTryOtherwise) {
   const Scratch scratch;
   scratch.write("second.yaml", "espalier: rules\nname: second\n");
-  EXPECT_EQ(good(scratch.write("file.yaml", "espalier: rules\notherwise: second.yaml\n"))->otherwise->name,
-            "second");
-  const auto chain = good(scratch.write(
+  EXPECT_EQ(
+      goodRules(scratch.write("file.yaml", "espalier: rules\notherwise: second.yaml\n"))->otherwise->name,
+      "second");
+  const auto chain = goodRules(scratch.write(
       "r.yaml",
       "espalier: rules\nbias: {up: 0.4}\nrequire: {proximity: {max: 2}}\nregions: {wall: {bias: {up: 0.9}}}\n"
       "otherwise:\n  require: {proximity: {max: 4}}\n  otherwise: {require: {clear: false}}\n"));

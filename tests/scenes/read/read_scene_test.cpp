@@ -11,7 +11,7 @@ namespace {
 
 using tests::Scratch;
 
-Scene good(const std::filesystem::path& path) {
+Scene goodScene(const std::filesystem::path& path) {
   auto result = readScene(path);
   EXPECT_TRUE(result) << format(result.problems());
   return result ? *result : Scene{};
@@ -19,7 +19,7 @@ Scene good(const std::filesystem::path& path) {
 
 TEST(ReadScene, ReadsTheCourtyard) {
   const auto file = tests::sourceFolder() / "scenes/library/courtyard.yaml";
-  const auto scene = good(file);
+  const auto scene = goodScene(file);
   EXPECT_EQ(scene.name, "courtyard");
   EXPECT_EQ(scene.file, file);
   ASSERT_EQ(scene.meshes.size(), 1u);
@@ -46,7 +46,7 @@ TEST(ReadScene, ReadsEveryPart) {
   const Scratch scratch;
   scratch.write("meshes/wall.obj", "");
   scratch.write("rules/vine.yaml", "espalier: rules\nname: the vine\n");
-  const auto scene = good(scratch.write("scenes/s.yaml", R"(espalier: scene/1
+  const auto scene = goodScene(scratch.write("scenes/s.yaml", R"(espalier: scene/1
 meshes:
   - ../meshes/wall.obj
   - {file: missing.glb, optional: true, name: ruin, regions: material, solid: true, scale: 0.01, rotate: [0, 90, 0],
@@ -119,7 +119,7 @@ TEST(ReadScene, ReadsARealSunAndARandomSky) {
   using namespace std::chrono_literals;
   const Scratch scratch;
   const auto read = [&](const std::string& sun) {
-    return good(
+    return goodScene(
         scratch.write("s.yaml",
                       "espalier: scene\nworld: {voxel: 1 cm, bounds: {min: [0, 0, 0], max: [1, 1, 1]}}\n"
                       "sky: {weighting: cie_overcast, sampling: random, rays: 50}\n"
@@ -149,7 +149,7 @@ TEST(ReadScene, ReadsARealSunAndARandomSky) {
 
 TEST(ReadScene, NeedsNoMeshWhereBoundsAreGiven) {
   const Scratch scratch;
-  const auto scene = good(scratch.write(
+  const auto scene = goodScene(scratch.write(
       "s.yaml", "espalier: scene\nworld: {voxel: 1 cm, bounds: {min: [0, 0, 0], max: [1, 1, 1]}}\n"));
   EXPECT_TRUE(scene.meshes.empty());
 }
@@ -196,7 +196,7 @@ TEST(ReadScene, RemembersEveryFileThatItReadWithTheHashOfItsBytes) {
   scratch.write("garden/plants/brick.yaml", "espalier: rules\nbase: ../base.yaml\n");
   scratch.write("shared.yaml", "espalier: rules\n");
   const std::string seeds = "seeds: [[0.5, 0.5, 0.5]]}\n";
-  const auto scene = good(scratch.write(
+  const auto scene = goodScene(scratch.write(
       "garden/s.yaml",
       "espalier: scene\nworld: {voxel: 0.1, bounds: {min: [0, 0, 0], max: [1, 1, 1]}}\nplants:\n"
       "  - {name: a, rules: plants/ivy.yaml, " +

@@ -123,7 +123,7 @@ TEST(Growing, ACopiedWorldGrowsTheSame) {
   const auto a = sim::grow(copy, plantings(copy.frame()), settings());
   const auto b = sim::grow(fresh, plantings(fresh.frame()), settings());
   EXPECT_EQ(sim::stateHash(copy, a), sim::stateHash(fresh, b));
-  EXPECT_NE(sim::stateHash(site, a), sim::stateHash(fresh, b));  // and not without the world
+  EXPECT_NE(sim::stateHash(site, a), sim::stateHash(fresh, b));              // and not without the world
   EXPECT_EQ(site.occupied().words(), tests::wallPlot().occupied().words());  // and the first is as it was
   const sim::World grown = copy;
   EXPECT_EQ(grown.occupied().words(), copy.occupied().words());

@@ -20,12 +20,12 @@ using sim::Vec3;
 
 const sim::Inputs kInputs = {{"seed", "1"}, {"world.voxel", "4 cm"}};
 
-std::vector<sim::Planting> plantings(const sim::Frame& frame) {
+std::vector<sim::Planting> tilesAndCreeper(const sim::Frame& frame) {
   return {{"tiles", std::make_shared<tests::Tiler>(), sim::seedsAt(frame, {{10, 3, 10}, {30, 3, 10}})},
           {"creeper", std::make_shared<tests::Creeper>(), sim::seedsAt(frame, {{12, 3, 11}})}};
 }
 
-sim::GrowthSettings settings(int iterations, bool record = false) {
+sim::GrowthSettings settingsOf(int iterations, bool record = false) {
   sim::GrowthSettings s;
   s.iterations = iterations;
   s.record_attempts = record;
@@ -40,14 +40,15 @@ struct Saved {
 Saved savedAfter(int iterations, bool record = false) {
   sim::World world = tests::wallPlot();
   const sim::BitVolume site = world.occupied();
-  const auto growth = sim::grow(world, plantings(world.frame()), settings(iterations, record));
+  const auto growth = sim::grow(world, tilesAndCreeper(world.frame()), settingsOf(iterations, record));
   return {sim::stateBytes(kInputs, world, site, growth), sim::stateHash(world, growth)};
 }
 
 std::string messageOf(const std::string& bytes) {
   try {
     sim::World world = tests::wallPlot();
-    sim::restore(sim::readState(bytes, "growth.state"), world, plantings(world.frame()), "growth.state");
+    sim::restore(sim::readState(bytes, "growth.state"), world, tilesAndCreeper(world.frame()),
+                 "growth.state");
   } catch (const sim::InputError& error) {
     return error.what();
   }
@@ -60,16 +61,16 @@ TEST(State, GoesOnAsIfNothingHadHappened) {
     const Saved part = savedAfter(before);
     sim::World world = tests::wallPlot();
     const sim::BitVolume site = world.occupied();
-    auto restored = sim::restore(sim::readState(part.bytes, "f"), world, plantings(world.frame()), "f");
+    auto restored = sim::restore(sim::readState(part.bytes, "f"), world, tilesAndCreeper(world.frame()), "f");
     EXPECT_EQ(sim::stateHash(world, restored), part.hash);
     EXPECT_TRUE(tests::keepsItsBricks(world));
     std::size_t proposals = 0;
-    auto going_on = settings(14);
+    auto going_on = settingsOf(14);
     going_on.progress = [&](const sim::GrowthProgress& p) {
       proposals = p.proposals;
       EXPECT_GT(p.iteration, before);
     };
-    sim::Growing growing(world, plantings(world.frame()), going_on, std::move(restored));
+    sim::Growing growing(world, tilesAndCreeper(world.frame()), going_on, std::move(restored));
     while (growing.step()) {
     }
     EXPECT_EQ(growing.growth().iterations, 14);
@@ -121,7 +122,7 @@ TEST(State, NumbersThatGrowthNeverWritesAreAnErrorToo) {
     sim::State state = sim::readState(bytes, "f");
     change(state);
     try {
-      sim::restore(std::move(state), world, plantings(world.frame()), "f");
+      sim::restore(std::move(state), world, tilesAndCreeper(world.frame()), "f");
     } catch (const sim::InputError& error) {
       EXPECT_TRUE(std::string_view(error.what()).starts_with("f: the state is damaged: ")) << error.what();
       EXPECT_EQ(world.occupied().words(), words);
@@ -154,19 +155,19 @@ TEST(State, BelongsToItsSiteAndItsPlantings) {
     EXPECT_EQ(world.occupied().words(), words);
   };
   const sim::Frame frame = tests::wallPlot().frame();
-  refused(tests::wallPlot({48, 48, 41}), plantings(frame));
-  auto fewer = plantings(frame);
+  refused(tests::wallPlot({48, 48, 41}), tilesAndCreeper(frame));
+  auto fewer = tilesAndCreeper(frame);
   fewer.pop_back();
   refused(tests::wallPlot(), fewer);
-  auto moved = plantings(frame);
+  auto moved = tilesAndCreeper(frame);
   moved[0].seeds[1].key ^= 1;
   refused(tests::wallPlot(), moved);
-  auto others = plantings(frame);
+  auto others = tilesAndCreeper(frame);
   others[1].process = std::make_shared<tests::Tiler>();
   refused(tests::wallPlot(), others);
   sim::World fuller = tests::wallPlot();
   tests::addBox(fuller, "shed", {8, 1, 8}, {14, 6, 14});
-  refused(std::move(fuller), plantings(frame));
+  refused(std::move(fuller), tilesAndCreeper(frame));
 }
 
 }  // namespace

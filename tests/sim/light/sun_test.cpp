@@ -28,7 +28,7 @@ double altitude(Vec3 d) {
 double azimuth(Vec3 d) {
   return std::fmod(std::atan2(d.x, -d.z) * kDegrees + 360.0, 360.0);
 }
-int total(const sim::DirectionSet& set) {
+int totalWeight(const sim::DirectionSet& set) {
   return std::accumulate(set.begin(), set.end(), 0, [](int sum, const auto& d) { return sum + d.weight; });
 }
 
@@ -55,7 +55,7 @@ TEST(SunArc, KeepsItsAngleHoursAndWeights) {
     for (const double toward : {0.0, 90.0, 155.0, 180.0}) {
       const auto sun = sim::makeSun(sim::SunArc{20.0, toward, samples});
       EXPECT_NEAR(sun.totalHours(), 12.0, 1e-9);
-      EXPECT_EQ(total(sun.directions), sim::ExposureField::kWhole);
+      EXPECT_EQ(totalWeight(sun.directions), sim::ExposureField::kWhole);
       EXPECT_LE(sun.worst_angle_deg, 0.5 + 1e-6);
       EXPECT_EQ(sun.hours.size(), sun.directions.size());
       // The pole of the half circle: no direction lies farther from its plane than from its place.
@@ -111,7 +111,7 @@ TEST(RealSun, NorthTurnsItWithTheModel) {
 TEST(RealSun, IsOfTheDayAndItsHours) {
   const auto midsummer = sim::makeSun(zurich(2026y / 6 / 21, 2026y / 6 / 21));
   EXPECT_NEAR(midsummer.totalHours(), 15.9, 0.2);  // by the sun's centre
-  EXPECT_EQ(total(midsummer.directions), sim::ExposureField::kWhole);
+  EXPECT_EQ(totalWeight(midsummer.directions), sim::ExposureField::kWhole);
   auto morning = zurich(2026y / 6 / 21, 2026y / 6 / 21);
   morning.from_h = 9.0;
   morning.to_h = 12.25;
@@ -127,7 +127,7 @@ TEST(RealSun, WeighsBySineOfElevation) {
   auto sun = zurich(2026y / 6 / 21, 2026y / 6 / 21);
   sun.weighting = sim::SunWeighting::sine;
   const auto weighted = sim::makeSun(sun);
-  EXPECT_EQ(total(weighted.directions), sim::ExposureField::kWhole);
+  EXPECT_EQ(totalWeight(weighted.directions), sim::ExposureField::kWhole);
   double scale = 0.0;
   for (std::size_t i = 0; i < weighted.directions.size(); ++i) {
     const auto& d = weighted.directions[i];
@@ -146,7 +146,7 @@ TEST(RealSun, KeepsItsAngleOverTheYearEverywhere) {
     const auto year = sim::makeSun(sun);
     EXPECT_LE(year.worst_angle_deg, 0.5 + 1e-6);
     EXPECT_GT(year.worst_angle_deg, 0.4);
-    EXPECT_EQ(total(year.directions), sim::ExposureField::kWhole);
+    EXPECT_EQ(totalWeight(year.directions), sim::ExposureField::kWhole);
     for (std::size_t i = 1; i < year.directions.size(); ++i)
       EXPECT_NE(year.directions[i].v, year.directions[i - 1].v);
   }

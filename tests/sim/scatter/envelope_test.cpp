@@ -12,7 +12,7 @@
 namespace espalier::sim {
 namespace {
 
-constexpr std::uint64_t kStream = 4711;
+constexpr std::uint64_t kEnvelopeStream = 4711;
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
 const Revolution kCypress{{{{0, 1}, {2, 4.5}, {7, 0.5}, {12, 1}}}};
@@ -43,7 +43,7 @@ Moments momentsOf(const PointSet& points, Vec3 foot) {
 }
 
 void expectMoments(const Envelope& envelope, const Strewing& strewing, const Moments& expected) {
-  const Moments is = momentsOf(scatterInside(envelope, strewing, kStream), envelope.foot);
+  const Moments is = momentsOf(scatterInside(envelope, strewing, kEnvelopeStream), envelope.foot);
   const double error = 4.0 / std::sqrt(static_cast<double>(strewing.count));
   EXPECT_NEAR(is.height, expected.height, error * std::sqrt(expected.variance));
   EXPECT_NEAR(is.variance, expected.variance, 2.0 * error * expected.variance);
@@ -118,19 +118,20 @@ double chiSquare(const Envelope& envelope, const PointSet& points) {
 
 TEST(Envelope, EverySubBoxHasItsShare) {
   for (const Envelope& envelope : allKinds()) {
-    const double off = chiSquare(envelope, scatterInside(envelope, {40'000, Spread::volume, {}}, kStream));
+    const double off =
+        chiSquare(envelope, scatterInside(envelope, {40'000, Spread::volume, {}}, kEnvelopeStream));
     EXPECT_LT(off, 4.0) << envelope.solid.index();
     EXPECT_GT(off, -4.0) << envelope.solid.index();
   }
   const Envelope cone{Cone{10, 5}};  // the measure sees what is uneven
-  EXPECT_GT(chiSquare(cone, scatterInside(cone, {40'000, Spread::height, {}}, kStream)), 100.0);
+  EXPECT_GT(chiSquare(cone, scatterInside(cone, {40'000, Spread::height, {}}, kEnvelopeStream)), 100.0);
 }
 
 TEST(Envelope, PointsLieInsideAndWithinItsBounds) {
   for (const Envelope& envelope : allKinds()) {
     const EnvelopeBounds bounds = boundsOf(envelope);
     Vec3 low(INFINITY), high(-INFINITY);
-    for (const Vec3& p : scatterInside(envelope, {20'000, Spread::volume, {}}, kStream).at) {
+    for (const Vec3& p : scatterInside(envelope, {20'000, Spread::volume, {}}, kEnvelopeStream).at) {
       ASSERT_TRUE(contains(envelope, p)) << envelope.solid.index();
       low = glm::min(low, p);
       high = glm::max(high, p);
@@ -160,7 +161,7 @@ TEST(Envelope, Volumes) {
 }
 
 TEST(Envelope, ByHeightEveryLayerHasAsMany) {
-  const auto points = scatterInside({Cone{8, 3}}, {80'000, Spread::height, {}}, kStream);
+  const auto points = scatterInside({Cone{8, 3}}, {80'000, Spread::height, {}}, kEnvelopeStream);
   int layers[8] = {};
   for (const Vec3& p : points.at) ++layers[static_cast<int>(p.y)];
   for (const int count : layers) EXPECT_NEAR(count, 10'000, 4 * 100);
@@ -172,26 +173,26 @@ TEST(Envelope, DensityAlongTheHeight) {
   expectMoments({Cylinder{3, 2}}, {100'000, Spread::height, rising}, {2, 0.5, 1, 1});
   // A layer thinner than a piece.
   const std::vector<DensityAt> thin{{0.5, 0}, {0.50001, 7}, {0.50002, 0}};
-  for (const Vec3& p : scatterInside({kCypress}, {1000, Spread::volume, thin}, kStream).at)
+  for (const Vec3& p : scatterInside({kCypress}, {1000, Spread::volume, thin}, kEnvelopeStream).at)
     EXPECT_NEAR(p.y, 6.0, 1e-3);
 }
 
 TEST(Envelope, MorePointsBeginWithTheSameOnes) {
   for (const Envelope& envelope : allKinds()) {
-    const auto few = scatterInside(envelope, {100, Spread::volume, {}}, kStream);
-    const auto many = scatterInside(envelope, {5000, Spread::volume, {}}, kStream);
+    const auto few = scatterInside(envelope, {100, Spread::volume, {}}, kEnvelopeStream);
+    const auto many = scatterInside(envelope, {5000, Spread::volume, {}}, kEnvelopeStream);
     EXPECT_TRUE(std::equal(few.at.begin(), few.at.end(), many.at.begin()));
-    EXPECT_NE(few.at, scatterInside(envelope, {100, Spread::volume, {}}, kStream + 1).at);
+    EXPECT_NE(few.at, scatterInside(envelope, {100, Spread::volume, {}}, kEnvelopeStream + 1).at);
     EXPECT_EQ(few.normal, std::vector<Vec3>(100, Vec3(0)));
   }
 }
 
 TEST(Envelope, TheSamePointsOnAnyNumberOfThreads) {
   const Envelope dome{Dome{6}};
-  const auto once = scatterInside(dome, {50'000, Spread::volume, {}}, kStream);
+  const auto once = scatterInside(dome, {50'000, Spread::volume, {}}, kEnvelopeStream);
   for (const int threads : {1, 3, 8})
     onThreads(threads, [&] {
-      EXPECT_EQ(scatterInside(dome, {50'000, Spread::volume, {}}, kStream).at, once.at);
+      EXPECT_EQ(scatterInside(dome, {50'000, Spread::volume, {}}, kEnvelopeStream).at, once.at);
     });
 }
 
@@ -205,8 +206,8 @@ TEST(Envelope, ScalesToTheBit) {
       {{kCypress}, {Revolution{{{{0, k}, {2 * k, 4.5 * k}, {7 * k, 0.5 * k}, {12 * k, k}}}}}}};
   for (const auto& [small, large] : pairs) {
     for (const Spread spread : {Spread::volume, Spread::height}) {
-      const auto a = scatterInside(small, {3000, spread, {{0.2, 1}, {0.9, 3}}}, kStream);
-      const auto b = scatterInside(large, {3000, spread, {{0.2, 1}, {0.9, 3}}}, kStream);
+      const auto a = scatterInside(small, {3000, spread, {{0.2, 1}, {0.9, 3}}}, kEnvelopeStream);
+      const auto b = scatterInside(large, {3000, spread, {{0.2, 1}, {0.9, 3}}}, kEnvelopeStream);
       for (std::size_t i = 0; i < a.at.size(); ++i) ASSERT_EQ(k * a.at[i], b.at[i]);
     }
   }
@@ -214,7 +215,7 @@ TEST(Envelope, ScalesToTheBit) {
 
 TEST(Envelope, RefusesWhatIsNoSolid) {
   const auto says = [](const Solid& solid, Vec3 foot = Vec3(0)) {
-    return tests::messageOf([&] { scatterInside({solid, foot}, {10, Spread::volume, {}}, kStream); });
+    return tests::messageOf([&] { scatterInside({solid, foot}, {10, Spread::volume, {}}, kEnvelopeStream); });
   };
   EXPECT_EQ(says(Cone{3, -1}), "an envelope with a radius of -1; expected a number above 0, or it is empty");
   EXPECT_EQ(says(Dome{kNaN}), "an envelope with a radius of nan; expected a number above 0, or it is empty");
@@ -239,7 +240,7 @@ TEST(Envelope, RefusesWhatIsNoSolid) {
 
 TEST(Envelope, RefusesStrewingsThatHaveNoPoints) {
   const auto says = [](const Strewing& strewing) {
-    return tests::messageOf([&] { scatterInside({Dome{1}}, strewing, kStream); });
+    return tests::messageOf([&] { scatterInside({Dome{1}}, strewing, kEnvelopeStream); });
   };
   EXPECT_EQ(says({0, Spread::volume, {}}), "0 points in an envelope; expected 1 to 2^32 - 1");
   EXPECT_EQ(says({1, Spread::volume, {{0, 0}, {1, 0}}}),

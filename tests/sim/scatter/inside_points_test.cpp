@@ -11,7 +11,7 @@
 namespace espalier::sim {
 namespace {
 
-constexpr std::uint64_t kStream = 5;
+constexpr std::uint64_t kInsideStream = 5;
 const Vec3 kMiddle(1, 2, 3);
 
 Mesh ball() {
@@ -24,7 +24,7 @@ Mesh ballUpTo(double height) {
 
 TEST(InsidePoints, AreEvenByVolumeInABox) {
   const Vec3 low(1, 2, 3), high(5, 4, 6);
-  const auto found = scatterWithin(tests::boxMesh(low, high), 64'000, kStream);
+  const auto found = scatterWithin(tests::boxMesh(low, high), 64'000, kInsideStream);
   EXPECT_EQ(found.doubt.doubtful, 0.0);
   EXPECT_EQ(found.doubt.undecided, 0.0);
   int counts[64] = {};
@@ -41,7 +41,7 @@ TEST(InsidePoints, AreEvenByVolumeInABox) {
 }
 
 TEST(InsidePoints, FillABall) {
-  const auto found = scatterWithin(ball(), 100'000, kStream);
+  const auto found = scatterWithin(ball(), 100'000, kInsideStream);
   Vec3 mean(0);
   double squares = 0;
   for (const Vec3& p : found.points.at) {
@@ -54,12 +54,12 @@ TEST(InsidePoints, FillABall) {
 }
 
 TEST(InsidePoints, DoNotAskWhichWayTrianglesFace) {
-  EXPECT_EQ(scatterWithin(ball(), 500, kStream).points.at,
-            scatterWithin(tests::insideOut(ball()), 500, kStream).points.at);
+  EXPECT_EQ(scatterWithin(ball(), 500, kInsideStream).points.at,
+            scatterWithin(tests::insideOut(ball()), 500, kInsideStream).points.at);
 }
 
 TEST(InsidePoints, AHoleIsVotedOn) {
-  const auto found = scatterWithin(ballUpTo(1.0), 20'000, kStream);
+  const auto found = scatterWithin(ballUpTo(1.0), 20'000, kInsideStream);
   EXPECT_GT(found.doubt.doubtful, 0.5);
   EXPECT_LT(found.doubt.undecided, 0.2);
   int above = 0;
@@ -72,7 +72,7 @@ TEST(InsidePoints, AHoleIsVotedOn) {
 
 TEST(InsidePoints, RefuseWhatHasNoInside) {
   const auto says = [](const Mesh& mesh) {
-    return tests::messageOf([&] { scatterWithin(mesh, 10, kStream); });
+    return tests::messageOf([&] { scatterWithin(mesh, 10, kInsideStream); });
   };
   EXPECT_EQ(says(ballUpTo(0.0)), "no error");  // a bowl
   EXPECT_EQ(says(ballUpTo(-0.5)),
@@ -88,31 +88,32 @@ TEST(InsidePoints, RefuseWhatHasNoInside) {
   EXPECT_EQ(says(tests::boxMesh(Vec3(1), Vec3(1))),
             "mesh 'box': has no inside; expected triangles with an area");
   EXPECT_EQ(says(tests::emptyMesh("none")), "mesh 'none': has no inside; expected triangles with an area");
-  EXPECT_EQ(tests::messageOf([&] { scatterWithin(ball(), 0, kStream); }),
+  EXPECT_EQ(tests::messageOf([&] { scatterWithin(ball(), 0, kInsideStream); }),
             "0 points in a mesh; expected 1 to 2^32 - 1");
 }
 
 TEST(InsidePoints, ASlenderMeshIsLookedAtMoreClosely) {
   const Vec3 low(0, 0, 0), high(0.03, 10, 0.03);  // less than a voxel of the first grid wide
-  for (const Vec3& p : scatterWithin(tests::boxMesh(low, high), 500, kStream).points.at)
+  for (const Vec3& p : scatterWithin(tests::boxMesh(low, high), 500, kInsideStream).points.at)
     ASSERT_TRUE(glm::all(glm::greaterThan(p, low - 0.01)) && glm::all(glm::lessThan(p, high + 0.01)));
 }
 
 TEST(InsidePoints, MoreOfThemBeginWithTheSameOnesOnAnyNumberOfThreads) {
-  const auto few = scatterWithin(ball(), 100, kStream).points;
+  const auto few = scatterWithin(ball(), 100, kInsideStream).points;
   for (const int threads : {1, 3, 8}) {
     onThreads(threads, [&] {
-      const auto many = scatterWithin(ball(), 3000, kStream).points;
+      const auto many = scatterWithin(ball(), 3000, kInsideStream).points;
       EXPECT_TRUE(std::equal(few.at.begin(), few.at.end(), many.at.begin()));
     });
   }
-  EXPECT_NE(few.at, scatterWithin(ball(), 100, kStream + 1).points.at);
+  EXPECT_NE(few.at, scatterWithin(ball(), 100, kInsideStream + 1).points.at);
 }
 
 TEST(InsidePoints, ScaleToTheBit) {
   Mesh large = ball();
   for (Vec3& v : large.vertices_m) v *= 1024.0;
-  const auto a = scatterWithin(ball(), 500, kStream).points, b = scatterWithin(large, 500, kStream).points;
+  const auto a = scatterWithin(ball(), 500, kInsideStream).points,
+             b = scatterWithin(large, 500, kInsideStream).points;
   for (std::size_t i = 0; i < a.at.size(); ++i) ASSERT_EQ(1024.0 * a.at[i], b.at[i]);
 }
 

@@ -11,11 +11,11 @@
 namespace espalier::sim {
 namespace {
 
-constexpr std::uint64_t kStream = 99;
+constexpr std::uint64_t kSurfaceStream = 99;
 
 TEST(SurfacePoints, AreEvenByArea) {
   const Vec3 low(1, 2, 3), high(3, 5, 9);  // faces of 18, 12 and 6
-  const auto points = scatterOn(tests::boxMesh(low, high), 72'000, kStream);
+  const auto points = scatterOn(tests::boxMesh(low, high), 72'000, kSurfaceStream);
   double counts[6] = {};
   double quarters[6][4] = {};
   for (std::size_t i = 0; i < points.at.size(); ++i) {
@@ -44,9 +44,10 @@ TEST(SurfacePoints, AreEvenByArea) {
 
 TEST(SurfacePoints, MoreOfThemBeginWithTheSameOnes) {
   const Mesh mesh = tests::sphereMesh({1, 2, 3}, 2, 8);
-  const auto few = scatterOn(mesh, 50, kStream), many = scatterOn(mesh, 3000, kStream);
+  const auto few = scatterOn(mesh, 50, kSurfaceStream), many = scatterOn(mesh, 3000, kSurfaceStream);
   EXPECT_TRUE(std::equal(few.at.begin(), few.at.end(), many.at.begin()));
-  const auto apart = scatterApart(mesh, 50, 0.2, kStream), more = scatterApart(mesh, 400, 0.2, kStream);
+  const auto apart = scatterApart(mesh, 50, 0.2, kSurfaceStream),
+             more = scatterApart(mesh, 400, 0.2, kSurfaceStream);
   ASSERT_EQ(apart.at.size(), 50u);
   EXPECT_TRUE(std::equal(apart.at.begin(), apart.at.end(), more.at.begin()));
   EXPECT_TRUE(std::equal(apart.normal.begin(), apart.normal.end(), more.normal.begin()));
@@ -55,7 +56,7 @@ TEST(SurfacePoints, MoreOfThemBeginWithTheSameOnes) {
 TEST(SurfacePoints, KeepTheirDistance) {
   const Mesh mesh = tests::sphereMesh({1, 2, 3}, 2, 16);
   const double spacing = 0.2, area = tests::area(mesh);
-  const auto points = scatterApart(mesh, 100'000, spacing, kStream);
+  const auto points = scatterApart(mesh, 100'000, spacing, kSurfaceStream);
   double least = INFINITY;
   for (std::size_t i = 0; i < points.at.size(); ++i) {
     for (std::size_t k = 0; k < i; ++k) least = std::min(least, glm::distance(points.at[i], points.at[k]));
@@ -68,7 +69,7 @@ TEST(SurfacePoints, KeepTheirDistance) {
   EXPECT_LT(by_square, 0.70);
   // No place is left where many more would fit.
   int free = 0;
-  for (const Vec3& p : scatterOn(mesh, 2000, kStream + 1).at) {
+  for (const Vec3& p : scatterOn(mesh, 2000, kSurfaceStream + 1).at) {
     free += std::none_of(points.at.begin(), points.at.end(),
                          [&](const Vec3& other) { return glm::distance(p, other) < spacing; });
   }
@@ -79,8 +80,9 @@ TEST(SurfacePoints, ScaleToTheBit) {
   const Mesh mesh = tests::sphereMesh({1, 2, 3}, 2, 8);
   Mesh large = mesh;
   for (Vec3& v : large.vertices_m) v *= 1024.0;
-  const auto a = scatterOn(mesh, 1000, kStream), b = scatterOn(large, 1000, kStream);
-  const auto c = scatterApart(mesh, 1000, 0.3, kStream), d = scatterApart(large, 1000, 0.3 * 1024, kStream);
+  const auto a = scatterOn(mesh, 1000, kSurfaceStream), b = scatterOn(large, 1000, kSurfaceStream);
+  const auto c = scatterApart(mesh, 1000, 0.3, kSurfaceStream),
+             d = scatterApart(large, 1000, 0.3 * 1024, kSurfaceStream);
   EXPECT_EQ(a.normal, b.normal);
   ASSERT_EQ(c.at.size(), d.at.size());
   for (std::size_t i = 0; i < a.at.size(); ++i) ASSERT_EQ(1024.0 * a.at[i], b.at[i]);
@@ -91,15 +93,15 @@ TEST(SurfacePoints, RefuseWhatHasNoSurface) {
   const Mesh box = tests::boxMesh(Vec3(0), Vec3(1));
   Mesh flat = tests::boxMesh(Vec3(0), Vec3(0));
   const std::string none = "mesh 'box': has no surface to strew points over; expected triangles with an area";
-  EXPECT_EQ(tests::messageOf([&] { scatterOn(flat, 5, kStream); }), none);
+  EXPECT_EQ(tests::messageOf([&] { scatterOn(flat, 5, kSurfaceStream); }), none);
   flat.triangles.clear();
-  EXPECT_EQ(tests::messageOf([&] { scatterApart(flat, 5, 1, kStream); }),
+  EXPECT_EQ(tests::messageOf([&] { scatterApart(flat, 5, 1, kSurfaceStream); }),
             "mesh 'box': has no surface to strew points over; expected triangles with an area");
-  EXPECT_EQ(tests::messageOf([&] { scatterOn(box, 0, kStream); }),
+  EXPECT_EQ(tests::messageOf([&] { scatterOn(box, 0, kSurfaceStream); }),
             "0 points on a surface; expected 1 to 2^32 - 1");
-  EXPECT_EQ(tests::messageOf([&] { scatterApart(box, 5, 0, kStream); }),
+  EXPECT_EQ(tests::messageOf([&] { scatterApart(box, 5, 0, kSurfaceStream); }),
             "points 0 apart; expected a number above 0");
-  EXPECT_EQ(tests::messageOf([&] { scatterApart(box, 5, NAN, kStream); }),
+  EXPECT_EQ(tests::messageOf([&] { scatterApart(box, 5, NAN, kSurfaceStream); }),
             "points nan apart; expected a number above 0");
 }
 

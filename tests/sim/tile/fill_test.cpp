@@ -1,12 +1,14 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
+#include <glm/geometric.hpp>
 #include <glm/vector_relational.hpp>
 #include <numbers>
 #include <random>
 
 #include "sim/base/error.h"
 #include "sim/tile/build_world.h"
+#include "sim/tile/fill.h"
 #include "tests/support/meshes.h"
 #include "tests/support/worlds.h"
 
@@ -109,6 +111,54 @@ TEST(Fill, FacesWoundTheWrongWayDoNoHarm) {
         EXPECT_EQ(f.world.occupied().at({x, y, 20}), inSphere(p));
       }
     }
+  }
+}
+
+/// A tetrahedron's faces, wound outwards.
+Triangles tetrahedron(Vec3 a, Vec3 b, Vec3 c, Vec3 d) {
+  if (glm::dot(glm::cross(b - a, c - a), d - a) > 0.0) std::swap(b, c);
+  return {{a, b, c}, {a, d, b}, {b, d, c}, {c, d, a}};
+}
+
+// Corners at voxels' centres: lines run through corners, along edges and within faces, and faces hold
+// centres.
+TEST(Fill, AClosedMeshOnTheCentresIsNeverInDoubt) {
+  std::mt19937 random(7);
+  const auto corner = [&] {
+    return Vec3(static_cast<int>(random() % 17u), static_cast<int>(random() % 17u),
+                static_cast<int>(random() % 17u));
+  };
+  std::size_t filled = 0;
+  for (int i = 0; i < 300; ++i) {
+    const espalier::sim::Filled f =
+        fillMesh(tetrahedron(corner(), corner(), corner(), corner()), BitVolume(Voxel(20)), true);
+    EXPECT_EQ(f.doubtful, 0u) << i;
+    filled += f.inside.count();
+  }
+  EXPECT_GT(filled, 300u * 50);
+}
+
+// A cube in six, along the paths from its lowest corner to its highest.
+TEST(Fill, SolidsThatShareFacesShareNoCentreAndLeaveNoneOut) {
+  constexpr int kEdge = 9;
+  constexpr std::array<std::array<int, 3>, 6> kPaths{
+      {{0, 1, 2}, {0, 2, 1}, {1, 0, 2}, {1, 2, 0}, {2, 0, 1}, {2, 1, 0}}};
+  std::vector<int> owners(std::size_t{15 * 15 * 15});
+  for (const auto& path : kPaths) {
+    std::array<Vec3, 4> p{Vec3(3), Vec3(0), Vec3(0), Vec3(0)};
+    for (std::size_t k = 0; k < 3; ++k) {
+      p[k + 1] = p[k];
+      p[k + 1][path[k]] += kEdge;
+    }
+    const auto f = fillMesh(tetrahedron(p[0], p[1], p[2], p[3]), BitVolume(Voxel(15)), true);
+    for (int i = 0; i < 15 * 15 * 15; ++i)
+      owners[static_cast<std::size_t>(i)] += f.inside.at({i % 15, i / 15 % 15, i / 225}) ? 1 : 0;
+  }
+  for (int i = 0; i < 15 * 15 * 15; ++i) {
+    const Voxel v(i % 15, i / 15 % 15, i / 225);
+    const bool in =
+        glm::all(glm::greaterThanEqual(v, Voxel(3))) && glm::all(glm::lessThan(v, Voxel(3 + kEdge)));
+    EXPECT_EQ(owners[static_cast<std::size_t>(i)], in ? 1 : 0) << v.x << ' ' << v.y << ' ' << v.z;
   }
 }
 

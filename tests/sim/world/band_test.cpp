@@ -3,21 +3,13 @@
 #include <gtest/gtest.h>
 
 #include "tests/support/bit_worlds.h"
+#include "tests/support/each_voxel.h"
 
 namespace espalier::sim {
 namespace {
 
 int distance(Voxel a, Voxel b) {
   return std::max({std::abs(a.x - b.x), std::abs(a.y - b.y), std::abs(a.z - b.z)});
-}
-
-template <typename Check>
-void forEachVoxel(Voxel size, Check check) {
-  for (int y = 0; y < size.y; ++y) {
-    for (int z = 0; z < size.z; ++z) {
-      for (int x = 0; x < size.x; ++x) check(Voxel(x, y, z));
-    }
-  }
 }
 
 /// Rows shorter than a word, of just one, and of more than one.
@@ -39,7 +31,7 @@ class Band : public testing::TestWithParam<int> {
 TEST_P(Band, HoldsWhatIsFreeAndNear) {
   for (const int reach : {0, 1, 3, 20}) {
     const BitVolume band = freeBand(world_, world_.occupied(), reach);
-    forEachVoxel(size_, [&](Voxel v) {
+    tests::forEachVoxel(size_, [&](Voxel v) {
       int nearest = 99;
       for (const Voxel s : stands_) nearest = std::min(nearest, distance(v, s));
       ASSERT_EQ(band.at(v), nearest > 0 && nearest <= reach) << v.x << ' ' << v.y << ' ' << v.z;
@@ -59,7 +51,7 @@ TEST_P(Band, OfOneThingLeavesOutAnother) {
 TEST_P(Band, FreeIsAllThatDoesNotStand) {
   const BitVolume open = freeVoxels(world_);
   EXPECT_EQ(open.count(), static_cast<std::size_t>(size_.x) * 99u - stands_.size());
-  forEachVoxel(size_, [&](Voxel v) { ASSERT_NE(open.at(v), world_.occupied().at(v)); });
+  tests::forEachVoxel(size_, [&](Voxel v) { ASSERT_NE(open.at(v), world_.occupied().at(v)); });
 }
 
 TEST_P(Band, WhatTakesLightIsNotFree) {

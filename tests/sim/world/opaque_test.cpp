@@ -3,6 +3,7 @@
 #include <glm/vector_relational.hpp>
 
 #include "sim/tile/build_world.h"
+#include "tests/support/each_voxel.h"
 #include "tests/support/meshes.h"
 #include "tests/support/worlds.h"
 
@@ -12,14 +13,6 @@ namespace {
 
 World worldOf(const Mesh& mesh, bool solid, Voxel size) {
   return buildWorld(tests::unitFrame(size), {{mesh, solid}}, 0);
-}
-
-void forEachVoxel(Voxel size, const std::function<void(Voxel)>& work) {
-  for (int y = 0; y < size.y; ++y) {
-    for (int z = 0; z < size.z; ++z) {
-      for (int x = 0; x < size.x; ++x) work({x, y, z});
-    }
-  }
 }
 
 /// Whether light that steps from voxel to voxel through their faces gets from one to the other.
@@ -57,7 +50,7 @@ TEST(Opaque, OfASolidTheVoxelsWhoseCentresAreInside) {
   const Mesh sphere = tests::sphereMesh(kMiddle, 14.0, 24);
   for (const Mesh& mesh : {sphere, tests::insideOut(sphere)}) {
     const World world = worldOf(mesh, true, Voxel(40));
-    forEachVoxel(Voxel(40), [&](Voxel v) {
+    tests::forEachVoxel(Voxel(40), [&](Voxel v) {
       const double out = glm::distance(Vec3(v), kMiddle) - 14.0;
       if (std::abs(out) < 0.15) return;  // facets lie below the sphere
       ASSERT_EQ(world.opaque().at(v), out < 0.0) << v.x << ' ' << v.y << ' ' << v.z;
@@ -69,7 +62,7 @@ TEST(Opaque, ABoxBetweenVoxelsIsAsLargeAsItIs) {
   const World world = worldOf(tests::boxMesh({1.5, 2.5, 3.5}, {6.5, 9.5, 7.5}), true, Voxel(14));
   EXPECT_EQ(world.opaque().count(), 5u * 7 * 4);
   EXPECT_EQ(world.occupied().count(), 6u * 8 * 5);  // it touches more
-  forEachVoxel(Voxel(14), [&](Voxel v) {
+  tests::forEachVoxel(Voxel(14), [&](Voxel v) {
     EXPECT_EQ(world.opaque().at(v), glm::all(glm::greaterThan(Vec3(v), Vec3(1.5, 2.5, 3.5))) &&
                                         glm::all(glm::lessThan(Vec3(v), Vec3(6.5, 9.5, 7.5))));
   });
@@ -110,7 +103,7 @@ TEST(Opaque, OfAnOpenSurfaceWhatLiesBehindIt) {
   Mesh land = tests::terrainMesh(90, 0.5, hills);
   const World world = worldOf(land, false, {40, 30, 40});
   EXPECT_FALSE(leaks(world.opaque(), {20, 29, 20}, {20, 0, 20}));
-  forEachVoxel({40, 30, 40}, [&](Voxel v) {
+  tests::forEachVoxel({40, 30, 40}, [&](Voxel v) {
     if (!world.opaque().at(v)) return;
     EXPECT_LT(v.y, hills(v.x, v.z) + 0.05);
     EXPECT_GT(v.y, hills(v.x, v.z) - 2.5);  // a voxel thick, along whichever axis is steepest

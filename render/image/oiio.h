@@ -1,0 +1,40 @@
+#pragma once
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "render/image/image_io.h"
+#include "sim/base/vec.h"
+
+/// What OpenImageIO does for us, as functions of a module that is loaded when they are first asked for.
+/// OpenImageIO brings two hundred and forty libraries along, whose loading takes five times as long as that
+/// of all others together: a program that starts with them makes every `check` wait, and every process of a
+/// test.
+namespace espalier::render {
+
+/// In pixels from where a text begins on its base line, y downwards.
+struct TextBox {
+  int left = 0, top = 0, right = 0, bottom = 0;
+};
+
+/// All throw sim::InputError where OpenImageIO fails.
+struct Oiio {
+  /// `size`: of the picture, whose own pixels are not read.
+  std::string (*png)(const Image& size, const std::uint8_t* pixels, const Metadata& texts);
+  std::string (*exr)(const Image& measured, const std::vector<std::string>& channels, const Metadata& texts);
+  /// Nothing where the font is not installed.
+  std::optional<TextBox> (*text_box)(const std::string& ascii, int size_px, const char* font);
+  /// Draws white letters into a picture of one channel.
+  void (*text)(Image& onto, int x, int y, const std::string& ascii, int size_px, const char* font);
+  void (*paste)(Image& onto, const Image& picture, int x, int y);
+  /// Fills a picture of another size and as many channels.
+  void (*resize)(const Image& from, Image& to);
+  /// Linear colours at equal steps from 0 to 1.
+  std::vector<sim::Colour> (*colour_map)(const std::string& name, int entries);
+};
+
+/// Loads it. Throws sim::InputError where the module, or a library that it needs, is missing.
+const Oiio& oiio();
+
+}  // namespace espalier::render

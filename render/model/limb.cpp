@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "sim/base/random.h"
 
@@ -12,7 +11,6 @@ using sim::Vec3;
 
 namespace {
 
-constexpr double kPi = std::numbers::pi;
 constexpr double kThin = 0.15;   // errors: a radius that hardly shows
 constexpr double kRound = 0.03;  // radii that a ring's sides may be off: what shows in no picture
 

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <numeric>
 
 #include "sim/base/random.h"
@@ -12,7 +11,6 @@ namespace {
 
 using sim::Vec3;
 
-constexpr double kPi = std::numbers::pi;
 constexpr double kSameRing = 0.3;        // of a foot's length: a ring so near serves for its end
 constexpr double kPart = 0.95;           // of the way between two feet that they may take up
 constexpr double kLeastShare = 0.5;      // that is left of a foot which gives way to another

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "sim/base/parallel.h"
 #include "sim/base/random.h"
@@ -13,7 +12,6 @@ namespace {
 using sim::NodeId;
 using sim::Vec3;
 
-constexpr double kPi = std::numbers::pi;
 constexpr int kMostStations = 8;        // in a segment
 constexpr double kRootDepth = 1.0;      // voxel widths that a seed's stem reaches back into the ground ..
 constexpr double kRootRadii = 0.5;      // .. and radii beside
@@ -26,11 +24,6 @@ constexpr double kThinner = 0.05;       // and of their radii
 constexpr double kOff = 0.5;            // of what is allowed that is left to stations that are left out
 constexpr double kLongest = 2.5;        // radii from where a line leaves its host to its first ring
 constexpr double kClear = 0.1;          // radii between the first ring and the host's surface
-
-template <class T>
-T at(const std::vector<T>& data, NodeId n) {
-  return data[static_cast<std::size_t>(n)];
-}
 
 double widening(int sides) {
   return kPi / (sides * std::sin(kPi / sides));

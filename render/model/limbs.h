@@ -8,6 +8,12 @@
 
 namespace espalier::render {
 
+/// A node's value.
+template <class T>
+T at(const std::vector<T>& data, sim::NodeId n) {
+  return data[static_cast<std::size_t>(n)];
+}
+
 /// What of a plant's nodes becomes part of its surface.
 struct LimbData {
   const sim::Skeleton& skeleton;

@@ -22,11 +22,6 @@ using sim::Vec3;
 constexpr double kBarkRadii = 50.0;  // width of a repeat of the bark, in radii of a twig
 constexpr int kStalkSides = 3;
 
-template <class T>
-T at(const std::vector<T>& data, NodeId n) {
-  return data[static_cast<std::size_t>(n)];
-}
-
 /// What a node sensed where it grew; full light for plants whose process does not say.
 class Exposure {
  public:

@@ -5,7 +5,6 @@
 #include <cmath>
 #include <functional>
 #include <limits>
-#include <numbers>
 
 #include "render/model/collar.h"
 #include "render/model/limb_grid.h"
@@ -19,12 +18,11 @@ namespace {
 using sim::Vec3;
 using Triangle = std::array<std::uint32_t, 3>;
 
-constexpr double kPi = std::numbers::pi;
 constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
 constexpr double kFineCollar = 12.0, kCollar = 4.0;  // errors that a limb's radius is to be worth rings there
 
 /// Where a limb's part of the mesh begins, and how much it is.
-struct Extent {
+struct Counts {
   std::size_t point = 0, vertex = 0, triangle = 0;
 };
 
@@ -36,7 +34,7 @@ struct Skin {
   std::vector<sim::Vec3f> rim_normals;  // what its facets add to the normals of its rim, which is its host's
   int collar_rings = 0;
   double repeats = 1.0;  // of the bark around it
-  Extent begin, size;
+  Counts begin, size;
 };
 
 int collarRings(const Limb& limb, double error_m) {
@@ -50,11 +48,11 @@ std::size_t rimSize(const Patch& patch) {
 }
 
 /// What the limb's part will hold. `rim`: corners of the hole that it fills, 0 for a limb from a seed.
-Extent sizeOf(const Skin& skin, std::size_t rim) {
+Counts sizeOf(const Skin& skin, std::size_t rim) {
   const LimbGrid& grid = skin.grid;
   const auto sides = static_cast<std::size_t>(grid.sides);
   const auto collars = static_cast<std::size_t>(skin.collar_rings);
-  Extent size;
+  Counts size;
   size.point = grid.points() + 1 + collars * sides + (rim == 0 ? 1 : 0);
   size.vertex = size.point + grid.arcs_m.size() + collars + (rim > 0 ? rim + 1 : 0);
   for (const std::uint32_t corner : grid.inside) size.vertex -= corner % sides == 0 ? 1 : 0;
@@ -306,7 +304,7 @@ void addRims(const std::vector<Skin>& skins, const Skin& skin, std::vector<sim::
   }
 }
 
-void resize(ModelMesh& mesh, const Extent& size) {
+void resize(ModelMesh& mesh, const Counts& size) {
   const std::array<std::function<void()>, 8> arrays{
       [&] { mesh.points.resize(size.vertex); },    [&] { mesh.positions_m.resize(size.vertex); },
       [&] { mesh.normals.resize(size.vertex); },   [&] { mesh.uvs.resize(size.vertex); },
@@ -349,7 +347,7 @@ ModelMesh surfaceOf(const std::vector<Limb>& limbs, double bark_m, double error_
     }
     skins[l].size = sizeOf(skins[l], rim);
   });
-  Extent all;
+  Counts all;
   for (Skin& skin : skins) {
     skin.begin = all;
     all.point += skin.size.point;

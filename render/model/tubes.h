@@ -1,6 +1,7 @@
 #pragma once
 #include <cstdint>
 #include <functional>
+#include <numbers>
 #include <span>
 #include <vector>
 
@@ -8,6 +9,8 @@
 #include "sim/base/vec.h"
 
 namespace espalier::render {
+
+inline constexpr double kPi = std::numbers::pi;
 
 /// A place on the centre line of a tube.
 struct TubeStation {

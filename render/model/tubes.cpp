@@ -98,15 +98,15 @@ std::vector<Vec3> chordsOverThickness(std::span<const TubeStation> line) {
 namespace {
 
 constexpr double kApart = 0.9;       // of the way to where two rings would touch
-constexpr double kLeastShare = 0.1;  // of its thickness that a tube keeps in a hairpin
+constexpr double kLeastThinned = 0.1;  // of its thickness that a tube keeps in a hairpin
 
 /// How thick two neighbouring stations may be, as a share of their radii.
 double shareApart(const TubeStation& a, Vec3 along_a, const TubeStation& b, Vec3 along_b) {
   const double turn = glm::length(glm::cross(along_a, along_b));
-  if (glm::dot(along_a, along_b) <= 0.0) return kLeastShare;
+  if (glm::dot(along_a, along_b) <= 0.0) return kLeastThinned;
   const Vec3 step = b.centre_m - a.centre_m;
   const double room = std::min(glm::dot(step, along_a) / b.radius_m, glm::dot(step, along_b) / a.radius_m);
-  return turn > 0.0 ? kApart * room / turn : room > 0.0 ? 1.0 : kLeastShare;
+  return turn > 0.0 ? kApart * room / turn : room > 0.0 ? 1.0 : kLeastThinned;
 }
 
 void ease(std::span<TubeStation> line) {
@@ -156,7 +156,7 @@ void keepRingsApart(std::vector<TubeStation>& line, const std::function<void(std
   const std::vector<Vec3> ways = chordsOverThickness(line);
   std::vector<double> share(line.size(), 1.0);
   for (std::size_t i = 0; i + 1 < line.size(); ++i) {
-    const double most = std::max(kLeastShare, shareApart(line[i], ways[i], line[i + 1], ways[i + 1]));
+    const double most = std::max(kLeastThinned, shareApart(line[i], ways[i], line[i + 1], ways[i + 1]));
     if (most >= 1.0) continue;
     thinned = true;
     share[i] = std::min(share[i], most);

@@ -7,6 +7,7 @@
 #include "cli/commands.h"
 #include "cli/job_options.h"
 #include "cli/values.h"
+#include "render/model/plant_model.h"
 #include "scenes/job/run.h"
 
 namespace espalier::cli {
@@ -18,6 +19,7 @@ struct GrowArguments {
   std::optional<int> iterations;
   scenes::Keeping keeping;
   bool no_state = false;
+  int coarser = 0;
 };
 
 }  // namespace
@@ -42,6 +44,12 @@ void addGrow(CLI::App& app, int& exit_status) {
       *command, "--save-every", every,
       [arguments](std::int64_t number) { arguments->keeping.every = static_cast<int>(number); },
       "Keep the state of growth in the output folder after every so many iterations");
+  rules::Key levels = sceneKey("iterations");
+  levels.limits = {0.0, render::kLevels - 1.0};
+  addWhole(
+      *command, "--lods", levels,
+      [arguments](std::int64_t number) { arguments->coarser = static_cast<int>(number); },
+      "Write so many coarser models too, plant_lod1.glb and so on: each with an error three times as large");
   command->add_flag("--resume", arguments->keeping.resume,
                     "Go on from the state in the output folder, or begin if there is none");
   command->add_flag("--no-state", arguments->no_state, "Leave no state of growth behind at the end");
@@ -50,7 +58,9 @@ void addGrow(CLI::App& app, int& exit_status) {
     exit_status = runJob(arguments->job, [&](scenes::Scene scene, const scenes::RunOptions& run) {
       if (arguments->seed) scene.seed = *arguments->seed;
       if (arguments->iterations) scene.iterations = *arguments->iterations;
-      const scenes::Report report = scenes::runScene(scene, run, arguments->keeping);
+      scenes::RunOptions options = run;
+      options.coarser_models = arguments->coarser;
+      const scenes::Report report = scenes::runScene(scene, options, arguments->keeping);
       return JobOutcome{scenes::toJson(report), scenes::summary(report, run.folder)};
     });
   });

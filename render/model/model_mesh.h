@@ -21,6 +21,9 @@ struct ModelMesh {
   std::vector<float> exposures;       ///< 0..1, as the plant sensed it where it grew
   std::vector<float> youths;          ///< 0 for what the first iteration placed .. 1 for the last
   std::vector<std::uint32_t> pieces;  ///< number of the stem axis or of the placed element
+  /// The point of the surface at each vertex: those of one point differ in their UVs alone. Empty: each is a
+  /// point of its own.
+  std::vector<std::uint32_t> points;
   std::vector<std::array<std::uint32_t, 3>> triangles;
 
   bool empty() const { return triangles.empty(); }

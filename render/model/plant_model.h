@@ -2,26 +2,36 @@
 #include <vector>
 
 #include "render/model/model_mesh.h"
-#include "render/model/radii.h"
+#include "sim/base/bits.h"
 #include "sim/base/frame.h"
 #include "sim/grow/plant.h"
 
 namespace espalier::render {
 
+/// Levels of detail, each three times as coarse as the one before: how far surfaces of stems may be from what
+/// they stand for, in radii of the thinnest twig.
+inline constexpr int kLevels = 4;
+constexpr double errorOfLevel(int level) {
+  return level == 0 ? 0.4 : 3.0 * errorOfLevel(level - 1);
+}
+
 struct ModelOptions {
-  PipeModel pipe;
+  /// How far surfaces of stems may be from what they stand for, in radii of the thinnest twig.
+  double error = errorOfLevel(0);
+  const sim::BitVolume* walls = nullptr;  ///< voxels that centre lines keep out of where the skeleton does
 };
 
 /// A plant's surfaces. Meshes may be empty: a lone seed has no stems.
 struct PlantModel {
   std::string name;
   ModelMesh stems;
+  std::size_t meeting_limbs = 0;    ///< pairs of limbs that run into each other where none leaves the other
   std::vector<ModelMesh> elements;  ///< one for each of the plant's shapes: blades with their stalks
 };
 
-/// Models a plant: every stem a closed tube swept along a C2 curve through its nodes, thick as the pipe model
-/// says, a fork's tube beginning inside its parent's; every element's polygons, with a stalk from the stem to
-/// a blade that does not begin on it. Throws InputError as pipeRadii does.
+/// Models a plant: every stem a tube swept along a C2 curve through its nodes, thick as the pipe model says,
+/// all of a seed's stems one closed surface (stem_surface.h); every element's polygons, with a stalk from the
+/// stem to a blade that does not begin on it. Throws InputError as stemRadii does.
 PlantModel modelPlant(const sim::Plant& plant, const sim::Frame& frame, const ModelOptions& options = {});
 
 }  // namespace espalier::render

@@ -8,20 +8,48 @@
 
 namespace espalier::render {
 
-std::vector<float> pipeRadii(const sim::Skeleton& skeleton, const PipeModel& model) {
-  if (!(model.exponent > 0 && model.tip_radius_vx > 0 && model.max_radius_vx > 0)) {
-    throw sim::InputError("pipe model: the exponent and the radii must be positive");
-  }
-  // All tips are equally thick, so r^e = tips * tip^e: counting tips in whole numbers keeps the sums exact.
-  const auto nodes = static_cast<std::size_t>(skeleton.size());
-  std::vector<std::int64_t> tips(nodes, 0);
-  std::vector<float> radii(nodes);
-  for (std::size_t n = nodes; n-- > 0;) {
+namespace {
+
+/// All tips are equally thick, so r^e = tips * tip^e: counting tips in whole numbers keeps the sums exact.
+std::vector<double> byPipes(const sim::Skeleton& skeleton, const sim::StemGirth& girth) {
+  std::vector<std::int64_t> tips(static_cast<std::size_t>(skeleton.size()), 0);
+  std::vector<double> radii(tips.size());
+  for (std::size_t n = tips.size(); n-- > 0;) {
     tips[n] = std::max<std::int64_t>(tips[n], 1);
     if (skeleton.parent[n] != sim::kNoNode) tips[static_cast<std::size_t>(skeleton.parent[n])] += tips[n];
-    radii[n] = std::min(model.max_radius_vx,
-                        model.tip_radius_vx * std::pow(static_cast<float>(tips[n]), 1.0f / model.exponent));
+    radii[n] = girth.twig_vx * std::pow(static_cast<double>(tips[n]), 1.0 / girth.exponent);
   }
+  return radii;
+}
+
+/// A limb may be born after what it carries only in the skeletons of others; then it is as old.
+std::vector<double> byAge(const sim::Skeleton& skeleton, const sim::StemGirth& girth) {
+  std::vector<std::int32_t> born = skeleton.born;
+  std::int32_t last = 0;
+  for (std::size_t n = born.size(); n-- > 0;) {
+    last = std::max(last, born[n]);
+    if (skeleton.parent[n] == sim::kNoNode) continue;
+    std::int32_t& below = born[static_cast<std::size_t>(skeleton.parent[n])];
+    below = std::min(below, born[n]);
+  }
+  std::vector<double> radii;
+  for (const std::int32_t iteration : born)
+    radii.push_back(girth.twig_vx + girth.thickens_vx * static_cast<double>(last - iteration));
+  return radii;
+}
+
+}  // namespace
+
+std::vector<float> stemRadii(const sim::Skeleton& skeleton, const sim::StemGirth& girth) {
+  if (!(girth.exponent >= 1.0 && girth.twig_vx > 0.0 && girth.most_vx > 0.0 && girth.thickens_vx >= 0.0)) {
+    throw sim::InputError("the exponent of stems must be at least 1, and their radii positive");
+  }
+  const bool age = girth.by == sim::StemGirth::By::age;
+  const auto nodes = static_cast<std::size_t>(skeleton.size());
+  std::vector<float> radii;
+  radii.reserve(nodes);
+  for (const double radius : age ? byAge(skeleton, girth) : byPipes(skeleton, girth))
+    radii.push_back(static_cast<float>(std::min(girth.most_vx, radius)));
   // A seed has no segment of its own; it is as thick as what grows from it.
   std::vector<float> thickest(nodes, 0.0f);
   for (std::size_t n = 0; n < nodes; ++n) {

@@ -11,6 +11,7 @@ namespace espalier::render {
 /// differentiable.
 class Spline {
  public:
+  Spline() = default;  ///< to be given points later
   /// At least one point. The curve ends without curvature, and begins so too unless its first derivative is
   /// given.
   explicit Spline(std::span<const sim::Vec3> points, std::optional<sim::Vec3> start_derivative = {});

@@ -46,39 +46,125 @@ void appendVertex(ModelMesh& mesh, Vec3 p, Vec3 normal, float u, double v, const
 
 }  // namespace
 
-std::vector<TubeFrame> rotationMinimizingFrames(std::span<const TubeStation> line) {
-  if (line.size() < 2) return {};
-  const std::vector<Vec3> along = tangents(line);
+std::vector<TubeFrame> rotationMinimizingFrames(std::span<const TubeStation> line,
+                                                std::span<const Vec3> along, Vec3 across) {
   std::vector<TubeFrame> frames(line.size());
-  Vec3 across = anyPerpendicular(along[0]);
+  const auto square = [&](Vec3 v, std::size_t i) {
+    const Vec3 flat = v - glm::dot(v, along[i]) * along[i];
+    const double length2 = glm::dot(flat, flat);
+    return length2 > 1e-12 ? flat / std::sqrt(length2) : anyPerpendicular(along[i]);
+  };
+  across = square(across, 0);
   frames[0] = {along[0], across, glm::cross(along[0], across)};
   for (std::size_t i = 1; i < line.size(); ++i) {
     const Vec3 step = line[i].centre_m - line[i - 1].centre_m;
     const Vec3 turned = reflected(across, step);
-    across = reflected(turned, along[i] - reflected(along[i - 1], step));
-    across = glm::normalize(across - glm::dot(across, along[i]) * along[i]);
+    across = square(reflected(turned, along[i] - reflected(along[i - 1], step)), i);
     frames[i] = {along[i], across, glm::cross(along[i], across)};
   }
   return frames;
 }
 
-void limitRadiusByBend(std::span<TubeStation> line) {
-  for (std::size_t i = 1; i + 1 < line.size(); ++i) {
-    const Vec3 a = line[i].centre_m - line[i - 1].centre_m, b = line[i + 1].centre_m - line[i].centre_m;
-    const double la = glm::length(a), lb = glm::length(b);
-    const double cosine = std::clamp(glm::dot(a, b) / (la * lb), -1.0, 1.0);
-    const double half_tangent =
-        std::sqrt((1.0 - cosine) / std::max(1.0 + cosine, 1e-9));  // tan of half the turn
-    if (half_tangent > 0.0)
-      line[i].radius_m = std::min(line[i].radius_m, 0.48 * std::min(la, lb) / half_tangent);
+std::vector<TubeFrame> rotationMinimizingFrames(std::span<const TubeStation> line) {
+  if (line.size() < 2) return {};
+  const std::vector<Vec3> along = tangents(line);
+  return rotationMinimizingFrames(line, along, anyPerpendicular(along[0]));
+}
+
+std::vector<Vec3> chordsOverThickness(std::span<const TubeStation> line) {
+  std::vector<Vec3> result(line.size());
+  // The point at `reach` along the line from station i, towards the end (way 1) or the start (way -1).
+  const auto reached = [&](std::size_t i, double reach, std::ptrdiff_t way) {
+    const std::size_t end = way > 0 ? line.size() - 1 : 0;
+    while (i != end) {
+      const std::size_t next = i + static_cast<std::size_t>(way);
+      const double length = glm::distance(line[i].centre_m, line[next].centre_m);
+      if (length >= reach) return glm::mix(line[i].centre_m, line[next].centre_m, reach / length);
+      reach -= length;
+      i = next;
+    }
+    return line[end].centre_m;
+  };
+  for (std::size_t i = 0; i < line.size(); ++i) {
+    const Vec3 chord = reached(i, line[i].radius_m, 1) - reached(i, line[i].radius_m, -1);
+    const std::size_t from = i + 1 < line.size() ? i : i - 1;
+    result[i] = glm::dot(chord, chord) > 1e-6 * line[i].radius_m * line[i].radius_m
+                    ? glm::normalize(chord)
+                    : glm::normalize(line[from + 1].centre_m - line[from].centre_m);
   }
+  return result;
+}
+
+namespace {
+
+constexpr double kApart = 0.9;       // of the way to where two rings would touch
+constexpr double kLeastThinned = 0.1;  // of its thickness that a tube keeps in a hairpin
+
+/// How thick two neighbouring stations may be, as a share of their radii.
+double shareApart(const TubeStation& a, Vec3 along_a, const TubeStation& b, Vec3 along_b) {
+  const double turn = glm::length(glm::cross(along_a, along_b));
+  if (glm::dot(along_a, along_b) <= 0.0) return kLeastThinned;
+  const Vec3 step = b.centre_m - a.centre_m;
+  const double room = std::min(glm::dot(step, along_a) / b.radius_m, glm::dot(step, along_b) / a.radius_m);
+  return turn > 0.0 ? kApart * room / turn : room > 0.0 ? 1.0 : kLeastThinned;
+}
+
+void ease(std::span<TubeStation> line) {
   constexpr double kSlope = 0.5;
-  const auto ease = [&](std::size_t i, std::size_t from) {
+  const auto limit = [&](std::size_t i, std::size_t from) {
     const double reach = kSlope * glm::distance(line[i].centre_m, line[from].centre_m);
     line[i].radius_m = std::min(line[i].radius_m, line[from].radius_m + reach);
   };
-  for (std::size_t i = 1; i < line.size(); ++i) ease(i, i - 1);
-  for (std::size_t i = line.size(); i-- > 1;) ease(i - 1, i);
+  for (std::size_t i = 1; i < line.size(); ++i) limit(i, i - 1);
+  for (std::size_t i = line.size(); i-- > 1;) limit(i - 1, i);
+}
+
+}  // namespace
+
+void keepRingsApart(std::vector<TubeStation>& line, const std::function<void(std::size_t)>& dropped) {
+  if (line.size() < 2) return;
+  const std::vector<Vec3> along = chordsOverThickness(line);
+  std::vector<std::size_t> kept{0};
+  const std::size_t last = line.size() - 1;
+  const auto apart = [&](std::size_t a, std::size_t b) {
+    return shareApart(line[a], along[a], line[b], along[b]) >= 1.0;
+  };
+  for (std::size_t i = 1; i < last; ++i) {
+    if (apart(kept.back(), i)) kept.push_back(i);
+  }
+  while (kept.size() > 1 && !apart(kept.back(), last)) kept.pop_back();
+  const auto fromLast = [&](std::size_t a) { return glm::distance(line[a].centre_m, line[last].centre_m); };
+  if (fromLast(kept.back()) < 0.1 * line[last].radius_m) {  // a hairpin: its ends must not fall together
+    std::size_t farthest = kept.back();
+    for (std::size_t i = farthest + 1; i < last; ++i)
+      if (fromLast(i) > fromLast(farthest)) farthest = i;
+    if (farthest != kept.back()) kept.push_back(farthest);
+  }
+  kept.push_back(last);
+  std::size_t k = 0;
+  for (std::size_t i = 0; i < line.size() && dropped; ++i) {
+    if (kept[k] == i) {
+      ++k;
+    } else {
+      dropped(i);
+    }
+  }
+  for (k = 0; k < kept.size(); ++k) line[k] = line[kept[k]];
+  line.resize(kept.size());
+
+  bool thinned = false;
+  const std::vector<Vec3> ways = chordsOverThickness(line);
+  std::vector<double> share(line.size(), 1.0);
+  for (std::size_t i = 0; i + 1 < line.size(); ++i) {
+    const double most = std::max(kLeastThinned, shareApart(line[i], ways[i], line[i + 1], ways[i + 1]));
+    if (most >= 1.0) continue;
+    thinned = true;
+    share[i] = std::min(share[i], most);
+    share[i + 1] = std::min(share[i + 1], most);
+  }
+  if (!thinned) return;
+  for (std::size_t i = 0; i < line.size(); ++i) line[i].radius_m *= share[i];
+  ease(line);
 }
 
 void appendTube(ModelMesh& mesh, std::span<const TubeStation> line, int sides, std::uint32_t piece) {

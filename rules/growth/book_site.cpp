@@ -84,8 +84,9 @@ int orderOf(const sim::Plant& plant, sim::NodeId node) {
 sim::Plant seedlingOf(const RuleBook& book) {
   sim::Plant plant;
   plant.shapes = book.shapes();
-  plant.stem_colour = book.top().stem_colour;
-  plant.stem_radius_vx = book.top().stem_radius.number;
+  plant.stem_colour = book.top().stem.colour;
+  const Stem& stem = book.top().stem;
+  plant.girth = {stem.by, stem.radius.number, stem.exponent, stem.thickens.number, stem.thickest.number};
   plant.skeleton.columns["proximity_vx"];
   if (book.hasOrders()) plant.skeleton.columns["order"];
   if (!wantsOf(book).light) return plant;

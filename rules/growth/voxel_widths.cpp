@@ -39,9 +39,9 @@ void convert(RuleSet& rules, double voxel_m) {
   Length& length = rules.random_tree.length;
   if (length.metres) convert(length.value, voxel_m);
   length.metres = false;
-  for (Distance* distance :
-       {&rules.bias.twist_radius, &rules.require.proximity_min, &rules.require.proximity_max,
-        &rules.prefer.proximity, &rules.stem_radius, &rules.colonization.branching.above})
+  for (Distance* distance : {&rules.bias.twist_radius, &rules.require.proximity_min,
+                             &rules.require.proximity_max, &rules.prefer.proximity, &rules.stem.radius,
+                             &rules.stem.thickens, &rules.stem.thickest, &rules.colonization.branching.above})
     convert(*distance, voxel_m);
   for (std::optional<Distance>* distance :
        {&rules.colonization.step, &rules.colonization.influence, &rules.colonization.kill}) {
@@ -115,7 +115,8 @@ std::string wrongWith(const RuleSet& rules, const std::string& at) {
                        least > 0.0 ? fmt::format("at least {}", least) : "more than 0", most);
   };
   std::string wrong = within("bias.twist.radius", rules.bias.twist_radius, 0.0, kFarthestTwist);
-  if (wrong.empty()) wrong = within("stem.radius", rules.stem_radius, kThinnestTwig, kThickestTwig);
+  if (wrong.empty()) wrong = within("stem.radius", rules.stem.radius, kThinnestTwig, kThickestTwig);
+  if (wrong.empty()) wrong = within("stem.thickest", rules.stem.thickest, kThinnestTwig, kNoLimit);
   if (!wrong.empty()) return wrong;
   const double min = rules.require.proximity_min.number, max = rules.require.proximity_max.number;
   if (!(min < max)) {

@@ -230,11 +230,27 @@ std::shared_ptr<const Table> lightKeys() {
 }
 
 std::shared_ptr<const Table> stemKeys() {
-  return TableOf<RuleSet>()
-      .colour("colour", &RuleSet::stem_colour, {.meaning = "Colour of the bark."})
+  using By = sim::StemGirth::By;
+  return TableOf<Stem>()
+      .colour("colour", &Stem::colour, {.meaning = "Colour of the bark."})
       .distance(
-          "radius", &RuleSet::stem_radius,
+          "radius", &Stem::radius,
           {.unit = kVoxels, .limits = {0.0, 100.0, true}, .meaning = "Radius of a twig that does not fork."})
+      .choice<By>("by", &Stem::by, {{"pipes", By::pipes}, {"age", By::age}},
+                  {.meaning = "What makes stems thick: one pipe to each of their tips, or their age."})
+      .number("exponent", &Stem::exponent,
+              {.unit = "exponent",
+               .limits = {1.0, 10.0},
+               .meaning = "By pipes: a stem's radius to this power is the sum of those that it carries; 2 is "
+                          "Leonardo's rule, 3 Murray's law."})
+      .distance("thickens", &Stem::thickens,
+                {.unit = kVoxels,
+                 .limits = {0.0, 100.0},
+                 .meaning = "By age: by how much a radius grows in each iteration."})
+      .distance("thickest", &Stem::thickest,
+                {.unit = kVoxels,
+                 .limits = {0.0, 1000.0, true},
+                 .meaning = "Greatest radius of any stem. Without it trunks are as thick as they come."})
       .shared();
 }
 
@@ -308,7 +324,7 @@ Table makeTable() {
                {.meaning = "Rejects the trials that do not meet these."})
       .section("prefer", &RuleSet::prefer, preferKeys(), {.meaning = "Ranks the trials that are left."})
       .section("light", &RuleSet::light, lightKeys(), {.meaning = "What light is, and what it does."})
-      .section("stem", std::identity{}, stemKeys(),
+      .section("stem", &RuleSet::stem, stemKeys(),
                {.meaning =
                     "What all of a plant's stems are like; sets of regions and otherwise have no say in it."})
       .list<Element>(

@@ -11,6 +11,7 @@
 #include "rules/language/envelope_spec.h"
 #include "rules/language/value.h"
 #include "sim/base/vec.h"
+#include "sim/grow/stem_girth.h"
 
 /// Rule sets as plain values: what a rule file says. rules/language/registry.h describes every key (type,
 /// unit, default, range, meaning); the reader, the JSON Schema and the reference page are derived from it.
@@ -76,10 +77,10 @@ struct Colonization {
   std::optional<Distance> influence;  ///< attractors act on nodes that are nearer than this
   std::optional<Distance> kill;       ///< attractors end when a node is nearer than this
   Acts acts = Acts::on_nearest_node;
-  bool onto = false;        ///< new nodes stand on attractors
-  bool repeated = false;    ///< a node is a start for each of its attractors
+  bool onto = false;         ///< new nodes stand on attractors
+  bool repeated = false;     ///< a node is a start for each of its attractors
   double avoid_deg = 110.0;  ///< how far a way may turn aside where something stands in it
-  int trials = 60;          ///< ways that are tried then
+  int trials = 60;           ///< ways that are tried then
   Branching branching;
   std::vector<std::string> fields;  ///< guide fields of the scene that bend it
 };
@@ -135,6 +136,16 @@ struct Element {
   bool polygons_metres = false;                  ///< they are in metres; else in voxel widths, or in sizes
 };
 
+/// What a plant's stems are like: see sim::StemGirth.
+struct Stem {
+  sim::Colour colour{0.16f, 0.10f, 0.05f};  ///< linear RGB
+  Distance radius{0.08};                    ///< of a twig that does not fork
+  sim::StemGirth::By by = sim::StemGirth::By::pipes;
+  double exponent = 2.05;
+  Distance thickens{0.02};  ///< by age: in an iteration
+  Distance thickest{kNoLimit};
+};
+
 struct RuleSet;
 
 /// What holds where a region of the scene is nearest.
@@ -154,8 +165,7 @@ struct RuleSet {
   Require require;
   Prefer prefer;
   Light light;
-  sim::Colour stem_colour{0.16f, 0.10f, 0.05f};  ///< linear RGB
-  Distance stem_radius{0.08};                    ///< of a twig that does not fork
+  Stem stem;
   std::vector<Element> elements;
   std::map<std::string, RegionRule, std::less<>> regions;  ///< by region name
   std::optional<RegionRule> others;                        ///< of every region that is not named

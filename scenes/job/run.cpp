@@ -6,11 +6,11 @@
 #include <ostream>
 #include <span>
 
-#include "render/files/gltf.h"
 #include "render/files/vdb.h"
 #include "render/image/image_io.h"
 #include "render/model/plant_model.h"
 #include "scenes/foretell/foretell.h"
+#include "scenes/job/plant_models.h"
 #include "scenes/job/plant_reports.h"
 #include "scenes/job/saved_growth.h"
 #include "scenes/job/seed_failure_words.h"
@@ -35,47 +35,6 @@ namespace espalier::scenes {
 namespace {
 
 constexpr const char *kModelFile = "plant.glb", *kWorldFile = "world.vdb";
-
-std::vector<render::PlantModel> modelPlants(const sim::Frame& frame, std::span<const sim::Plant> plants) {
-  std::vector<render::PlantModel> models(plants.size());
-  sim::parallelFor(plants.size(), 1, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) {
-      render::ModelOptions options;
-      options.pipe.tip_radius_vx = static_cast<float>(plants[i].stem_radius_vx);
-      models[i] = render::modelPlant(plants[i], frame, options);
-    }
-  });
-  return models;
-}
-
-/// Models plants only when they are asked for, small ones some at once: all models of a large scene take more
-/// memory than all that has grown.
-render::PlantModels modelsOf(const sim::Frame& frame, std::span<const sim::Plant> plants) {
-  return [=](const std::function<void(const render::PlantModel&)>& take) {
-    constexpr std::size_t kAtOnce = 4096;  // nodes and elements
-    for (std::size_t first = 0, last = 0; first < plants.size(); first = last) {
-      std::size_t pieces = 0;
-      while (last < plants.size() && pieces < kAtOnce) {
-        pieces += plants[last].skeleton.parent.size() + plants[last].elements.size();
-        ++last;
-      }
-      for (const auto& model : modelPlants(frame, plants.subspan(first, last - first))) take(model);
-    }
-  };
-}
-
-/// `models`: of all plants, or empty.
-void writeGlb(std::ostream& out, const Site& site, std::span<const sim::Plant> plants,
-              const std::vector<render::PlantModel>& models, const sim::Provenance& made_by) {
-  std::vector<const sim::Mesh*> meshes;
-  for (const auto& tiled : site.meshes) meshes.push_back(&tiled.mesh);
-  const auto kept = [&](const std::function<void(const render::PlantModel&)>& take) {
-    for (const auto& model : models) take(model);
-  };
-  render::writeGlb(out, meshes,
-                   models.empty() ? modelsOf(site.world.frame(), plants) : render::PlantModels(kept),
-                   made_by);
-}
 
 /// The free voxels of the boundary layers, which lie around the scene.
 sim::VoxelSet openLayers(const sim::BitVolume& scene, const sim::World& grown) {
@@ -220,6 +179,7 @@ sim::Growth growOn(const Scene& scene, Prepared& prepared, std::optional<sim::Gr
 Report runScene(const Scene& scene, const RunOptions& options, const Keeping& keeping) {
   if (options.pictures) requirePicturesFit(scene, picturesOf(scene));
   std::vector<std::string> names = {kModelFile, kWorldFile, kReportFile};
+  for (int level = 1; level <= options.coarser_models; ++level) names.push_back(levelFile(level));
   if (keeping.keep || keeping.every > 0) names.emplace_back(kStateFile);
   if (options.pictures) {
     for (std::string& name : fileNames(scene.images)) names.push_back(std::move(name));
@@ -258,13 +218,27 @@ Report runScene(const Scene& scene, const RunOptions& options, const Keeping& ke
   report.light = light.about;
   std::vector<render::PlantModel> models;  // for pictures; else they are made while they are written
   if (options.pictures)
-    models = stages.run("modelling", [&] { return modelPlants(world.frame(), growth.plants); });
+    models = stages.run("modelling", [&] { return modelPlants(world.frame(), growth.plants, bare); });
   const GuideVolumes guides = inScene(scene, [&] { return guideVolumes(growth, usedFields(scene), world); });
   for (const render::VdbField& field : guides.fields)
     report.growth->fields.push_back({field.name, guides.near->count()});
   std::vector<OutputFile> files;
-  files.push_back(
-      {kModelFile, [&](std::ostream& out) { writeGlb(out, site, growth.plants, models, report.made_by); }});
+  const render::PlantModels in_memory = [&](const std::function<void(const render::PlantModel&)>& take) {
+    for (const auto& model : models) take(model);
+  };
+  files.push_back({kModelFile, [&](std::ostream& out) {
+                     const auto plants = modelsOf(world.frame(), growth.plants, bare, 0);
+                     writeGlb(out, site, models.empty() ? plants : in_memory, report.made_by,
+                              [&](std::size_t plant, std::size_t limbs) {
+                                report.growth->plants[plant].meeting_limbs = limbs;
+                              });
+                   }});
+  for (int level = 1; level <= options.coarser_models; ++level) {
+    files.push_back({levelFile(level), [&, level](std::ostream& out) {
+                       writeGlb(out, site, modelsOf(world.frame(), growth.plants, bare, level),
+                                report.made_by, [](std::size_t, std::size_t) {});
+                     }});
+  }
   files.push_back({kWorldFile, [&](std::ostream& out) {
                      std::vector<render::VdbField> fields = worldFields(light, *layers);
                      fields.insert(fields.end(), guides.fields.begin(), guides.fields.end());
@@ -346,7 +320,8 @@ Report renderScene(Scene scene, const std::filesystem::path& from, const RunOpti
     return lightFor(scene, site, drawsVines(scene.images), nullptr);
   });
   report.light = light.about;
-  const auto models = stages.run("modelling", [&] { return modelPlants(site.world.frame(), growth.plants); });
+  const auto models =
+      stages.run("modelling", [&] { return modelPlants(site.world.frame(), growth.plants, bare); });
   std::vector<OutputFile> files = stages.run("drawing", [&] {
     const Finished finished{site.meshes, site.world, bare, growth, light, models};
     return inScene(scene, [&] { return drawPictures(picturesOf(scene, report.made_by), finished); });

@@ -12,6 +12,7 @@ namespace espalier::scenes {
 struct RunOptions {
   std::filesystem::path folder{};  ///< made if it is not there
   bool pictures = true;            ///< draw the scene's images
+  int coarser_models = 0;          ///< 0 to 3: plant_lod1.glb and so on, each of a coarser level
   bool strict = false;  ///< warnings are errors; of one that comes after growth once all is written
   std::stop_token stop;
   std::function<void(const Foretold&)> on_foretold;        ///< once, in the first stage that it tells of

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <fstream>
 #include <iterator>
@@ -72,6 +73,14 @@ std::vector<std::string> told(const std::vector<std::string>& differences) {
   return lines;
 }
 
+constexpr std::array<std::string_view, 4> kLooks{".stem.by", ".stem.exponent", ".stem.thickens",
+                                                 ".stem.thickest"};
+
+/// How thick stems are beyond their twigs is for models alone.
+bool ofLooksAlone(const std::string& path) {
+  return std::any_of(kLooks.begin(), kLooks.end(), [&](std::string_view key) { return path.ends_with(key); });
+}
+
 }  // namespace
 
 sim::Inputs inputsOf(const Scene& scene, const Site& site) {
@@ -79,7 +88,7 @@ sim::Inputs inputsOf(const Scene& scene, const Site& site) {
   for (auto& [path, value] : settings(scene)) {
     if (startsWith(path,
                    {"name", "iterations", "image", "images", "cameras", "exposure", "sun.shadow_hour"}) ||
-        namesAFile(path))
+        namesAFile(path) || ofLooksAlone(path))
       continue;
     inputs.emplace_back(path, value);
   }

@@ -282,7 +282,7 @@ void Growing::place(Asked& asked, std::uint32_t before, std::vector<TiledVoxel>&
     claims_->take(segment->takes, from);
     occupyWith(edit, segment->takes,
                {plant.stem_part, plant.stem_colour,
-                static_cast<float>(std::min(1.0, 2.0 * plant.stem_radius_vx)), Vec3f(0.0f)});
+                static_cast<float>(std::min(1.0, 2.0 * plant.girth.twig_vx)), Vec3f(0.0f)});
     carrier = asked.node = plant.skeleton.size();
     addNode(asked.plant, asked.site.node, segment->to_vx, segment->quantities);
     pieces_->add(limbTo(plant, carrier));

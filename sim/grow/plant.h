@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "sim/base/vec.h"
+#include "sim/grow/stem_girth.h"
 #include "sim/sense/intersection.h"
 #include "sim/world/world.h"
 
@@ -62,7 +63,7 @@ struct Plant {
   std::vector<ElementShape> shapes;
   std::vector<PlacedElement> elements;
   Colour stem_colour{0.16f, 0.10f, 0.05f};
-  double stem_radius_vx = 0.08;  ///< of a twig that does not fork
+  StemGirth girth;
   PartId stem_part = kFree;
   std::vector<PartId> element_parts;  ///< a part for each shape
   std::uint64_t key = 0;              ///< its seed's: what its random numbers follow from

@@ -111,7 +111,7 @@ Growth restore(State state, World& world, const std::vector<Planting>& plantings
       plant.name = planting.seeds.size() == 1 ? planting.name : fmt::format("{} {}", planting.name, k + 1);
       plant.shapes = seedling.shapes;
       plant.stem_colour = seedling.stem_colour;
-      plant.stem_radius_vx = seedling.stem_radius_vx;
+      plant.girth = seedling.girth;
       plant.stem_part = part_of(plant.name, "stem", PartKind::stem, number);
       for (const ElementShape& shape : plant.shapes)
         plant.element_parts.push_back(part_of(plant.name, shape.name, PartKind::element, number));

@@ -181,6 +181,22 @@ TEST_F(Plot, PicturesDoNotChangeWhatGrows) {
   EXPECT_TRUE(fs::exists(scratch_.path("without") / "plant.glb"));
 }
 
+TEST_F(Plot, CoarserModelsAreWrittenWhereAskedFor) {
+  ASSERT_EQ(grow("--no-pictures --lods 3", "all").status, 0);
+  std::uintmax_t before = fs::file_size(scratch_.path("all") / "plant.glb");
+  for (const char* name : {"plant_lod1.glb", "plant_lod2.glb", "plant_lod3.glb"}) {
+    EXPECT_LT(fs::file_size(scratch_.path("all") / name), before) << name;
+    before = fs::file_size(scratch_.path("all") / name);
+  }
+  for (const json& plant : report("all")["growth"]["plants"])
+    EXPECT_TRUE(plant["meeting_limbs"].is_number()) << plant;
+  ASSERT_EQ(grow("--no-pictures", "one").status, 0);
+  EXPECT_FALSE(fs::exists(scratch_.path("one") / "plant_lod1.glb"));
+  EXPECT_EQ(tests::fileText(scratch_.path("one") / "plant.glb"),
+            tests::fileText(scratch_.path("all") / "plant.glb"));
+  EXPECT_EQ(grow("--no-pictures --lods 4", "four").status, 2);
+}
+
 TEST_F(Plot, TheSeedOfTheCommandLineWins) {
   ASSERT_EQ(grow("--no-pictures", "a").status, 0);
   ASSERT_EQ(grow("--no-pictures --seed 6", "b").status, 0);

@@ -32,6 +32,8 @@ const std::map<std::string, rules::Limits> kUsual = {
     {"require.proximity.max", {0.1, 30.0}},
     {"prefer.proximity", {0.0, 20.0}},
     {"stem.radius", {1e-3, 4.0}},
+    {"stem.thickens", {0.0, 0.5}},
+    {"stem.thickest", {1e-3, 20.0}},
     {"elements[].trials", {1.0, 12.0}},
     {"elements[].per_segment", {0.0, 3.0}},
     {"elements[].size", {0.05, 4.0}},

@@ -8,6 +8,7 @@
 #include "render/model/leaves.h"
 #include "sim/base/error.h"
 #include "tests/support/small_vine.h"
+#include "tests/support/sound_surface.h"
 
 namespace espalier {
 namespace {
@@ -47,12 +48,16 @@ TEST(PlantModel, StemsPassThroughTheNodes) {
   const sim::Plant plant = tests::smallVine();
   const auto model = modelPlant(plant, tests::kVineFrame);
   expectSound(model.stems);
-  const auto radii = render::pipeRadii(plant.skeleton, {});
-  for (std::size_t n = 0; n < radii.size(); ++n) {
+  std::vector<bool> forks(static_cast<std::size_t>(plant.skeleton.size()), false);
+  for (const sim::NodeId parent : plant.skeleton.parent)
+    if (parent != sim::kNoNode) forks[static_cast<std::size_t>(parent)] = true;
+  for (std::size_t n = 0; n < forks.size(); ++n) {
     const Vec3 node_m = sim::worldFromVoxel(tests::kVineFrame, plant.skeleton.position_vx[n]);
-    EXPECT_LE(distanceTo(model.stems, node_m) / tests::kVineFrame.voxel_m,
-              static_cast<double>(radii[n]) * 1.01)
-        << n;
+    if (forks[n]) {
+      EXPECT_GT(tests::windingAt(model.stems, node_m), 0.9) << n;  // inside
+    } else {
+      EXPECT_LT(distanceTo(model.stems, node_m), plant.girth.twig_vx * tests::kVineFrame.voxel_m) << n;
+    }
   }
 }
 
@@ -98,7 +103,8 @@ TEST(PlantModel, DegeneratePlants) {
   expectSound(model.elements[0]);
   EXPECT_EQ(model.elements.size(), 2u);
   EXPECT_TRUE(model.elements[1].empty());
-  EXPECT_THROW(modelPlant(plant, kUnit, {{-1.0f, 0.1f, 1.0f}}), sim::InputError);
+  plant.girth.exponent = -1.0;
+  EXPECT_THROW(modelPlant(plant, kUnit), sim::InputError);
 }
 
 TEST(Leaves, AreWhereTheyWerePlaced) {

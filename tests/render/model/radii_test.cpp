@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "sim/base/error.h"
@@ -10,51 +11,74 @@
 namespace espalier {
 namespace {
 
-using render::PipeModel;
-using render::pipeRadii;
+using render::stemRadii;
+using sim::StemGirth;
+
+/// Radii to a power at each node and summed over its children.
+struct Sums {
+  std::vector<double> own, children;
+};
+Sums sumsOf(const sim::Skeleton& skeleton, const std::vector<float>& radii, double exponent) {
+  Sums sums{std::vector<double>(radii.size()), std::vector<double>(radii.size(), 0.0)};
+  for (std::size_t n = 0; n < radii.size(); ++n) {
+    sums.own[n] = std::pow(static_cast<double>(radii[n]), exponent);
+    if (skeleton.parent[n] != sim::kNoNode)
+      sums.children[static_cast<std::size_t>(skeleton.parent[n])] += sums.own[n];
+  }
+  return sums;
+}
 
 TEST(Radii, EveryForkFollowsThePipeModel) {
   const sim::Skeleton skeleton = tests::smallVine().skeleton;
-  const PipeModel model{2.05f, 0.1f, 100.0f};
-  const auto radii = pipeRadii(skeleton, model);
-  std::vector<double> children(radii.size(), 0.0);
-  for (std::size_t n = 0; n < radii.size(); ++n) {
-    if (skeleton.parent[n] != sim::kNoNode) {
-      children[static_cast<std::size_t>(skeleton.parent[n])] += std::pow(static_cast<double>(radii[n]), 2.05);
-    }
-  }
+  const auto radii = stemRadii(skeleton, {.twig_vx = 0.1});
+  const Sums sums = sumsOf(skeleton, radii, 2.05);
   int forks = 0;
   for (std::size_t n = 0; n < radii.size(); ++n) {
     if (skeleton.parent[n] == sim::kNoNode) continue;
-    if (children[n] == 0.0) {
-      EXPECT_FLOAT_EQ(radii[n], model.tip_radius_vx);
+    if (sums.children[n] == 0.0) {
+      EXPECT_FLOAT_EQ(radii[n], 0.1f);
     } else {
-      EXPECT_NEAR(std::pow(static_cast<double>(radii[n]), 2.05) / children[n], 1.0, 1e-5);
+      EXPECT_NEAR(sums.own[n] / sums.children[n], 1.0, 1e-5);
       ++forks;
     }
   }
   EXPECT_GT(forks, 10);
 }
 
-TEST(Radii, AreCapped) {
-  const auto radii = pipeRadii(tests::smallVine().skeleton, {2.05f, 0.1f, 0.15f});
-  EXPECT_EQ(*std::max_element(radii.begin(), radii.end()), 0.15f);
+TEST(Radii, AreCappedOnlyWhereAsked) {
+  const sim::Skeleton skeleton = tests::smallVine().skeleton;
+  const auto capped = stemRadii(skeleton, {.twig_vx = 0.1, .most_vx = 0.15});
+  EXPECT_EQ(*std::max_element(capped.begin(), capped.end()), 0.15f);
+  const auto free = stemRadii(skeleton, {.twig_vx = 10.0});
+  EXPECT_FLOAT_EQ(free[0], 100.0f * stemRadii(skeleton, {.twig_vx = 0.1})[0]);
 }
 
-TEST(Radii, TheExponentIsTheRule) {  // two equal twigs: Leonardo's sqrt(2), Murray's cube root
+/// A trunk with two equal twigs.
+sim::Skeleton twoTwigs() {
   sim::Skeleton skeleton;
   tests::addNode(skeleton, sim::kNoNode, {0, 0, 0});
-  const auto trunk = tests::addNode(skeleton, 0, {0, 1, 0});
-  tests::addNode(skeleton, trunk, {1, 2, 0});
-  tests::addNode(skeleton, trunk, {-1, 2, 0});
-  EXPECT_FLOAT_EQ(pipeRadii(skeleton, {2.0f, 1.0f, 9.0f})[1], std::sqrt(2.0f));
-  EXPECT_FLOAT_EQ(pipeRadii(skeleton, {3.0f, 1.0f, 9.0f})[1], std::cbrt(2.0f));
+  const auto trunk = tests::addNode(skeleton, 0, {0, 1, 0}, 1);
+  tests::addNode(skeleton, trunk, {1, 2, 0}, 4);
+  tests::addNode(skeleton, trunk, {-1, 2, 0}, 10);
+  return skeleton;
+}
+
+TEST(Radii, TheExponentIsTheRule) {  // Leonardo's sqrt(2), Murray's cube root
+  EXPECT_FLOAT_EQ(stemRadii(twoTwigs(), {.twig_vx = 1.0, .exponent = 2.0})[1], std::sqrt(2.0f));
+  EXPECT_FLOAT_EQ(stemRadii(twoTwigs(), {.twig_vx = 1.0, .exponent = 3.0})[1], std::cbrt(2.0f));
+  EXPECT_FLOAT_EQ(stemRadii(twoTwigs(), {.twig_vx = 1.0, .exponent = 1.0})[1], 2.0f);
+}
+
+TEST(Radii, ByAgeEachIterationAddsAsMuch) {
+  const StemGirth girth{.by = StemGirth::By::age, .twig_vx = 0.5, .thickens_vx = 0.25, .most_vx = 2.5};
+  EXPECT_EQ(stemRadii(twoTwigs(), girth), (std::vector<float>{2.5f, 2.5f, 2.0f, 0.5f}));
 }
 
 TEST(Radii, NonsenseIsRefused) {
-  EXPECT_THROW(pipeRadii({}, {0.0f, 0.1f, 1.0f}), sim::InputError);
-  EXPECT_THROW(pipeRadii({}, {2.0f, -0.1f, 1.0f}), sim::InputError);
-  EXPECT_THROW(pipeRadii({}, {2.0f, NAN, 1.0f}), sim::InputError);
+  EXPECT_THROW(stemRadii({}, {.exponent = 0.9}), sim::InputError);
+  EXPECT_THROW(stemRadii({}, {.twig_vx = -0.1}), sim::InputError);
+  EXPECT_THROW(stemRadii({}, {.twig_vx = NAN}), sim::InputError);
+  EXPECT_THROW(stemRadii({}, {.most_vx = 0.0}), sim::InputError);
 }
 
 }  // namespace

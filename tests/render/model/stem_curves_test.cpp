@@ -56,9 +56,38 @@ TEST(Spline, TwoPointsAndOnePoint) {
   expectNear(point.position(0.0), Vec3(1, 2, 3), 1e-12);
 }
 
+TEST(StemLine, KeepsOutOfWhatItsSegmentsLeaveFree) {  // around the edge of a wall, close by
+  const std::vector<Vec3> points{{-4, 0.02, 0}, {-2, 0.02, 0}, {0.02, 0.02, 0}, {0.02, -2, 0}, {0.02, -4, 0}};
+  const render::Blocked wall = [](Vec3 p) { return p.x < 0 && p.y < 0; };
+  const auto deepest = [](const render::StemLine& line) {
+    double deep = 0.0;
+    for (int i = 0; i <= 4000; ++i) {
+      const Vec3 p = line.position(0.001 * i);
+      deep = std::max(deep, std::min(-p.x, -p.y));
+    }
+    return deep;
+  };
+  EXPECT_GT(deepest({points, {}, {}}), 0.05);
+  const render::StemLine clear(points, {}, wall);
+  EXPECT_LT(deepest(clear), 0.002);
+  for (std::size_t i = 0; i < points.size(); ++i)
+    expectNear(clear.position(static_cast<double>(i)), points[i], 1e-9);
+  // Wherever its segments go there is nothing to keep out of.
+  expectNear(render::StemLine(points, {}, [](Vec3) { return true; }).position(0.4),
+             render::StemLine(points, {}, {}).position(0.4), 1e-12);
+}
+
+TEST(StemLine, ItsDerivativeGoesByNodes) {
+  const std::vector<Vec3> points{{-4, 0.02, 0}, {-2, 0.02, 0}, {0.02, 0.02, 0}, {0.02, -2, 0}};
+  const render::StemLine line(points, Vec3(1, 1, 0), [](Vec3 p) { return p.x < 0 && p.y < 0; });
+  expectNear(line.derivative(0.0), Vec3(1, 1, 0), 1e-9);
+  for (const double t : {0.3, 1.4, 2.7})
+    expectNear(line.derivative(t), (line.position(t + 1e-6) - line.position(t - 1e-6)) / 2e-6, 1e-6);
+}
+
 TEST(StemCurves, EverySegmentLiesOnOneStem) {
   const sim::Plant plant = tests::smallVine();
-  const auto radii = render::pipeRadii(plant.skeleton, {});
+  const auto radii = render::stemRadii(plant.skeleton, {});
   const auto curves = render::stemCurves(plant.skeleton, radii);
   std::size_t segments = 0;
   for (const auto& stem : curves.stems) segments += stem.nodes.size() - 1;
@@ -77,7 +106,7 @@ TEST(StemCurves, TheThickestChildContinuesAndAmongEqualsTheStraightest) {
   const auto bent = tests::addNode(skeleton, fork, {2, 2.5, 0});
   const auto straight = tests::addNode(skeleton, fork, {0.1, 4, 0});
   const auto stemFrom = [&] {
-    return render::stemCurves(skeleton, render::pipeRadii(skeleton, {})).stems[0].nodes[2];
+    return render::stemCurves(skeleton, render::stemRadii(skeleton, {})).stems[0].nodes[2];
   };
   EXPECT_EQ(stemFrom(), straight);
   tests::addNode(skeleton, bent, {4, 3, 0});
@@ -91,7 +120,7 @@ TEST(StemCurves, NodesInOnePlaceAreOneKnot) {
   tests::addNode(skeleton, 0, {0, 2, 0});
   tests::addNode(skeleton, 1, {0, 2, 0});
   tests::addNode(skeleton, 2, {0, 4, 0});
-  const auto curves = render::stemCurves(skeleton, render::pipeRadii(skeleton, {}));
+  const auto curves = render::stemCurves(skeleton, render::stemRadii(skeleton, {}));
   ASSERT_EQ(curves.stems.size(), 1u);
   EXPECT_EQ(curves.stems[0].nodes.size(), 3u);
   EXPECT_EQ(curves.parameter_of[1], curves.parameter_of[2]);

@@ -109,23 +109,43 @@ TEST(Tubes, AFlatLoopBringsItsFrameBack) {  // parallel transport around a plane
   for (const auto& f : frames) EXPECT_NEAR(f.up.y, frames.front().up.y, 1e-9);
 }
 
+TEST(Tubes, OnAHelixFramesTurnBackByItsTorsion) {  // what Frenet's frame turns too much, in closed form
+  const double a = 1.0, b = 0.4, speed = std::sqrt(a * a + b * b), torsion = b / (speed * speed);
+  std::vector<TubeStation> line;
+  std::vector<Vec3> along, normals;
+  for (int i = 0; i <= 600; ++i) {
+    const double t = 0.02 * i;
+    line.push_back({{a * std::cos(t), a * std::sin(t), b * t}, 0.1, 0, 0});
+    along.push_back(Vec3(-a * std::sin(t), a * std::cos(t), b) / speed);
+    normals.emplace_back(-std::cos(t), -std::sin(t), 0.0);
+  }
+  const auto frames = render::rotationMinimizingFrames(line, along, normals[0]);
+  for (std::size_t i = 0; i < line.size(); ++i) {
+    const double angle = -torsion * speed * 0.02 * static_cast<double>(i);
+    const Vec3 wanted = std::cos(angle) * normals[i] + std::sin(angle) * glm::cross(along[i], normals[i]);
+    EXPECT_LT(glm::distance(frames[i].across, wanted), 1e-6) << i;
+  }
+}
+
 TEST(Tubes, ThinWhereTheyBendSharply) {
   std::vector<TubeStation> line{{{0, 0, 0}, 1, 0, 0},
                                 {{0, 1, 0}, 1, 0, 0},
                                 {{0.8, 0.5, 0}, 1, 0, 0},
                                 {{1.6, 0, 0}, 1, 0, 0},
                                 {{9, 0, 0}, 1, 0, 0}};
-  render::limitRadiusByBend(line);
-  const auto frames = render::rotationMinimizingFrames(line);
-  EXPECT_LT(line[1].radius_m, 0.4);
-  EXPECT_EQ(line[4].radius_m, 1.0);
+  std::vector<std::size_t> dropped;
+  render::keepRingsApart(line, [&](std::size_t i) { dropped.push_back(i); });
+  EXPECT_EQ(line.size() + dropped.size(), 5u);
+  EXPECT_EQ(line.back().radius_m, 1.0);
+  const auto chords = render::chordsOverThickness(line);
+  const auto frames = render::rotationMinimizingFrames(line, chords, {0, 0, 1});
   // No corner of a ring lies behind its neighbour's plane: then neighbouring rings cannot cross.
   for (std::size_t i = 0; i + 1 < line.size(); ++i) {
     const Vec3 step = line[i + 1].centre_m - line[i].centre_m;
     for (int s = 0; s < 16; ++s) {
       const double a = 2 * M_PI * s / 16;
       const Vec3 out = std::cos(a) * frames[i + 1].across + std::sin(a) * frames[i + 1].up;
-      EXPECT_GT(glm::dot(step + line[i + 1].radius_m * out, glm::normalize(step)), 0.0);
+      EXPECT_GT(glm::dot(step + line[i + 1].radius_m * out, frames[i].along), 0.0);
       EXPECT_LT(line[i + 1].radius_m - line[i].radius_m, 0.5 * glm::length(step) + 1e-12);
     }
   }
@@ -133,7 +153,7 @@ TEST(Tubes, ThinWhereTheyBendSharply) {
 
 TEST(Tubes, AHairpinIsNotANan) {
   std::vector<TubeStation> line{{{0, 0, 0}, 1, 0, 0}, {{0, 1, 0}, 1, 0, 0}, {{0, 0, 0}, 1, 0, 0}};
-  render::limitRadiusByBend(line);
+  render::keepRingsApart(line);
   ModelMesh mesh;
   render::appendTube(mesh, line, 5, 0);
   for (const Vec3f p : mesh.positions_m) EXPECT_TRUE(std::isfinite(p.x + p.y + p.z));

@@ -69,6 +69,10 @@ const std::map<std::string, std::string> kWithoutEffect = {
     {"propagate", "one for all sets of a plant"},
     {"stem.colour", "a plant has one stem: that of the top rule set"},
     {"stem.radius", "the same"},
+    {"stem.by", "girth is for models alone"},
+    {"stem.exponent", "the same"},
+    {"stem.thickens", "the same"},
+    {"stem.thickest", "the same"},
     {"otherwise", "has tests of its own below"},
     {"regions", "the same"},
     // Of a front: tests/rules/growth/colonization_test.cpp says what they change.
@@ -269,21 +273,35 @@ INSTANTIATE_TEST_SUITE_P(Place, EveryKey,
 TEST(Stem, IsThatOfTheTopSet) {
   const Result plain = resultOf(lively());
   RuleSet red = lively();
-  red.stem_colour = sim::Colour(1.0f, 0.0f, 0.0f);
+  red.stem.colour = sim::Colour(1.0f, 0.0f, 0.0f);
   EXPECT_EQ(resultOf(red).state, plain.state);
   EXPECT_NE(resultOf(red).colours, plain.colours);
   RuleSet thick = lively();
-  thick.stem_radius = {0.4};
+  thick.stem.radius = {0.4};
   EXPECT_NE(resultOf(thick).state, plain.state);  // it takes more light
 
   RuleSet top = failing(), second = lively();
-  second.stem_colour = sim::Colour(1.0f, 0.0f, 0.0f);
-  second.stem_radius = {0.4};
-  top.stem_radius = {0.2};
+  second.stem.colour = sim::Colour(1.0f, 0.0f, 0.0f);
+  second.stem.radius = {0.4};
+  top.stem.radius = {0.2};
   top.otherwise = shared(second);
   const sim::Plant plant = makeProcess(shared(top), 0.04)->seedling();
-  EXPECT_EQ(plant.stem_colour, top.stem_colour);
-  EXPECT_EQ(plant.stem_radius_vx, 0.2);
+  EXPECT_EQ(plant.stem_colour, top.stem.colour);
+  EXPECT_EQ(plant.girth.twig_vx, 0.2);
+}
+
+TEST(Stem, ItsGirthIsForModelsAlone) {
+  RuleSet girth = lively();
+  girth.stem.by = sim::StemGirth::By::age;
+  girth.stem.exponent = 3.0;
+  girth.stem.thickens = {4e-4, true};
+  girth.stem.thickest = {0.08, true};
+  EXPECT_EQ(resultOf(girth).state, resultOf(lively()).state);
+  const sim::StemGirth made = makeProcess(shared(girth), 0.04)->seedling().girth;
+  EXPECT_EQ(made.by, sim::StemGirth::By::age);
+  EXPECT_EQ(made.exponent, 3.0);
+  EXPECT_DOUBLE_EQ(made.thickens_vx, 0.01);
+  EXPECT_DOUBLE_EQ(made.most_vx, 2.0);
 }
 
 }  // namespace

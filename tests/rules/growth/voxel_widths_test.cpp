@@ -19,7 +19,7 @@ RuleSet inMetres() {
   rules.require.proximity_min = {0.01, true};
   rules.require.proximity_max = {0.08, true};
   rules.prefer = {true, {0.03, true}};
-  rules.stem_radius = {0.002, true};
+  rules.stem.radius = {0.002, true};
   Element sized;
   sized.size = 0.06;
   sized.size_metres = true;
@@ -53,7 +53,7 @@ TEST(VoxelWidths, DividesEveryLengthByTheVoxel) {
   EXPECT_EQ(rules->require.proximity_min, Distance{0.5});
   EXPECT_EQ(rules->require.proximity_max, Distance{4.0});
   EXPECT_EQ(rules->prefer.proximity, Distance{1.5});
-  EXPECT_EQ(rules->stem_radius, Distance{0.1});
+  EXPECT_EQ(rules->stem.radius, Distance{0.1});
   EXPECT_EQ(rules->elements[0].size, Value(3.0));
   EXPECT_EQ(rules->elements[0].polygons, inMetres().elements[0].polygons) << "multiples of the size";
   EXPECT_EQ(rules->elements[1].size, Value(1.5));
@@ -99,18 +99,18 @@ TEST(VoxelWidths, RefusesWhatSuchVoxelsCannotHold) {
             "rule set 'metric': bias.twist.radius is 75 voxel widths at a voxel of 0.004 m; expected more "
             "than 0, at most 64");
   RuleSet thick = inMetres();
-  thick.stem_radius = {3.0, true};
+  thick.stem.radius = {3.0, true};
   EXPECT_EQ(
       complaint(thick),
       "rule set 'metric': stem.radius is 150 voxel widths at a voxel of 0.02 m; expected at least 1e-06, "
       "at most 100");
   RuleSet thin = inMetres();  // in single precision it would be as thick as nothing
-  thin.stem_radius = {1e-300};
+  thin.stem.radius = {1e-300};
   EXPECT_EQ(
       complaint(thin),
       "rule set 'metric': stem.radius is 1e-300 voxel widths at a voxel of 0.02 m; expected at least 1e-06, "
       "at most 100");
-  thin.stem_radius = {1e-6};
+  thin.stem.radius = {1e-6};
   EXPECT_EQ(complaint(thin), "");
   RuleSet crossed = inMetres();
   crossed.require.proximity_min = {4.5};

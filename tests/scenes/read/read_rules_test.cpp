@@ -43,7 +43,7 @@ TEST(ReadRules, ReadsFigure4) {
   EXPECT_EQ(vine->light.sun, 0.8);
   EXPECT_EQ(vine->light.sky, 0.2);
   EXPECT_EQ(vine->light.boost, 1.8);
-  EXPECT_EQ(rules::hexFromLinear(vine->stem_colour), "#5a4630");
+  EXPECT_EQ(rules::hexFromLinear(vine->stem.colour), "#5a4630");
   ASSERT_EQ(vine->elements.size(), 1u);
   const auto& leaf = vine->elements[0];
   EXPECT_EQ(leaf.trials, 30);
@@ -102,7 +102,7 @@ TEST(ReadRules, ReadsEveryDistanceWithAUnitOrWithout) {
   EXPECT_EQ(rules->require.proximity_min, (rules::Distance{0.005, true}));
   EXPECT_EQ(rules->require.proximity_max, (rules::Distance{0.12, true}));
   EXPECT_EQ(rules->prefer.proximity, rules::Distance{2.0});
-  EXPECT_EQ(rules->stem_radius, (rules::Distance{0.0015, true}));
+  EXPECT_EQ(rules->stem.radius, (rules::Distance{0.0015, true}));
   // Which is the greater only the voxel size will tell.
   EXPECT_EQ(goodRulesText("require: {proximity: {min: 3, max: 2 cm}}")->require.proximity_min,
             rules::Distance{3.0});
@@ -154,9 +154,9 @@ TEST(ReadRules, TakesOneNumberForARangeOfAges) {
 }
 
 TEST(ReadRules, ReadsColoursAsSrgb) {
-  const auto grey = goodRulesText("stem: {colour: [0.5, 0.5, 0.5]}")->stem_colour;
+  const auto grey = goodRulesText("stem: {colour: [0.5, 0.5, 0.5]}")->stem.colour;
   EXPECT_NEAR(grey.r, 0.21404f, 1e-4f);
-  EXPECT_EQ(rules::hexFromLinear(goodRulesText("stem: {colour: '#A05F46'}")->stem_colour), "#a05f46");
+  EXPECT_EQ(rules::hexFromLinear(goodRulesText("stem: {colour: '#A05F46'}")->stem.colour), "#a05f46");
 }
 
 TEST(ReadRules, BuildsOnABase) {

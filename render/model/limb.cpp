@@ -1,0 +1,84 @@
+#include "render/model/limb.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "sim/base/random.h"
+
+namespace espalier::render {
+
+using sim::Vec3;
+
+namespace {
+
+constexpr double kThin = 0.15;   // errors: a radius that hardly shows
+constexpr double kRound = 0.03;  // radii that a ring's sides may be off: what shows in no picture
+
+NearLine onStretch(const Limb& limb, std::size_t stretch, Vec3 p) {
+  const TubeStation &a = limb.line[stretch], &b = limb.line[stretch + 1];
+  const Vec3 step = b.centre_m - a.centre_m;
+  const double share = std::clamp(glm::dot(p - a.centre_m, step) / glm::dot(step, step), 0.0, 1.0);
+  const Vec3 centre = a.centre_m + share * step;
+  return {stretch, share, centre, glm::distance(p, centre), a.radius_m + share * (b.radius_m - a.radius_m)};
+}
+
+}  // namespace
+
+NearLine nearestOn(const Limb& limb, std::size_t stretch, Vec3 p) {
+  NearLine best = onStretch(limb, stretch, p);
+  for (const int way : {1, -1}) {
+    for (std::size_t i = best.stretch; way > 0 ? i + 2 < limb.line.size() : i > 0;) {
+      i += static_cast<std::size_t>(way);
+      const NearLine next = onStretch(limb, i, p);
+      if (!(next.distance_m < best.distance_m)) break;
+      best = next;
+    }
+  }
+  return best;
+}
+
+double arcOf(const Limb& limb, const NearLine& place) {
+  return limb.arcs_m[place.stretch] +
+         place.share * (limb.arcs_m[place.stretch + 1] - limb.arcs_m[place.stretch]);
+}
+
+int sidesFor(double radius_m, double error_m) {
+  // A prism of three or four sides is far wider in one view than in another.
+  const int least = radius_m < kThin * error_m ? 3 : 5;
+  // Sides tell sooner than bends: by the tube's ends and its shading.
+  error_m = std::max(0.5 * error_m, kRound * radius_m);
+  if (!(error_m < 0.5 * radius_m)) return least;
+  return std::clamp(static_cast<int>(std::ceil(kPi / std::acos(1.0 - error_m / radius_m) - 0.05)), least, 48);
+}
+
+Vec3 Section::out(double angle) const {
+  const glm::dvec2 circle = sim::unitCircle(angle / (2.0 * kPi));
+  return circle.x * frame.across + circle.y * frame.up;
+}
+
+Section sectionAt(const Limb& limb, double arc_m) {
+  const auto above = std::upper_bound(limb.arcs_m.begin() + 1, limb.arcs_m.end() - 1, arc_m);
+  const auto i = static_cast<std::size_t>(above - limb.arcs_m.begin()) - 1;
+  const double share = std::clamp((arc_m - limb.arcs_m[i]) / (limb.arcs_m[i + 1] - limb.arcs_m[i]), 0.0, 1.0);
+  const TubeStation &a = limb.line[i], &b = limb.line[i + 1];
+  const TubeFrame &f = limb.frames[i], &g = limb.frames[i + 1];
+  Section section;
+  section.centre_m = glm::mix(a.centre_m, b.centre_m, share);
+  section.radius_m = glm::mix(a.radius_m, b.radius_m, share);
+  section.exposure = glm::mix(a.exposure, b.exposure, static_cast<float>(share));
+  section.youth = glm::mix(a.youth, b.youth, static_cast<float>(share));
+  if (share == 0.0 || share == 1.0) {
+    section.frame = share == 0.0 ? f : g;
+    return section;
+  }
+  // Between opposite ways (a hairpin) there is no mean: then the first of the two.
+  const Vec3 along = glm::mix(f.along, g.along, share), across = glm::mix(f.across, g.across, share);
+  section.frame = f;
+  if (glm::length(along) < 0.1 || glm::length(glm::cross(along, across)) < 0.01) return section;
+  section.frame.along = glm::normalize(along);
+  section.frame.across = glm::normalize(across - glm::dot(across, section.frame.along) * section.frame.along);
+  section.frame.up = glm::cross(section.frame.along, section.frame.across);
+  return section;
+}
+
+}  // namespace espalier::render

@@ -178,12 +178,20 @@ std::uint64_t wordAt(const Plane& plane, std::size_t byte) {
 
 }  // namespace
 
+bool ClearBricks::isCoarse(Voxel size) {
+  return halvings((size + (kSide - 1)) / kSide) > 0;
+}
+
 ClearBricks::ClearBricks(Voxel size, const Bricks& filled, std::span<const LatticeDirection> directions)
     : size_(size),
       bricks_(filled.bits().size()),
       coarser_(halvings(bricks_)),
       filled_(bricks_),
       judged_(((bricks_ - 1) >> Voxel(coarser_)) + 1) {
+  if (coarser_ > 0) {
+    filled_ahead_.emplace(size, filled, directions);
+    return;
+  }
   const Layout layout(judged_.size());
   step_[static_cast<std::size_t>(layout.lane)] = 1;
   step_[static_cast<std::size_t>(layout.row)] = 8 * layout.lane_bytes;
@@ -328,6 +336,7 @@ void ClearBricks::addFilled(std::span<const Voxel> judged, std::span<const Latti
 }
 
 void ClearBricks::follow(const Bricks& filled, std::span<const LatticeDirection> directions) {
+  if (filled_ahead_) return filled_ahead_->follow(filled, directions);
   constexpr std::size_t kFew = 1000;  // adding one of so many bricks costs less than finding all anew
   const BitVolume& now = filled.bits();
   const auto emptied = [](std::uint64_t before, std::uint64_t after) { return (before & ~after) != 0; };

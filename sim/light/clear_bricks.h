@@ -3,11 +3,13 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
 #include "sim/base/bits.h"
 #include "sim/base/bricks.h"
+#include "sim/light/filled_ahead.h"
 #include "sim/sweep/directions.h"
 
 namespace espalier::sim {
@@ -21,13 +23,19 @@ class ClearBricks {
 
   static constexpr std::size_t kWords = 4;  ///< of the directions' bits
 
-  /// At most 64 * kWords directions. `filled`: the volume's bricks, of which nothing else is asked.
+  /// Whether a world of this size is too large for its bricks to be judged one by one.
+  static bool isCoarse(Voxel size);
+
+  /// At most 64 * kWords directions. In a world that is coarse nothing but filledAhead() may be asked.
+  /// `filled`: the volume's bricks, of which nothing else is asked.
   ClearBricks(Voxel size, const Bricks& filled, std::span<const LatticeDirection> directions);
 
   /// The volume, of the same shape, has changed: as if made anew, with the same directions, in time with the
   /// bricks that filled.
   void follow(const Bricks& filled, std::span<const LatticeDirection> directions);
 
+  /// What rays go by instead in worlds that are coarse; null in others.
+  const FilledAhead* filledAhead() const { return filled_ahead_ ? &*filled_ahead_ : nullptr; }
   /// kWords words; bit i is direction i. Outside of the world all are clear.
   const std::uint64_t* ofBrick(Voxel brick) const {
     return contains(bricks_, brick) ? rows_.data() + kWords * index(brick) : kAll;
@@ -85,6 +93,7 @@ class ClearBricks {
     std::vector<std::int32_t> steps;  ///< to the bricks, by indexJudged
   };
   std::vector<Ahead> ahead_;  // of each direction, once asked for
+  std::optional<FilledAhead> filled_ahead_;
 };
 
 }  // namespace espalier::sim

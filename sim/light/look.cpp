@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <cstring>
 
 // Vectors whose length is known when compiling: they are kept in arrays.
 #define HWY_DISABLED_TARGETS (HWY_SVE | HWY_SVE2 | HWY_SVE_256 | HWY_SVE2_128 | HWY_RVV)
@@ -11,6 +12,8 @@
 #include <hwy/foreach_target.h>
 //
 #include <hwy/highway.h>
+
+#include "sim/light/look_far-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace espalier::sim::looking::HWY_NAMESPACE {
@@ -80,36 +83,6 @@ HWY_INLINE Mask clearBeyondNear(const Group& group, const ClearBricks& clear, Vo
     }
   }
   return maskOf(found);
-}
-
-/// Whether one of the first `count` of the next kAtOnce steps is occupied. If that is not all of them, others
-/// may lie outside of the volume's words.
-template <bool kSome>
-HWY_INLINE bool anyOf(const std::uint64_t* words, std::ptrdiff_t start, const std::int64_t* steps,
-                      std::size_t count) {
-  const hn::CappedTag<std::int64_t, kAtOnce> d;
-  const hn::RebindToUnsigned<decltype(d)> du;
-  auto hit = hn::Zero(du);
-  for (std::size_t k = 0; k < kAtOnce; k += hn::Lanes(d)) {
-    auto at = hn::Add(hn::LoadU(d, steps + k), hn::Set(d, start));
-    if (kSome) {  // the first word holds zeros
-      const auto meant =
-          hn::Lt(hn::Iota(d, static_cast<std::int64_t>(k)), hn::Set(d, static_cast<std::int64_t>(count)));
-      at = hn::IfThenElseZero(meant, at);
-    }
-    const auto read = hn::GatherIndex(du, words, hn::ShiftRight<6>(at));
-    hit = hn::Or(hit, hn::Shr(read, hn::And(hn::BitCast(du, at), hn::Set(du, 63))));
-  }
-  return !hn::AllTrue(du, hn::Eq(hn::And(hit, hn::Set(du, 1)), hn::Zero(du)));
-}
-
-/// Whether one of the next `count` steps is occupied.
-HWY_INLINE bool anyOfRun(const std::uint64_t* words, std::ptrdiff_t start, const std::int64_t* steps,
-                         std::size_t count) {
-  for (; count > kAtOnce; count -= kAtOnce, steps += kAtOnce) {
-    if (anyOf<false>(words, start, steps, kAtOnce)) return true;
-  }
-  return anyOf<true>(words, start, steps, count);
 }
 
 /// From where the legs end, run by run, with a look ahead after each. Most runs lie among empty bricks, and
@@ -205,7 +178,12 @@ void Look(const BitVolume& occupied, const Group& group, const ClearBricks& clea
       std::copy_n(open - stride, columns, open);
       continue;
     }
-    const Mask blocked = blockedNear(occupied, group, p), at_once = clearBeyondNear(group, clear, p);
+    const Mask blocked = blockedNear(occupied, group, p);
+    if (const FilledAhead* const ahead = clear.filledAhead()) {
+      lookFar(occupied, group, *ahead, p, blocked, open);
+      continue;
+    }
+    const Mask at_once = clearBeyondNear(group, clear, p);
     Around around{occupied.words().data(), 0, false, capped(size.y - 1 - p.y), capped(p.y), capped(p.z),
                   capped(size.z - 1 - p.z)};
     around.start = (occupied.row(p.y, p.z) - around.words) * BitVolume::kWordBits + p.x;

@@ -37,6 +37,30 @@ struct Ray {
   std::uint32_t near;  ///< steps before these
 };
 
+/// In coarse worlds a ray's voxels beyond what is near are met leg by leg; none leads farther along any axis,
+/// so that a leg lies in two bricks along each.
+inline constexpr int kLeg = FilledAhead::kSide - 1;
+
+/// Legs of all directions one after another: of each as many as a multiple of what is read at once, those
+/// that fill up farther along than any world is long.
+struct Legs {
+  std::vector<std::int16_t> x, y, z;  ///< from the place to a leg's first voxel
+  std::vector<std::int16_t> along;    ///< that of depth, without its sign
+  std::vector<std::int32_t> period;   ///< the period of the direction that the first voxel lies in
+  std::vector<std::uint16_t> step;    ///< and its number in there
+  std::vector<std::uint8_t> voxels;
+  /// From the first voxel of a period to its others and as many of the next as a leg may have, in bits of the
+  /// volume. As many as are read at once lie behind the last.
+  std::vector<std::int64_t> steps;
+  struct Ray {
+    std::array<std::int32_t, 3> spans{};  ///< the longest that a leg is along each axis: at most kLeg
+    std::size_t first, count;             ///< one more follows, which begins outside of the world
+    std::size_t first_step;
+    std::int64_t period;  ///< in bits of the volume
+  };
+  std::vector<Ray> rays;  ///< none if the world is not coarse
+};
+
 /// As many directions as a mask has bits, made ready.
 struct Group {
   std::span<const LatticeDirection> directions;
@@ -56,6 +80,7 @@ struct Group {
   /// i the first voxel of each from first_run[i] on, and then how many voxels there are.
   std::vector<std::uint32_t> runs;
   std::vector<std::size_t> first_run;
+  Legs legs;
 };
 
 /// For each place a row of bits, `stride` words apart: the group's directions that reach the world's edge.

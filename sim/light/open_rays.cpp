@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <limits>
 #include <optional>
 #include <utility>
 
@@ -50,11 +51,50 @@ looking::Ray rayOf(const BitVolume& shape, const LatticeDirection& direction) {
   return ray;
 }
 
+/// Adds the legs of a direction from its voxel `k` on, up to the end of the longest way through the world.
+void addLegs(const BitVolume& shape, const LatticeDirection& direction, std::size_t k, looking::Legs& legs) {
+  const Voxel size = shape.size();
+  looking::Legs::Ray& ray = legs.rays.emplace_back();
+  const std::size_t period = direction.crossed.size();
+  ray.first = legs.x.size();
+  for (;;) {
+    const Voxel first = crossed(direction, k), far = glm::abs(first);
+    legs.x.push_back(static_cast<std::int16_t>(first.x));
+    legs.y.push_back(static_cast<std::int16_t>(first.y));
+    legs.z.push_back(static_cast<std::int16_t>(first.z));
+    legs.along.push_back(static_cast<std::int16_t>(far[Horizons::depthAxis(direction.v)]));
+    legs.period.push_back(static_cast<std::int32_t>(k / period));
+    legs.step.push_back(static_cast<std::uint16_t>(k % period));
+    std::size_t voxels = 0;
+    for (; farthest(crossed(direction, k) - first) <= looking::kLeg; ++k, ++voxels) {
+      for (int axis = 0; axis < 3; ++axis) {
+        std::int32_t& span = ray.spans[static_cast<std::size_t>(axis)];
+        span = std::max(span, std::abs(crossed(direction, k)[axis] - first[axis]));
+      }
+    }
+    legs.voxels.push_back(static_cast<std::uint8_t>(voxels));
+    if (far.x >= size.x || far.y >= size.y || far.z >= size.z) break;
+  }
+  ray.count = legs.x.size() - 1 - ray.first;
+  const std::size_t whole = (legs.x.size() + Horizons::kLanes - 1) / Horizons::kLanes * Horizons::kLanes;
+  for (auto* const numbers : {&legs.x, &legs.y, &legs.z}) numbers->resize(whole);
+  legs.along.resize(whole, std::numeric_limits<std::int16_t>::max());
+  legs.period.resize(whole);
+  legs.step.resize(whole);
+  legs.voxels.resize(whole);
+  ray.first_step = legs.steps.size();
+  ray.period = stepOf(shape, direction.v);
+  constexpr std::size_t kLongest = 3 * looking::kLeg + 1;  // none is crossed without a step along an axis
+  for (std::size_t step = 0; step < period + kLongest; ++step)
+    legs.steps.push_back(stepOf(shape, crossed(direction, step)));
+}
+
 looking::Group groupOf(const BitVolume& shape, std::span<const LatticeDirection> directions) {
   const bool down =
       std::any_of(directions.begin(), directions.end(), [](const auto& d) { return d.v.y < 0; });
+  const bool coarse = ClearBricks::isCoarse(shape.size());
   constexpr int kAcross = 2 * kNear + 1;
-  looking::Group group{directions, down ? -kNear : 0, {}, {}, {}, {}, {}, {}, {}};
+  looking::Group group{directions, down ? -kNear : 0, {}, {}, {}, {}, {}, {}, {}, {}};
   group.crossing.resize(static_cast<std::size_t>(kAcross * (kNear + 1 - group.lowest)));
   for (std::size_t i = 0; i < directions.size(); ++i) {
     const auto include = [&](looking::Mask& mask) { mask.words[i / 64] |= std::uint64_t{1} << (i % 64); };
@@ -76,6 +116,7 @@ looking::Group groupOf(const BitVolume& shape, std::span<const LatticeDirection>
       }
     }
     group.rays.push_back(ray);
+    if (coarse) addLegs(shape, directions[i], ray.near, group.legs);
     group.first_step.push_back(group.period_steps.size());
     for (const Voxel o : directions[i].crossed) group.period_steps.push_back(stepOf(shape, o));
     group.first_run.push_back(group.runs.size());
@@ -88,6 +129,7 @@ looking::Group groupOf(const BitVolume& shape, std::span<const LatticeDirection>
     }
     group.runs.push_back(static_cast<std::uint32_t>(directions[i].crossed.size()));
   }
+  group.legs.steps.resize(group.legs.steps.size() + looking::kAtOnce);
   group.period_steps.resize(group.period_steps.size() + looking::kAtOnce);
   return group;
 }

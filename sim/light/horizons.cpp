@@ -22,12 +22,12 @@ std::int32_t margin(std::int32_t slope) {
   return kUnit / 2 + std::abs(slope) / 2 + kUnit / 8;
 }
 
-/// Of a map. All of them together take no more memory than the volume's bits.
+/// Of a map. All of them together take no more memory than half the volume's bits.
 std::size_t mostSquares(Voxel size, std::size_t directions) {
-  constexpr std::size_t kMost = std::size_t{1} << 16, kBits = 16;
+  constexpr std::size_t kMost = std::size_t{1} << 16, kBits = 16, kVoxels = 2 * kBits;
   const std::size_t voxels =
       static_cast<std::size_t>(size.x) * static_cast<std::size_t>(size.y) * static_cast<std::size_t>(size.z);
-  return std::clamp(voxels / (kBits * std::max<std::size_t>(1, directions)), std::size_t{1}, kMost);
+  return std::clamp(voxels / (kVoxels * std::max<std::size_t>(1, directions)), std::size_t{1}, kMost);
 }
 
 std::size_t padded(std::size_t directions) {

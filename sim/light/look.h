@@ -8,6 +8,7 @@
 
 #include "sim/base/bits.h"
 #include "sim/light/clear_bricks.h"
+#include "sim/light/filled_ahead.h"
 #include "sim/sweep/directions.h"
 
 namespace espalier::sim::looking {
@@ -34,7 +35,7 @@ struct Ray {
   std::array<Voxel, kLegs.size()> beyond;  ///< the voxel behind what is near, and behind each leg
   /// How many steps lie within so many voxels of the place along y, and along z.
   std::array<std::uint8_t, kFar> within_y, within_z;
-  std::uint32_t near;  ///< steps before these
+  std::size_t near;  ///< steps before these
 };
 
 /// In coarse worlds a ray's voxels beyond what is near are met leg by leg; none leads farther along any axis,
@@ -58,16 +59,11 @@ struct Legs {
     std::size_t first_step;
     std::int64_t period;  ///< in bits of the volume
   };
-  std::vector<Ray> rays;  ///< none if the world is not coarse
+  std::vector<Ray> rays;
 };
 
-/// As many directions as a mask has bits, made ready.
-struct Group {
-  std::span<const LatticeDirection> directions;
-  int lowest;  ///< of the directions' near voxels, along y from the place: 0 or -kNear
-  /// For each row of near voxels, from (lowest, -kNear) to (kNear, kNear) along (y, z), and each pattern of
-  /// four of its voxels the directions that cross one of the pattern's.
-  std::vector<std::array<std::array<Mask, 16>, kFours>> crossing;
+/// How rays are walked beyond what is near in worlds that are not coarse.
+struct Walks {
   /// By axis and by the place's way into its brick: the directions that leave what is near in the brick
   /// before, in the same, and in the one behind.
   std::array<std::array<std::array<Mask, 3>, ClearBricks::kSide>, 3> leaving;
@@ -80,11 +76,26 @@ struct Group {
   /// i the first voxel of each from first_run[i] on, and then how many voxels there are.
   std::vector<std::uint32_t> runs;
   std::vector<std::size_t> first_run;
-  Legs legs;
+};
+
+/// As many directions as a mask has bits, made ready.
+struct Group {
+  std::span<const LatticeDirection> directions;
+  std::size_t first;  ///< the first one's number among those of all groups
+  int lowest;         ///< of the directions' near voxels, along y from the place: 0 or -kNear
+  /// For each row of near voxels, from (lowest, -kNear) to (kNear, kNear) along (y, z), and each pattern of
+  /// four of its voxels the directions that cross one of the pattern's.
+  std::vector<std::array<std::array<Mask, 16>, kFours>> crossing;
+  Walks walks;  ///< empty if the world is coarse
+  Legs legs;    ///< empty if it is not
 };
 
 /// For each place a row of bits, `stride` words apart: the group's directions that reach the world's edge.
 void look(const BitVolume& occupied, const Group& group, const ClearBricks& clear,
+          std::span<const Voxel> places, std::uint64_t* open, std::size_t stride);
+
+/// The same in worlds that are coarse. `ahead`: of the directions of all groups.
+void look(const BitVolume& occupied, const Group& group, const FilledAhead& ahead,
           std::span<const Voxel> places, std::uint64_t* open, std::size_t stride);
 
 /// Bits in lines of bytes, all of which are to be read at a step from where they are wanted.

@@ -45,6 +45,12 @@ HWY_INLINE bool anyOfRun(const std::uint64_t* words, std::ptrdiff_t start, const
   return anyOf<true>(words, start, steps, count);
 }
 
+/// Word k of the group's directions that are not blocked.
+HWY_INLINE std::uint64_t unblockedIn(const Group& group, const Mask& blocked, std::size_t k) {
+  const std::size_t left = group.directions.size() - 64 * k;
+  return ~blocked.words[k] & (left >= 64 ? ~std::uint64_t{0} : (std::uint64_t{1} << left) - 1);
+}
+
 /// Legs of a ray, or maps of directions.
 using Whole = hn::CappedTag<std::int32_t, Horizons::kLanes>;
 
@@ -70,7 +76,7 @@ HWY_INLINE void lookFarther(const Group& group, const Horizons& horizons, Voxel 
   const auto x = hn::Set(d, p.x), y = hn::Set(d, p.y), z = hn::Set(d, p.z);
   farther.any = {};
   for (std::size_t i = 0; i < group.directions.size(); i += hn::Lanes(d)) {
-    const auto read = [&](const std::int32_t* numbers) { return hn::LoadU(d, numbers + i); };
+    const auto read = [&](const std::int32_t* numbers) { return hn::LoadU(d, numbers + group.first + i); };
     const auto value = [&](const Horizons::Linear& of) {
       return hn::Add(hn::Add(hn::Mul(x, read(of.x.data())), hn::Mul(y, read(of.y.data()))),
                      hn::Add(hn::Mul(z, read(of.z.data())), read(of.rest.data())));
@@ -169,8 +175,7 @@ HWY_INLINE void lookFar(const BitVolume& occupied, const Group& group, const Fil
   const std::ptrdiff_t start =
       (occupied.row(p.y, p.z) - occupied.words().data()) * BitVolume::kWordBits + p.x;
   for (std::size_t k = 0; 64 * k < group.directions.size(); ++k) {
-    const std::size_t left = group.directions.size() - 64 * k;
-    open[k] = ~blocked.words[k] & (left >= 64 ? ~std::uint64_t{0} : (std::uint64_t{1} << left) - 1);
+    open[k] = unblockedIn(group, blocked, k);
     for (std::uint64_t ask = open[k] & farther.any.words[k]; ask != 0; ask &= ask - 1) {
       const std::size_t i = 64 * k + static_cast<std::size_t>(std::countr_zero(ask));
       if (!reachesEdge(occupied, group, ahead, p, start, i, farther.reach[i]))

@@ -132,6 +132,22 @@ TEST(OpenRays, AreBlockedByASingleVoxelHoweverFar) {
   EXPECT_GT(far, 100u);
 }
 
+// A group's directions begin where those of the one before end.
+TEST(OpenRays, TakeAnyNumberOfDirectionsInCoarseWorlds) {
+  sim::DirectionSet set = sim::makeSky({.directions = 600}).directions;
+  const auto others = allKinds();
+  set.insert(set.end(), others.begin(), others.end());
+  sim::BitVolume bits({16, 2000, 1060});
+  ASSERT_TRUE(sim::ClearBricks::isCoarse(bits.size()));
+  std::mt19937 random(6);
+  for (int i = 0; i < 20000; ++i) {
+    bits.set({static_cast<int>(random() % 16), static_cast<int>(random() % 700),
+              static_cast<int>(random() % 1060)});
+  }
+  expectWhatRaysMeet(bits, set, placesIn(bits.size(), 30, 7));
+  expectWhatRaysMeet(bits, sim::DirectionSet(set.begin(), set.begin() + 257), placesIn(bits.size(), 9, 8));
+}
+
 // More directions than a group holds, and down alone.
 TEST(OpenRays, TakeAnyNumberOfDirections) {
   const auto bits = tests::randomBits({70, 33, 41}, 0.004, 8);

@@ -29,21 +29,14 @@ void forEachSet(const BitVolume& bits, Visit visit) {
   }
 }
 
-/// How often bricks are to be halved in number along each axis until a row along the shortest fits into a
-/// lane, and all of them into the near caches. Larger ones are found and followed several times as fast, and
-/// rays go on little longer until they are in one that is clear.
-int halvings(Voxel bricks) {
-  constexpr std::size_t kMostBricks = std::size_t{1} << 16;
-  for (int n = 0;; ++n) {
-    const Voxel left = ((bricks - 1) >> Voxel(n)) + 1;
-    const std::size_t all = static_cast<std::size_t>(left.x) * static_cast<std::size_t>(left.y) *
-                            static_cast<std::size_t>(left.z);
-    if (std::min({left.x, left.y, left.z}) <= 64 && all <= kMostBricks) return n;
-  }
+std::size_t countOf(Voxel bricks) {
+  return static_cast<std::size_t>(bricks.x) * static_cast<std::size_t>(bricks.y) *
+         static_cast<std::size_t>(bricks.z);
 }
 
-/// Bricks' bits so that all bricks of a row along the world's shortest axis lie in one lane, and the lanes of
-/// a line side by side: a step along that axis is a shift, one along the others a step in memory.
+/// Bricks' bits so that all bricks of a row along the world's shortest axis, at most 40 of 65,536, lie in one
+/// lane, and the lanes of a line side by side: a step along that axis is a shift, one along the others a step
+/// in memory.
 struct Layout {
   int lane, column, row;   // axes: bits of a lane, lines, lanes of a line
   std::size_t lane_bytes;  // 1, 2, 4 or 8
@@ -178,13 +171,14 @@ std::uint64_t wordAt(const Plane& plane, std::size_t byte) {
 
 }  // namespace
 
+bool ClearBricks::isCoarse(Voxel size) {
+  constexpr std::size_t kMostBricks = std::size_t{1} << 16;  // all of them in the near caches
+  return countOf((size + (kSide - 1)) / kSide) > kMostBricks;
+}
+
 ClearBricks::ClearBricks(Voxel size, const Bricks& filled, std::span<const LatticeDirection> directions)
-    : size_(size),
-      bricks_(filled.bits().size()),
-      coarser_(halvings(bricks_)),
-      filled_(bricks_),
-      judged_(((bricks_ - 1) >> Voxel(coarser_)) + 1) {
-  const Layout layout(judged_.size());
+    : size_(size), bricks_(filled.bits().size()), filled_(bricks_) {
+  const Layout layout(bricks_);
   step_[static_cast<std::size_t>(layout.lane)] = 1;
   step_[static_cast<std::size_t>(layout.row)] = 8 * layout.lane_bytes;
   step_[static_cast<std::size_t>(layout.column)] = 8 * layout.bytes;
@@ -198,7 +192,6 @@ ClearBricks::ClearBricks(Voxel size, const Bricks& filled, std::span<const Latti
 
 void ClearBricks::forgetAll() {
   filled_ = BitVolume(filled_.size());
-  judged_ = BitVolume(judged_.size());
   for (BitVolume& octant : ahead_filled_) octant = BitVolume(octant.size());
   std::fill(rows_.begin(), rows_.end(), ~std::uint64_t{0});
   for (Plane& plane : blocked_) std::fill(plane.begin(), plane.end(), std::uint8_t{0});
@@ -234,13 +227,8 @@ std::vector<Voxel> ClearBricks::takeNote(const BitVolume& filled) {
       if (any == 0) continue;
       addAhead(y, z, all);
       for (std::size_t w = 0; w < all.size(); ++w) {
-        for (std::uint64_t came = all[w]; came != 0; came &= came - 1) {
-          const int x = static_cast<int>(w) * BitVolume::kWordBits + std::countr_zero(came);
-          const Voxel as_one = Voxel(x, y, z) >> Voxel(coarser_);
-          if (judged_.at(as_one)) continue;
-          judged_.set(as_one);
-          added.push_back(as_one);
-        }
+        for (std::uint64_t came = all[w]; came != 0; came &= came - 1)
+          added.emplace_back(static_cast<int>(w) * BitVolume::kWordBits + std::countr_zero(came), y, z);
         before[w] = now[w];
       }
     }
@@ -249,10 +237,9 @@ std::vector<Voxel> ClearBricks::takeNote(const BitVolume& filled) {
 }
 
 void ClearBricks::find(std::span<const LatticeDirection> directions) {
-  const Voxel size = judged_.size();
-  const Layout layout(size);
+  const Layout layout(bricks_);
   ReadPlane filled(layout);
-  forEachSet(judged_, [&](Voxel brick) { filled.set(brick); });
+  forEachSet(filled_, [&](Voxel brick) { filled.set(brick); });
   std::map<std::tuple<int, int, int>, ReadPlane> met;  // by a brick whose low corner lies here, by v's signs
   for (const LatticeDirection& direction : directions) {
     const Voxel sign = glm::sign(direction.v);
@@ -269,7 +256,7 @@ void ClearBricks::find(std::span<const LatticeDirection> directions) {
     const std::span<Plane> blocked = std::span(blocked_).subspan(64 * column, mine.size());
     for (std::size_t i = 0; i < mine.size(); ++i) {
       const Voxel v = mine[i].v, sign = glm::sign(v);
-      met.at({sign.x, sign.y, sign.z}).unite(wayOf(layout, size, v), blocked[i]);
+      met.at({sign.x, sign.y, sign.z}).unite(wayOf(layout, bricks_, v), blocked[i]);
     }
     for (std::size_t byte = 0; byte < layout.allBytes(); byte += 8) {
       std::array<std::uint64_t, 64> square{};
@@ -285,24 +272,23 @@ void ClearBricks::find(std::span<const LatticeDirection> directions) {
 void ClearBricks::findAhead(std::span<const LatticeDirection> directions) {
   for (const LatticeDirection& direction : directions) {
     Ahead& ahead = ahead_.emplace_back();
-    forEachAhead(judged_.size(), direction.v, [&](Voxel corner, Voxel brick) {
+    forEachAhead(bricks_, direction.v, [&](Voxel corner, Voxel brick) {
       ahead.corners.push_back(corner);
       ahead.bricks.push_back(brick);
-      ahead.steps.push_back(static_cast<std::int32_t>(indexJudged(brick)));
+      ahead.steps.push_back(static_cast<std::int32_t>(index(brick)));
     });
   }
 }
 
-void ClearBricks::addFilled(std::span<const Voxel> judged, std::span<const LatticeDirection> directions) {
-  const Voxel size = judged_.size();
+void ClearBricks::addFilled(std::span<const Voxel> bricks, std::span<const LatticeDirection> directions) {
   if (ahead_.empty()) findAhead(directions);
   parallelForEach((directions.size() + 63) / 64, [&](std::size_t column) {
     for (std::size_t i = 64 * column; i < std::min<std::size_t>(64 * (column + 1), directions.size()); ++i) {
       const Ahead& ahead = ahead_[i];
       const std::uint64_t others = ~(std::uint64_t{1} << (i % 64));
       std::uint8_t* const blocked = blocked_[i].data();
-      for (const Voxel brick : judged) {
-        const auto first = static_cast<std::ptrdiff_t>(indexJudged(brick));
+      for (const Voxel brick : bricks) {
+        const auto first = static_cast<std::ptrdiff_t>(index(brick));
         const auto block = [&](std::size_t k) {
           const auto from = static_cast<std::size_t>(first - ahead.steps[k]);
           const unsigned bit = 1u << (from % 8);
@@ -312,15 +298,16 @@ void ClearBricks::addFilled(std::span<const Voxel> judged, std::span<const Latti
         };
         const auto whileInside = [&](Voxel farther) {  // how many, as no others come from inside
           return static_cast<std::size_t>(
-              std::partition_point(ahead.corners.begin(), ahead.corners.end(),
-                                   [&](Voxel corner) { return contains(size, brick - corner - farther); }) -
+              std::partition_point(
+                  ahead.corners.begin(), ahead.corners.end(),
+                  [&](Voxel corner) { return contains(bricks_, brick - corner - farther); }) -
               ahead.corners.begin());
         };
         const std::size_t all = whileInside(Voxel(0));
         const std::size_t inside = std::min(all, whileInside(glm::sign(directions[i].v)));
         for (std::size_t k = 0; k < inside; ++k) block(k);
         for (std::size_t k = inside; k < all; ++k) {
-          if (contains(size, brick - ahead.bricks[k])) block(k);
+          if (contains(bricks_, brick - ahead.bricks[k])) block(k);
         }
       }
     }

@@ -21,7 +21,11 @@ class ClearBricks {
 
   static constexpr std::size_t kWords = 4;  ///< of the directions' bits
 
-  /// At most 64 * kWords directions. `filled`: the volume's bricks, of which nothing else is asked.
+  /// Whether a world of this size has too many bricks for this, more than 65,536: see FilledAhead.
+  static bool isCoarse(Voxel size);
+
+  /// At most 64 * kWords directions; a world that is not coarse. `filled`: the volume's bricks, of which
+  /// nothing else is asked.
   ClearBricks(Voxel size, const Bricks& filled, std::span<const LatticeDirection> directions);
 
   /// The volume, of the same shape, has changed: as if made anew, with the same directions, in time with the
@@ -51,10 +55,9 @@ class ClearBricks {
  private:
   static constexpr std::uint64_t kAll[kWords] = {~std::uint64_t{0}, ~std::uint64_t{0}, ~std::uint64_t{0},
                                                  ~std::uint64_t{0}};
-  std::size_t index(Voxel brick) const { return indexJudged(brick >> Voxel(coarser_)); }
-  std::size_t indexJudged(Voxel judged) const {
-    return static_cast<std::size_t>(judged.x) * step_[0] + static_cast<std::size_t>(judged.y) * step_[1] +
-           static_cast<std::size_t>(judged.z) * step_[2];
+  std::size_t index(Voxel brick) const {
+    return static_cast<std::size_t>(brick.x) * step_[0] + static_cast<std::size_t>(brick.y) * step_[1] +
+           static_cast<std::size_t>(brick.z) * step_[2];
   }
 
   static std::size_t octantOf(Voxel direction) {
@@ -63,26 +66,24 @@ class ClearBricks {
   void forgetAll();
   /// Of a row of bricks those that filled, a word after another.
   void addAhead(int y, int z, std::span<const std::uint64_t> came);
-  /// Those judged as one that hold anything now and did not before.
+  /// Those that hold anything now and did not before.
   std::vector<Voxel> takeNote(const BitVolume& filled);
   void find(std::span<const LatticeDirection> directions);
   void findAhead(std::span<const LatticeDirection> directions);
-  void addFilled(std::span<const Voxel> judged, std::span<const LatticeDirection> directions);
+  void addFilled(std::span<const Voxel> bricks, std::span<const LatticeDirection> directions);
 
   Voxel size_, bricks_;
-  int coarser_;  // halvings: in large worlds 2^coarser_ bricks along each axis are judged as one
   std::array<std::size_t, 3> step_{};  // from a brick to the next along each axis
   std::vector<std::uint64_t> rows_;
-  /// The same by direction, a bit for each of what is judged as one: set where it is not clear. Small, so
-  /// that what asks along one direction, or of many bricks, seldom leaves the nearest cache.
+  /// The same by direction, a bit for each brick: set where it is not clear. Small, so that what asks along
+  /// one direction, or of many bricks, seldom leaves the nearest cache.
   std::vector<std::vector<std::uint8_t>> blocked_;
   BitVolume filled_;                       // bricks that hold anything
   std::array<BitVolume, 8> ahead_filled_;  // of each octant that directions lead into: mayMeet
-  BitVolume judged_;                       // those that are judged as one and hold anything
   /// What brick 0 overlaps on its way along a direction, and where its low corner is then; nearer ones first.
   struct Ahead {
     std::vector<Voxel> corners, bricks;
-    std::vector<std::int32_t> steps;  ///< to the bricks, by indexJudged
+    std::vector<std::int32_t> steps;  ///< to the bricks, by index
   };
   std::vector<Ahead> ahead_;  // of each direction, once asked for
 };

@@ -17,10 +17,10 @@ std::size_t voxelsIn(Voxel size) {
 /// on worlds of 5 to 13 million voxels.
 constexpr std::size_t kVoxelsPerFound = 200;
 
-/// With fewer places, casting their rays takes less time than finding the clear bricks, or than following
-/// them if they are known. In small worlds that hangs on how many bricks there are; large ones have no more
-/// that are judged, and the longer the world, the dearer are rays. As measured on worlds of 5 to 390 million
-/// voxels.
+/// With fewer places, casting their rays takes less time than finding what the bricks say, or than following
+/// it if it is known. In small worlds that hangs on how many bricks there are; in large ones it costs less
+/// for each, and the longer the world, the dearer are rays. As measured on worlds of 5 to 390 million voxels,
+/// the large ones with clear bricks of several bricks.
 std::size_t fewestForOpenRays(Voxel size, bool known) {
   const std::size_t voxels = voxelsIn(size), edges = static_cast<std::size_t>(size.x + size.y + size.z);
   return known ? std::min(voxels / 400'000, 6'000 / edges) : std::min(voxels / 70'000, 36'000 / edges);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <cstring>
 
 // Vectors whose length is known when compiling: they are kept in arrays.
 #define HWY_DISABLED_TARGETS (HWY_SVE | HWY_SVE2 | HWY_SVE_256 | HWY_SVE2_128 | HWY_RVV)
@@ -11,6 +12,8 @@
 #include <hwy/foreach_target.h>
 //
 #include <hwy/highway.h>
+
+#include "sim/light/look_far-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace espalier::sim::looking::HWY_NAMESPACE {
@@ -62,9 +65,10 @@ HWY_INLINE Mask blockedNear(const BitVolume& occupied, const Group& group, Voxel
 
 /// The directions that meet nothing any more beyond what is near.
 HWY_INLINE Mask clearBeyondNear(const Group& group, const ClearBricks& clear, Voxel p) {
-  const auto& in_x = group.leaving[0][static_cast<std::size_t>(p.x % kSide)];
-  const auto& in_y = group.leaving[1][static_cast<std::size_t>(p.y % kSide)];
-  const auto& in_z = group.leaving[2][static_cast<std::size_t>(p.z % kSide)];
+  const auto& leaving = group.walks.leaving;
+  const auto& in_x = leaving[0][static_cast<std::size_t>(p.x % kSide)];
+  const auto& in_y = leaving[1][static_cast<std::size_t>(p.y % kSide)];
+  const auto& in_z = leaving[2][static_cast<std::size_t>(p.z % kSide)];
   Vector found[kParts];
   for (Vector& words : found) words = hn::Zero(Words());
   for (std::size_t y = group.lowest < 0 ? 0 : 1; y < 3; ++y) {
@@ -82,45 +86,16 @@ HWY_INLINE Mask clearBeyondNear(const Group& group, const ClearBricks& clear, Vo
   return maskOf(found);
 }
 
-/// Whether one of the first `count` of the next kAtOnce steps is occupied. If that is not all of them, others
-/// may lie outside of the volume's words.
-template <bool kSome>
-HWY_INLINE bool anyOf(const std::uint64_t* words, std::ptrdiff_t start, const std::int64_t* steps,
-                      std::size_t count) {
-  const hn::CappedTag<std::int64_t, kAtOnce> d;
-  const hn::RebindToUnsigned<decltype(d)> du;
-  auto hit = hn::Zero(du);
-  for (std::size_t k = 0; k < kAtOnce; k += hn::Lanes(d)) {
-    auto at = hn::Add(hn::LoadU(d, steps + k), hn::Set(d, start));
-    if (kSome) {  // the first word holds zeros
-      const auto meant =
-          hn::Lt(hn::Iota(d, static_cast<std::int64_t>(k)), hn::Set(d, static_cast<std::int64_t>(count)));
-      at = hn::IfThenElseZero(meant, at);
-    }
-    const auto read = hn::GatherIndex(du, words, hn::ShiftRight<6>(at));
-    hit = hn::Or(hit, hn::Shr(read, hn::And(hn::BitCast(du, at), hn::Set(du, 63))));
-  }
-  return !hn::AllTrue(du, hn::Eq(hn::And(hit, hn::Set(du, 1)), hn::Zero(du)));
-}
-
-/// Whether one of the next `count` steps is occupied.
-HWY_INLINE bool anyOfRun(const std::uint64_t* words, std::ptrdiff_t start, const std::int64_t* steps,
-                         std::size_t count) {
-  for (; count > kAtOnce; count -= kAtOnce, steps += kAtOnce) {
-    if (anyOf<false>(words, start, steps, kAtOnce)) return true;
-  }
-  return anyOf<true>(words, start, steps, count);
-}
-
 /// From where the legs end, run by run, with a look ahead after each. Most runs lie among empty bricks, and
 /// then no voxel of them is read.
 HWY_INLINE bool walkOn(const BitVolume& occupied, const Group& group, const ClearBricks& clear, Voxel p,
                        std::size_t i) {
   const LatticeDirection& direction = group.directions[i];
-  const std::size_t period = direction.crossed.size(), done = group.rays[i].near + kSteps;
+  const Walks& walks = group.walks;
+  const std::size_t period = direction.crossed.size(), done = walks.rays[i].near + kSteps;
   const std::uint64_t* const words = occupied.words().data();
-  const std::int64_t* const steps = group.period_steps.data() + group.first_step[i];
-  const std::uint32_t* const runs = group.runs.data() + group.first_run[i];
+  const std::int64_t* const steps = walks.period_steps.data() + walks.first_step[i];
+  const std::uint32_t* const runs = walks.runs.data() + walks.first_run[i];
   std::size_t k = done % period;
   const std::uint32_t* run = runs;
   while (run[1] <= k) ++run;
@@ -173,7 +148,7 @@ HWY_INLINE std::uint64_t walkLegs(const BitVolume& occupied, const Group& group,
     std::uint64_t next = 0;
     for (; ask != 0; ask &= ask - 1) {
       const auto i = static_cast<std::size_t>(std::countr_zero(ask));
-      const Ray& ray = group.rays[first + i];
+      const Ray& ray = group.walks.rays[first + i];
       std::size_t within = kSteps;
       if (kRim) {
         const Voxel v = group.directions[first + i].v;
@@ -194,32 +169,45 @@ HWY_INLINE std::uint64_t walkLegs(const BitVolume& occupied, const Group& group,
   return found;
 }
 
+/// Calls beyond(p, blocked, open) for the places, with the directions that are blocked near them.
+template <class Beyond>
+HWY_INLINE void lookFromEach(const BitVolume& occupied, const Group& group, std::span<const Voxel> places,
+                             std::uint64_t* open, std::size_t stride, Beyond beyond) {
+  const std::size_t columns = (group.directions.size() + 63) / 64;
+  for (std::size_t n = 0; n < places.size(); ++n, open += stride) {
+    if (n > 0 && places[n] == places[n - 1]) {  // a node's buds
+      std::copy_n(open - stride, columns, open);
+    } else {
+      beyond(places[n], blockedNear(occupied, group, places[n]), open);
+    }
+  }
+}
+
 void Look(const BitVolume& occupied, const Group& group, const ClearBricks& clear,
           std::span<const Voxel> places, std::uint64_t* open, std::size_t stride) {
   const Voxel size = occupied.size();
-  const std::size_t columns = (group.directions.size() + 63) / 64;
   const auto capped = [](int voxels) { return static_cast<std::size_t>(std::min(voxels, kFar - 1)); };
-  for (std::size_t n = 0; n < places.size(); ++n, open += stride) {
-    const Voxel p = places[n];
-    if (n > 0 && p == places[n - 1]) {  // a node's buds
-      std::copy_n(open - stride, columns, open);
-      continue;
-    }
-    const Mask blocked = blockedNear(occupied, group, p), at_once = clearBeyondNear(group, clear, p);
+  lookFromEach(occupied, group, places, open, stride, [&](Voxel p, const Mask& blocked, std::uint64_t* row) {
+    const Mask at_once = clearBeyondNear(group, clear, p);
     Around around{occupied.words().data(), 0, false, capped(size.y - 1 - p.y), capped(p.y), capped(p.z),
                   capped(size.z - 1 - p.z)};
     around.start = (occupied.row(p.y, p.z) - around.words) * BitVolume::kWordBits + p.x;
     around.rim = std::min({around.up, around.down, around.before, around.behind}) < kFar - 1;
-    for (std::size_t k = 0; k < columns; ++k) {
-      const std::size_t left = group.directions.size() - 64 * k;
-      const std::uint64_t unblocked =
-          ~blocked.words[k] & (left >= 64 ? ~std::uint64_t{0} : (std::uint64_t{1} << left) - 1);
+    for (std::size_t k = 0; 64 * k < group.directions.size(); ++k) {
+      const std::uint64_t unblocked = unblockedIn(group, blocked, k);
       const std::uint64_t ask = unblocked & ~at_once.words[k];
-      open[k] = (unblocked & at_once.words[k]) |
-                (around.rim ? walkLegs<true>(occupied, group, clear, around, p, 64 * k, ask)
-                            : walkLegs<false>(occupied, group, clear, around, p, 64 * k, ask));
+      row[k] = (unblocked & at_once.words[k]) |
+               (around.rim ? walkLegs<true>(occupied, group, clear, around, p, 64 * k, ask)
+                           : walkLegs<false>(occupied, group, clear, around, p, 64 * k, ask));
     }
-  }
+  });
+}
+
+void LookFar(const BitVolume& occupied, const Group& group, const FilledAhead& ahead,
+             std::span<const Voxel> places, std::uint64_t* open, std::size_t stride) {
+  lookFromEach(occupied, group, places, open, stride, [&](Voxel p, const Mask& blocked, std::uint64_t* row) {
+    lookFar(occupied, group, ahead, p, blocked, row);
+  });
 }
 
 void SumRows(const float* rows, std::size_t apart, std::span<const std::uint32_t> chosen, float* sums) {
@@ -296,12 +284,18 @@ HWY_AFTER_NAMESPACE();
 namespace espalier::sim::looking {
 
 HWY_EXPORT(Look);
+HWY_EXPORT(LookFar);
 HWY_EXPORT(UniteSteps);
 HWY_EXPORT(SumRows);
 
 void look(const BitVolume& occupied, const Group& group, const ClearBricks& clear,
           std::span<const Voxel> places, std::uint64_t* open, std::size_t stride) {
   HWY_DYNAMIC_DISPATCH(Look)(occupied, group, clear, places, open, stride);
+}
+
+void look(const BitVolume& occupied, const Group& group, const FilledAhead& ahead,
+          std::span<const Voxel> places, std::uint64_t* open, std::size_t stride) {
+  HWY_DYNAMIC_DISPATCH(LookFar)(occupied, group, ahead, places, open, stride);
 }
 
 void uniteSteps(std::uint8_t* target, std::size_t target_apart, const std::uint8_t* source,

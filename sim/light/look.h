@@ -8,6 +8,7 @@
 
 #include "sim/base/bits.h"
 #include "sim/light/clear_bricks.h"
+#include "sim/light/filled_ahead.h"
 #include "sim/sweep/directions.h"
 
 namespace espalier::sim::looking {
@@ -34,16 +35,35 @@ struct Ray {
   std::array<Voxel, kLegs.size()> beyond;  ///< the voxel behind what is near, and behind each leg
   /// How many steps lie within so many voxels of the place along y, and along z.
   std::array<std::uint8_t, kFar> within_y, within_z;
-  std::uint32_t near;  ///< steps before these
+  std::size_t near;  ///< steps before these
 };
 
-/// As many directions as a mask has bits, made ready.
-struct Group {
-  std::span<const LatticeDirection> directions;
-  int lowest;  ///< of the directions' near voxels, along y from the place: 0 or -kNear
-  /// For each row of near voxels, from (lowest, -kNear) to (kNear, kNear) along (y, z), and each pattern of
-  /// four of its voxels the directions that cross one of the pattern's.
-  std::vector<std::array<std::array<Mask, 16>, kFours>> crossing;
+/// In coarse worlds a ray's voxels beyond what is near are met leg by leg; none leads farther along any axis,
+/// so that a leg lies in two bricks along each.
+inline constexpr int kLeg = FilledAhead::kSide - 1;
+
+/// Legs of all directions one after another: of each as many as a multiple of what is read at once, those
+/// that fill up farther along than any world is long.
+struct Legs {
+  std::vector<std::int16_t> x, y, z;  ///< from the place to a leg's first voxel
+  std::vector<std::int16_t> along;    ///< that of depth, without its sign
+  std::vector<std::int32_t> period;   ///< the period of the direction that the first voxel lies in
+  std::vector<std::uint16_t> step;    ///< and its number in there
+  std::vector<std::uint8_t> voxels;
+  /// From the first voxel of a period to its others and as many of the next as a leg may have, in bits of the
+  /// volume. As many as are read at once lie behind the last.
+  std::vector<std::int64_t> steps;
+  struct Ray {
+    std::array<std::int32_t, 3> spans{};  ///< the longest that a leg is along each axis: at most kLeg
+    std::size_t first, count;             ///< one more follows, which begins outside of the world
+    std::size_t first_step;
+    std::int64_t period;  ///< in bits of the volume
+  };
+  std::vector<Ray> rays;
+};
+
+/// How rays are walked beyond what is near in worlds that are not coarse.
+struct Walks {
   /// By axis and by the place's way into its brick: the directions that leave what is near in the brick
   /// before, in the same, and in the one behind.
   std::array<std::array<std::array<Mask, 3>, ClearBricks::kSide>, 3> leaving;
@@ -58,8 +78,24 @@ struct Group {
   std::vector<std::size_t> first_run;
 };
 
+/// As many directions as a mask has bits, made ready.
+struct Group {
+  std::span<const LatticeDirection> directions;
+  std::size_t first;  ///< the first one's number among those of all groups
+  int lowest;         ///< of the directions' near voxels, along y from the place: 0 or -kNear
+  /// For each row of near voxels, from (lowest, -kNear) to (kNear, kNear) along (y, z), and each pattern of
+  /// four of its voxels the directions that cross one of the pattern's.
+  std::vector<std::array<std::array<Mask, 16>, kFours>> crossing;
+  Walks walks;  ///< empty if the world is coarse
+  Legs legs;    ///< empty if it is not
+};
+
 /// For each place a row of bits, `stride` words apart: the group's directions that reach the world's edge.
 void look(const BitVolume& occupied, const Group& group, const ClearBricks& clear,
+          std::span<const Voxel> places, std::uint64_t* open, std::size_t stride);
+
+/// The same in worlds that are coarse. `ahead`: of the directions of all groups.
+void look(const BitVolume& occupied, const Group& group, const FilledAhead& ahead,
           std::span<const Voxel> places, std::uint64_t* open, std::size_t stride);
 
 /// Bits in lines of bytes, all of which are to be read at a step from where they are wanted.

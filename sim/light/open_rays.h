@@ -16,6 +16,7 @@ struct Group;
 }
 
 class ClearBricks;
+class FilledAhead;
 class RaysInside;
 
 /// What is clear along the rays' ways in a volume, kept from question to question: asking again costs as much
@@ -27,12 +28,13 @@ class ClearAhead {
   ClearAhead(ClearAhead&&) noexcept;
   ClearAhead& operator=(ClearAhead&&) noexcept;
 
-  bool known() const { return !of_groups_.empty(); }
+  bool known() const { return filled_ahead_ != nullptr || !of_groups_.empty(); }
 
  private:
   friend class OpenRays;
   friend class RaysInside;
-  std::vector<ClearBricks> of_groups_;
+  std::vector<ClearBricks> of_groups_;         // unless the world is coarse,
+  std::unique_ptr<FilledAhead> filled_ahead_;  // and else this
 };
 
 /// Directions made ready to be looked along from many places, again and again in worlds of one shape. The
@@ -55,6 +57,9 @@ class OpenRays {
   friend class RaysInside;
   /// Makes it true of the volume.
   void look(const BitVolume& occupied, ClearAhead& ahead, const Bricks* filled) const;
+  /// Once it is, for rows of words() each.
+  void look(const BitVolume& occupied, const ClearAhead& ahead, std::span<const Voxel> places,
+            std::uint64_t* open) const;
 
   std::shared_ptr<const DirectionSet> directions_;  // the groups refer to them
   std::shared_ptr<const std::vector<looking::Group>> groups_;

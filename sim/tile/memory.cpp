@@ -15,8 +15,11 @@ namespace {
 constexpr double kLongestAxis = 16000;  // what tiling's fixed point can hold, less a rim
 
 /// Bit volumes: what is occupied, what is solid, what takes light, and three more while a solid is filled or
-/// places are looked at. Surfaces as large as the world's own sides: their grids, taps and places with the
-/// directions that are open there; 35 bytes for each layer before them. Fields of every voxel.
+/// places are looked at. Then one marks the places for a sweep, and the light's rays and those of the table
+/// of the sky go by one each at most: half a volume of horizons, and for each of the four octants above a
+/// byte a brick, which is half a volume where the world is one voxel thick, and a sixteenth where it is
+/// thick. Surfaces as large as the world's own sides: their grids, taps and places with the directions that
+/// are open there; 35 bytes for each layer before them. Fields of every voxel.
 double worldBytes(Vec3 size, const WorldUse& use) {
   const double voxels = size.x * size.y * size.z;
   const double padded = (size.x + 2 * 64) / size.x;

@@ -16,6 +16,7 @@
 #include "sim/base/parallel.h"
 #include "sim/grow/grow.h"
 #include "sim/grow/state.h"
+#include "sim/light/sky.h"
 #include "sim/tile/tiling.h"
 #include "tests/rules/front/points.h"
 #include "tests/support/colonies.h"
@@ -242,6 +243,33 @@ TEST(Colonization, IsTheSameOnAnyNumberOfThreadsAndInSteps) {
     }
     EXPECT_EQ(sim::stateHash(world, growing.growth()), hashes[0]) << "after " << before;
   }
+}
+
+// So too where rays go by how far along anything lies: in worlds of more than 65,536 bricks.
+TEST(Colonization, InTheLightOfALargeWorldIsTheSameOnAnyNumberOfThreads) {
+  std::vector<std::uint64_t> hashes;
+  for (const int threads : {1, 2, 5}) {
+    sim::World world({Vec3(0.0), 0.04, {330, 320, 328}});
+    const sim::Voxel bricks = world.opaqueBricks().bits().size();
+    ASSERT_GT(bricks.x * bricks.y * bricks.z, 65'536);
+    tests::addBox(world, "roof", {100, 60, 100}, {200, 62, 160});
+    tests::addBox(world, "wall", {190, 0, 60}, {194, 300, 250});
+    sim::onThreads(threads, [&] {
+      rules::RuleSet rules = leafyTree();
+      rules.bias.light = 0.3;
+      rules.require.exposure_min = 0.05;
+      sim::GrowthSettings s = settings({});
+      s.iterations = 60;
+      s.light.sky = sim::makeSky({.directions = 300}).directions;  // more than are looked along at once
+      sim::column<Vec3>(s.commons[rules::attractorsNamed("crown")], rules::kAttractorPlace) =
+          tests::inBox(4, 900, {164, 40, 164}, {24, 30, 24});
+      const sim::Growth growth = sim::grow(world, tests::planting(world, rules, {{164, 4, 164}}, "tree"), s);
+      EXPECT_GT(growth.plants[0].skeleton.size(), 300);
+      hashes.push_back(sim::stateHash(world, growth));
+    });
+  }
+  EXPECT_EQ(hashes[0], hashes[1]);
+  EXPECT_EQ(hashes[0], hashes[2]);
 }
 
 // Each key of the section changes what grows.

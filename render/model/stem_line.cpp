@@ -9,7 +9,7 @@ using sim::Vec3;
 
 namespace {
 
-constexpr int kSamples = 12;  // of a segment
+constexpr int kSamples = 24;  // of a segment
 constexpr int kRounds = 4;    // each halves the way between knots
 
 }  // namespace
@@ -41,6 +41,10 @@ StemLine::StemLine(std::span<const Vec3> points, std::optional<Vec3> start_deriv
     }
     for (std::size_t i = 0; i < pieces.size(); ++i)
       if (entering[i]) pieces[i] *= 2;
+    // The spline takes equal time from point to point: it swings out where short pieces meet long ones.
+    for (std::size_t i = 1; i < pieces.size(); ++i) pieces[i] = std::max(pieces[i], pieces[i - 1] / 2);
+    for (std::size_t i = pieces.size() - 1; i > 0; --i)
+      pieces[i - 1] = std::max(pieces[i - 1], pieces[i] / 2);
   }
 }
 

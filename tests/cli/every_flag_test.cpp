@@ -113,6 +113,12 @@ TEST_F(EveryFlag, OfGrowChangesWhatComesOut) {
          grown("", "b");
          return Seen{names(scratch_.path("a")), names(scratch_.path("b"))};
        }},
+      {"lods",
+       [&] {
+         grown("", "a");
+         grown("--lods 1", "b");
+         return Seen{names(scratch_.path("a")), names(scratch_.path("b"))};
+       }},
       {"strict",
        [&] {
          scratch_.write("vine.yaml", bytes("vine.yaml") + "\nregions: {nowhere: forbid}\n");

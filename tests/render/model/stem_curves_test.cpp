@@ -67,7 +67,7 @@ TEST(StemLine, KeepsOutOfWhatItsSegmentsLeaveFree) {  // around the edge of a wa
     }
     return deep;
   };
-  EXPECT_GT(deepest({points, {}, {}}), 0.05);
+  EXPECT_GT(deepest({points, {}, {}}), 0.03);
   const render::StemLine clear(points, {}, wall);
   EXPECT_LT(deepest(clear), 0.002);
   for (std::size_t i = 0; i < points.size(); ++i)

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <functional>
 #include <optional>
 #include <typeinfo>
@@ -37,7 +38,10 @@ class WholeProgram {
       if (rendered && !scene->images.empty()) inJob([&] { render(*scene); });
       if (resumed && grown->growth->cut_short.empty()) inJob([&] { goOn(*scene, *grown); });
     }
-    if (exposed) inJob([&] { expose(*scene, pictures); });
+    // Without a mesh there is nothing to light, which a few scenes are enough to be told.
+    const bool lit =
+        std::any_of(scene->meshes.begin(), scene->meshes.end(), [](auto& mesh) { return mesh.tiled; });
+    if (exposed && (lit || numbers_.chance(0.1))) inJob([&] { expose(*scene, pictures); });
     return ended_;
   }
 

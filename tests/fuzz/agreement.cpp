@@ -92,7 +92,7 @@ void agreeOnAttractors(Drawn& attractors, const std::vector<std::string>& meshes
   const std::set<std::string> no_sources{"at", "spread", "density", "count", "spacing", "type"};
   for (DrawnEntry& one : attractors.entries) {
     if (meshes.empty()) takeOut(one.value, {"surface", "inside"});
-    if (numbers.chance(0.8)) takeOut(one.value, {"inside"});  // most drawn meshes have none
+    if (numbers.chance(0.9)) takeOut(one.value, {"inside"});  // most drawn meshes have none
     std::set<std::string> sources;
     for (const DrawnEntry& entry : one.value.entries) {
       if (!no_sources.contains(entry.key)) sources.insert(entry.key);
@@ -115,7 +115,7 @@ void agreeOnFields(Drawn& fields, const std::vector<std::string>& meshes, tests:
     Drawn* const axis = find(one.value, "axis");
     if (axis && find(one.value, "file")) axis->text = "grid";
     if (!axis || axis->text != "grid") takeOut(one.value, {"file", "grid"});
-    if (meshes.empty() || numbers.chance(0.8)) takeOut(one.value, {"within"});  // most have no inside
+    if (meshes.empty() || numbers.chance(0.9)) takeOut(one.value, {"within"});  // most have no inside
     if (Drawn* within = find(one.value, "within")) within->text = numbers.pick(meshes);
   }
 }

@@ -101,8 +101,8 @@ class LegalFiles {
 
   /// Where too many files do nothing, the drawing is at fault.
   int sterile() const {
-    if (10 * done_ >= 6 * files_) return 0;
-    fmt::print(stderr, "fewer than 6 in 10 files came to the end of a job\n");
+    if (10 * done_ >= 7 * files_) return 0;
+    fmt::print(stderr, "fewer than 7 in 10 files came to the end of a job\n");
     return 1;
   }
 

@@ -36,7 +36,7 @@ const std::map<std::string, rules::Limits> kUsual = {
     {"stem.thickest", {1e-3, 20.0}},
     {"elements[].trials", {1.0, 12.0}},
     {"elements[].per_segment", {0.0, 3.0}},
-    {"elements[].size", {0.05, 4.0}},
+    {"elements[].size", {0.05, 2.0}},
     {"world.layers", {0.0, 6.0}},
     {"sky.accuracy", {0.01, 0.5}},
     {"sky.directions", {1.0, 300.0}},

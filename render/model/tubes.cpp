@@ -97,7 +97,7 @@ std::vector<Vec3> chordsOverThickness(std::span<const TubeStation> line) {
 
 namespace {
 
-constexpr double kApart = 0.9;       // of the way to where two rings would touch
+constexpr double kApart = 0.9;         // of the way to where two rings would touch
 constexpr double kLeastThinned = 0.1;  // of its thickness that a tube keeps in a hairpin
 
 /// How thick two neighbouring stations may be, as a share of their radii.

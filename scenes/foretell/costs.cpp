@@ -40,7 +40,7 @@ StageCost countingCost(const LitWorld& w) {
 
 StageCost modellingCost(double triangles) {
   const double bytes = 60.0 * triangles;
-  return {"modelling", {0.0, 0.12e-6 * triangles}, bytes, bytes};
+  return {"modelling", {0.0, 0.3e-6 * triangles}, bytes, bytes};
 }
 
 StageCost drawingCost(const PicturesWanted& wanted, const std::vector<Seen>& cameras, double triangles) {
@@ -53,10 +53,10 @@ StageCost drawingCost(const PicturesWanted& wanted, const std::vector<Seen>& cam
   }
   if (vines > 0) {
     // One thread builds the tree of triangles, while the others draw panels.
-    const double tree_s = 1.8e-6 * triangles;
+    const double tree_s = 1.1e-6 * triangles;
     cost.work = {std::max(0.0, tree_s - panels_s),
                  std::min(tree_s, panels_s) + panels_s + 2.0e-6 * vines * pixels};
-    cost.bytes_while += 120.0 * triangles;
+    cost.bytes_while += 90.0 * triangles;
   } else {
     cost.work = {0.2 * panels_s, 0.8 * panels_s};
   }

@@ -6,8 +6,8 @@
 
 #include "render/model/leaves.h"
 #include "render/model/limbs.h"
+#include "render/model/meeting_limbs.h"
 #include "render/model/radii.h"
-#include "render/model/self_crossings.h"
 #include "render/model/stem_curves.h"
 #include "render/model/stem_surface.h"
 #include "render/model/tubes.h"

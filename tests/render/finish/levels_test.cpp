@@ -40,7 +40,7 @@ double coverage(const render::PlantModel& model, const render::Camera& camera, i
   return static_cast<double>(hits) / (16.0 * fine * fine);
 }
 
-TEST(Levels, CoverTheSamePixelsWhereTheirErrorIsAPixel) {
+TEST(Levels, CoverAsManyPixelsWhereTheirErrorIsAPixel) {
   sim::Plant plant;
   plant.skeleton = tests::randomTree(4);
   Vec3 low(1e9), high(-1e9);

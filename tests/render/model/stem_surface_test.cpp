@@ -4,11 +4,13 @@
 
 #include <cmath>
 
+#include "render/model/box_pairs.h"
+#include "render/model/meeting_limbs.h"
 #include "render/model/plant_model.h"
 #include "render/model/radii.h"
-#include "render/model/self_crossings.h"
 #include "sim/base/parallel.h"
 #include "tests/support/random_trees.h"
+#include "tests/support/self_crossings.h"
 #include "tests/support/small_vine.h"
 #include "tests/support/sound_surface.h"
 
@@ -107,7 +109,7 @@ TEST(StemSurface, TenRandomTreesAreTenSpheres) {
     const ModelMesh mesh = stemsOf(skeleton);
     expectOneSphere(mesh);
     std::set<std::uint32_t> crossing;
-    for (const render::Crossing& one : render::selfCrossings(mesh)) {
+    for (const render::PiecePairs& one : tests::selfCrossings(mesh)) {
       EXPECT_TRUE(one.first != one.second || meetsItself(limbs[one.first]) ||
                   !keepsItsDistance(limbs, one.first))
           << one.pairs << " pairs within limb " << one.first;
@@ -236,13 +238,25 @@ TEST(StemSurface, LimbsThatMeetAreCounted) {
     const sim::Skeleton skeleton = tests::randomTree(number);
     const std::vector<render::Limb> limbs = limbsIn(skeleton);
     by_lines += render::meetingLimbs(limbs);
-    for (const render::Crossing& one : render::selfCrossings(stemsOf(skeleton)))
+    for (const render::PiecePairs& one : tests::selfCrossings(stemsOf(skeleton)))
       by_triangles +=
           one.first != one.second && limbs[one.second].host != static_cast<std::int32_t>(one.first);
   }
   EXPECT_GT(by_triangles, 10u);
   EXPECT_NEAR(static_cast<double>(by_lines) / static_cast<double>(by_triangles), 1.0, 0.5);
   EXPECT_EQ(render::meetingLimbs(limbsIn(pole())), 0u);
+}
+
+TEST(BoxPairs, OneLongBoxAmongManySmallOnesLiesInFewCubes) {
+  std::vector<render::Box> boxes;
+  for (int i = 0; i < 1000; ++i) {
+    const sim::Vec3f low(0.01f * static_cast<float>(i));
+    boxes.push_back({low, low + 0.001f});
+  }
+  boxes.push_back({sim::Vec3f(0.0f), sim::Vec3f(1e6f)});
+  const auto pairs = render::Boxes(boxes).count([](auto, auto) { return true; },
+                                                [](std::uint32_t box) { return box == 1000 ? 1u : 0u; });
+  EXPECT_EQ(pairs, (std::vector<render::PiecePairs>{{0, 1, 1000}}));
 }
 
 TEST(StemSurface, IsTheSameOnAnyNumberOfThreads) {

@@ -1,11 +1,13 @@
 #pragma once
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <vector>
 
 #include <glm/vec2.hpp>
 
+#include "render/model/leaf_picture.h"
 #include "sim/base/vec.h"
 
 namespace espalier::render {
@@ -15,9 +17,12 @@ namespace espalier::render {
 struct ModelMesh {
   std::string name;
   sim::Colour base_colour{0.5f};  ///< linear RGB
+  /// Laid on it by its UVs in place of the base colour; null: none.
+  std::shared_ptr<const LeafPicture> picture;
   std::vector<sim::Vec3f> positions_m;
   std::vector<sim::Vec3f> normals;  ///< unit
   std::vector<glm::vec2> uvs;
+  std::vector<sim::Colour> tints;     ///< by what the colour is multiplied; empty: by nothing
   std::vector<float> exposures;       ///< 0..1, as the plant sensed it where it grew
   std::vector<float> youths;          ///< 0 for what the first iteration placed .. 1 for the last
   std::vector<std::uint32_t> pieces;  ///< number of the stem axis or of the placed element

@@ -236,6 +236,7 @@ std::string kindOf(const PlantModel& plant, const ModelMesh& element) {
 void GlbWriter::addPlant(const PlantModel& plant) {
   std::vector<int> children;
   if (!plant.stems.empty()) children.push_back(surface(plant.stems, "stems", false));
+  if (!plant.stalks.empty()) children.push_back(surface(plant.stalks, "stalks", false));
   for (const ModelMesh& element : plant.elements) {
     if (!element.empty()) children.push_back(surface(element, kindOf(plant, element), true));
   }

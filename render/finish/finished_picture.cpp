@@ -75,6 +75,8 @@ class Painter {
     const Vec3 extent = Vec3(scene.frame.size) * scene.frame.voxel_m;
     centre_ = Vec3f(sim::worldFromVoxel(scene.frame, 0.5 * Vec3(scene.frame.size)));
     diagonal_m_ = static_cast<float>(glm::length(extent));
+    pixel_ = static_cast<float>(
+        glm::distance(camera_.direction(0.5, 0.5), camera_.direction(0.5, 0.5 + 1.0 / height)));
     const float up = std::max(light_.to_sun.y, 0.0f);
     bounce_ = ground_.colour * (0.45f * up * light_.sun + 0.5f * light_.zenith_light);
     sun_across_ = glm::normalize(
@@ -107,6 +109,7 @@ class Painter {
   Colour bounce_{0.0f};
   Vec3f sun_across_{0.0f}, sun_up_{0.0f}, centre_{0.0f};
   float diagonal_m_ = 1.0f, voxel_m_ = 1.0f;
+  float pixel_ = 0.0f;  // how much a pixel spans at a distance of 1
   int width_, height_;
   // by round and sample
   std::array<std::array<SamplePoint, kRays>, kRounds> points_;
@@ -151,7 +154,7 @@ void Painter::meet(const SurfaceHit& hit, Vec3f direction, Fragment& f) const {
   if (glm::dot(smooth, smooth) > 1e-6f) {
     f.normal = glm::normalize(glm::dot(smooth, f.flat) < 0.0f ? -smooth : smooth);
   }
-  f.look = f.blade ? bladeLook(mesh, hit) : barkLook(noise_, mesh, hit, f.p_m);
+  f.look = f.blade ? bladeLook(surface, hit, pixel_ * hit.distance_m) : barkLook(noise_, mesh, hit, f.p_m);
 }
 
 Vec3f Painter::sunPoint(glm::vec2 disc) const {

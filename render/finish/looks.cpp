@@ -14,15 +14,32 @@ using sim::Vec3f;
 
 constexpr int kSide = 32;
 constexpr std::uint32_t kNoiseKey = 0x5e5e;
-constexpr std::uint32_t kBladeKey = 0x1eaf;
 
 float unit(std::uint32_t bits) {
   return static_cast<float>(bits >> 8) * 0x1p-24f;
 }
 
 template <class Data>
-auto onTriangle(const Data& data, const std::array<std::uint32_t, 3>& t, const SurfaceHit& hit) {
-  return data[t[0]] * (1.0f - hit.u - hit.v) + data[t[1]] * hit.u + data[t[2]] * hit.v;
+auto atHit(const Data& data, const std::array<std::uint32_t, 3>& t, const SurfaceHit& hit) {
+  return onTriangle(data, t, hit.u, hit.v);
+}
+
+/// How much of a picture's height a metre spans on a triangle: 0 where it spans none.
+float picturePerMetre(const ModelMesh& mesh, const std::array<std::uint32_t, 3>& t) {
+  float most = 0.0f;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const std::uint32_t a = t[i], b = t[(i + 1) % 3];
+    const float length = glm::distance(mesh.positions_m[a], mesh.positions_m[b]);
+    if (length > 0.0f) most = std::max(most, std::abs(mesh.uvs[a].y - mesh.uvs[b].y) / length);
+  }
+  return most;
+}
+
+/// What shines through a blade: leaves let yellow light through, petals their own colour.
+Colour throughBlade(Colour albedo) {
+  const float green = albedo.g - std::max(albedo.r, albedo.b);
+  const float leafy = std::clamp(4.0f * green / std::max(albedo.g, 1e-4f), 0.0f, 1.0f);
+  return albedo * glm::mix(Colour(0.95f), Colour(1.45f, 1.30f, 0.30f), leafy);
 }
 
 }  // namespace
@@ -70,29 +87,27 @@ Look groundLook(const Noise& noise, Colour base, Vec3f p_m) {
 
 Look barkLook(const Noise& noise, const ModelMesh& mesh, const SurfaceHit& hit, Vec3f p_m) {
   const auto& t = mesh.triangles[hit.triangle];
-  const float youth = onTriangle(mesh.youths, t, hit);
+  const float youth = atHit(mesh.youths, t, hit);
   const Colour shoot(0.13f, 0.17f, 0.05f);
   const Colour base = glm::mix(mesh.base_colour, shoot, 0.55f * youth * youth);
   const float streak = noise(Vec3f(p_m.x * 180.0f, p_m.y * 40.0f, p_m.z * 180.0f));
   return {base * (1.0f + 0.25f * streak), Colour(0.0f), 0.15f};
 }
 
-Look bladeLook(const ModelMesh& mesh, const SurfaceHit& hit) {
+Look bladeLook(const Surface& blade, const SurfaceHit& hit, float pixel_m) {
+  const ModelMesh& mesh = *blade.model;
   const auto& t = mesh.triangles[hit.triangle];
-  const auto bits = r123::Philox4x32()({{mesh.pieces[t[0]], 0, 0, 0}}, {{kBladeKey, 0}});
-  const float value = 0.82f + 0.52f * unit(bits[0]);
-  const float hue = 2.0f * unit(bits[1]) - 1.0f;  // towards yellow .. towards blue
-  const float youth = mesh.youths[t[0]], light = mesh.exposures[t[0]];
-  Colour albedo = mesh.base_colour * value;
-  albedo *= Colour(1.0f + 0.22f * hue, 1.0f + 0.04f * hue, 1.0f - 0.18f * hue);
-  albedo = glm::mix(albedo, Colour(1.75f, 1.45f, 1.15f) * albedo, 0.75f * youth * youth * youth);
-  albedo *= glm::mix(Colour(0.80f, 0.90f, 1.05f), Colour(1.18f, 1.08f, 0.92f), light);
-
-  const glm::vec2 uv = onTriangle(mesh.uvs, t, hit);
-  const float rib = std::clamp(1.0f - std::abs(uv.x - 0.5f) / 0.05f, 0.0f, 1.0f);
-  albedo = glm::mix(albedo, albedo * 1.7f + 0.02f, 0.6f * rib * (1.0f - 0.6f * uv.y));
-  const Colour through = albedo * Colour(1.45f, 1.30f, 0.30f);
-  return {glm::clamp(albedo, 0.0f, 1.0f), glm::clamp(through, 0.0f, 1.0f), 1.0f};
+  const glm::vec2 uv = atHit(mesh.uvs, t, hit);
+  const Colour tint = mesh.tints.empty() ? Colour(1.0f) : mesh.tints[t[0]];
+  Colour albedo;
+  if (blade.texture != nullptr) {
+    albedo = tint * blade.texture->colour(uv, pixel_m * picturePerMetre(mesh, t));
+  } else {
+    albedo = tint * mesh.base_colour;
+    const float rib = std::clamp(1.0f - std::abs(uv.x - 0.5f) / 0.05f, 0.0f, 1.0f);
+    albedo = glm::mix(albedo, albedo * 1.7f + 0.02f, 0.6f * rib * (1.0f - 0.6f * uv.y));
+  }
+  return {glm::clamp(albedo, 0.0f, 1.0f), glm::clamp(throughBlade(albedo), 0.0f, 1.0f), 1.0f};
 }
 
 Vec3f bulgedNormal(const ModelMesh& mesh, const SurfaceHit& hit) {
@@ -106,7 +121,7 @@ Vec3f bulgedNormal(const ModelMesh& mesh, const SurfaceHit& hit) {
   const float wide = glm::length(across), tall = glm::length(along);
   if (determinant == 0.0f || wide == 0.0f || tall == 0.0f) return normal;
   const float sign = determinant > 0.0f ? 1.0f : -1.0f;
-  const glm::vec2 uv = onTriangle(mesh.uvs, t, hit);
+  const glm::vec2 uv = atHit(mesh.uvs, t, hit);
   return normal + sign * (0.9f * (uv.x - 0.5f) / wide * across + 0.6f * (uv.y - 0.45f) / tall * along);
 }
 

@@ -30,8 +30,9 @@ Look stoneLook(const Noise& noise, sim::Colour base, sim::Vec3f p_m);
 Look groundLook(const Noise& noise, sim::Colour base, sim::Vec3f p_m);
 /// Bark, greener towards young ends; p in metres.
 Look barkLook(const Noise& noise, const ModelMesh& mesh, const SurfaceHit& hit, sim::Vec3f p_m);
-/// Leaves: each its own shade; young ones lighter, those that grew in the light yellower; a pale midrib.
-Look bladeLook(const ModelMesh& mesh, const SurfaceHit& hit);
+/// Leaves by their pictures, and else in their colour with a pale midrib; each in its own tint. `pixel_m`:
+/// how much of it a pixel spans.
+Look bladeLook(const Surface& blade, const SurfaceHit& hit, float pixel_m);
 /// A blade's normal as if its flat polygons were gently domed across and drooping at the tip. Not of unit
 /// length.
 sim::Vec3f bulgedNormal(const ModelMesh& mesh, const SurfaceHit& hit);

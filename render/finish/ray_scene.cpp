@@ -11,6 +11,22 @@
 
 namespace espalier::render {
 
+namespace {
+
+/// Rays go on where a blade's picture has nothing of it.
+void passThroughHoles(const RTCFilterFunctionNArguments* args) {
+  const auto& surface = *static_cast<const Surface*>(args->geometryUserPtr);
+  for (unsigned i = 0; i < args->N; ++i) {
+    if (args->valid[i] == 0) continue;
+    const auto& triangle = surface.model->triangles[RTCHitN_primID(args->hit, args->N, i)];
+    const glm::vec2 uv = onTriangle(surface.model->uvs, triangle, RTCHitN_u(args->hit, args->N, i),
+                                    RTCHitN_v(args->hit, args->N, i));
+    if (!surface.texture->covers(uv)) args->valid[i] = 0;
+  }
+}
+
+}  // namespace
+
 struct RayScene::Device {
   RTCDevice device = rtcNewDevice("isa=sse4.2");  // one instruction set: the same bits on every processor
   RTCScene scene = device ? rtcNewScene(device) : nullptr;
@@ -24,8 +40,10 @@ struct RayScene::Device {
     rtcReleaseDevice(device);
   }
 
+  /// `cut`: a blade whose picture cuts it out; null: solid.
   template <class Vertex>
-  void add(const std::vector<Vertex>& vertices, const std::vector<std::array<std::uint32_t, 3>>& triangles) {
+  void add(const std::vector<Vertex>& vertices, const std::vector<std::array<std::uint32_t, 3>>& triangles,
+           const Surface* cut) {
     RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
     auto* positions = static_cast<sim::Vec3f*>(rtcSetNewGeometryBuffer(
         geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, sizeof(sim::Vec3f), vertices.size()));
@@ -34,26 +52,41 @@ struct RayScene::Device {
     if (!positions || !indices) throw sim::InputError("not enough memory for the ray tracer");
     for (std::size_t i = 0; i < vertices.size(); ++i) positions[i] = sim::Vec3f(vertices[i]);
     std::memcpy(indices, triangles.data(), triangles.size() * sizeof(triangles[0]));
+    if (cut != nullptr) {
+      rtcSetGeometryUserData(geometry, const_cast<Surface*>(cut));
+      rtcSetGeometryIntersectFilterFunction(geometry, passThroughHoles);
+      rtcSetGeometryOccludedFilterFunction(geometry, passThroughHoles);
+    }
     rtcCommitGeometry(geometry);
     rtcAttachGeometry(scene, geometry);
     rtcReleaseGeometry(geometry);
   }
 };
 
-RayScene::RayScene(const ModelScene& scene) : device_(std::make_unique<Device>()) {
+RayScene::RayScene(const ModelScene& scene)
+    : device_(std::make_unique<Device>()), surfaces_(std::make_unique<std::vector<Surface>>()) {
   for (const sim::Mesh* mesh : scene.meshes) {
-    if (mesh->triangles.empty()) continue;
-    device_->add(mesh->vertices_m, mesh->triangles);
-    surfaces_.push_back({SurfaceKind::scene, mesh, nullptr});
+    if (!mesh->triangles.empty()) surfaces_->push_back({SurfaceKind::scene, mesh});
   }
   const auto add = [&](const ModelMesh& mesh, SurfaceKind kind) {
     if (mesh.empty()) return;
-    device_->add(mesh.positions_m, mesh.triangles);
-    surfaces_.push_back({kind, nullptr, &mesh});
+    surfaces_->push_back({kind, nullptr, &mesh});
+    if (!mesh.picture) return;
+    auto& texture = textures_[mesh.picture.get()];
+    if (!texture) texture = std::make_unique<const LeafTexture>(*mesh.picture);
+    surfaces_->back().texture = texture.get();
   };
   for (const PlantModel* plant : scene.plants) {
     add(plant->stems, SurfaceKind::stem);
+    add(plant->stalks, SurfaceKind::stem);
     for (const ModelMesh& element : plant->elements) add(element, SurfaceKind::blade);
+  }
+  for (const Surface& surface : *surfaces_) {
+    const Surface* const cut = surface.texture != nullptr ? &surface : nullptr;
+    if (surface.mesh != nullptr)
+      device_->add(surface.mesh->vertices_m, surface.mesh->triangles, cut);
+    else
+      device_->add(surface.model->positions_m, surface.model->triangles, cut);
   }
   // Built by one thread: then the tree, and with it the winner among surfaces in one place, is always the
   // same. (Embree's own setting threads=1 would hold the whole process to one thread for as long as the

@@ -2,9 +2,12 @@
 #include <array>
 #include <cstdint>
 #include <limits>
+#include <map>
 #include <memory>
+#include <vector>
 
 #include "render/files/gltf.h"
+#include "render/finish/leaf_texture.h"
 #include "sim/base/vec.h"
 
 namespace espalier::render {
@@ -28,19 +31,26 @@ enum class SurfaceKind { scene, stem, blade };
 /// What a hit's `surface` stands for: one of the two meshes.
 struct Surface {
   SurfaceKind kind = SurfaceKind::scene;
-  const sim::Mesh* mesh = nullptr;   ///< of a scene surface
-  const ModelMesh* model = nullptr;  ///< of stems and blades
+  const sim::Mesh* mesh = nullptr;       ///< of a scene surface
+  const ModelMesh* model = nullptr;      ///< of stems and blades
+  const LeafTexture* texture = nullptr;  ///< of blades that are cut out
 };
 
-/// Meshes made ready for rays (Embree). The scene is borrowed. Const members may be called from any number of
-/// threads; answers depend on neither their number nor their order.
+/// Of a triangle's three corners, each with its value, at barycentric weights of the second and third.
+template <class Data>
+auto onTriangle(const Data& data, const std::array<std::uint32_t, 3>& t, float u, float v) {
+  return data[t[0]] * (1.0f - u - v) + data[t[1]] * u + data[t[2]] * v;
+}
+
+/// Meshes made ready for rays (Embree), blades cut out by their pictures. The scene is borrowed. Const
+/// members may be called from any number of threads; answers depend on neither their number nor their order.
 class RayScene {
  public:
   explicit RayScene(const ModelScene& scene);
   RayScene(RayScene&&) noexcept;
   ~RayScene();
 
-  const std::vector<Surface>& surfaces() const { return surfaces_; }
+  const std::vector<Surface>& surfaces() const { return *surfaces_; }
 
   std::array<SurfaceHit, kRays> firstHits(sim::Vec3f origin_m,
                                           const std::array<sim::Vec3f, kRays>& directions) const;
@@ -62,7 +72,8 @@ class RayScene {
  private:
   struct Device;
   std::unique_ptr<Device> device_;
-  std::vector<Surface> surfaces_;
+  std::map<const LeafPicture*, std::unique_ptr<const LeafTexture>> textures_;
+  std::unique_ptr<std::vector<Surface>> surfaces_;  // where Embree knows them
 };
 
 }  // namespace espalier::render

@@ -1,4 +1,5 @@
 #pragma once
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -18,11 +19,20 @@ struct TextBox {
   int left = 0, top = 0, right = 0, bottom = 0;
 };
 
+/// A picture as it was read: sRGB and alpha that is not premultiplied, rows from the top.
+struct Texels {
+  std::int32_t width = 0, height = 0;
+  std::vector<std::array<std::uint8_t, 4>> rgba;
+};
+
 /// All throw sim::InputError where OpenImageIO fails.
 struct Oiio {
   /// `size`: of the picture, whose own pixels are not read.
   std::string (*png)(const Image& size, const std::uint8_t* pixels, const Metadata& texts);
   std::string (*exr)(const Image& measured, const std::vector<std::string>& channels, const Metadata& texts);
+  /// The first picture of a PNG's bytes; grey becomes three channels alike, and no alpha is opaque. Its size
+  /// is judged before any pixel is read. On the calling thread alone.
+  Texels (*read_png)(const std::string& bytes, int most_pixels, int most_side);
   /// Nothing where the font is not installed.
   std::optional<TextBox> (*text_box)(const std::string& ascii, int size_px, const char* font);
   /// Draws white letters into a picture of one channel.

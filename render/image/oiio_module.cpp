@@ -7,6 +7,7 @@
 
 #include <array>
 #include <memory>
+#include <string_view>
 
 #include "render/image/oiio.h"
 #include "sim/base/error.h"
@@ -47,6 +48,41 @@ std::string png(const Image& size, const std::uint8_t* pixels, const Metadata& t
   spec.attribute("compression", "rle");
   spec.attribute("png:filter", 0x80);  // each byte less what Paeth foretells
   return encoded("png", spec, pixels, texts);
+}
+
+Texels readPng(const std::string& bytes, int most_pixels, int most_side) {
+  constexpr std::string_view kSignature("\x89PNG\r\n\x1a\n", 8);
+  if (!std::string_view(bytes).starts_with(kSignature)) throw sim::InputError("it is no PNG; expected one");
+  const std::unique_ptr<OIIO::ImageInput> in = OIIO::ImageInput::create("png");
+  if (!in) throw sim::InputError("OpenImageIO was built without png");
+  OIIO::Filesystem::IOMemReader memory(bytes.data(), bytes.size());
+  OIIO::ImageSpec wanted;
+  wanted.attribute("oiio:UnassociatedAlpha", 1);
+  in->threads(1);
+  in->set_ioproxy(&memory);
+  OIIO::ImageSpec spec;
+  if (!in->open("memory.png", spec, wanted))
+    throw sim::InputError(fmt::format("the file is damaged or cut: {}", in->geterror()));
+  if (spec.width < 1 || spec.height < 1 || spec.width > most_side || spec.height > most_side ||
+      spec.width > most_pixels / spec.height)
+    throw sim::InputError(fmt::format("it has {} x {} pixels; expected at most {} on a side and {} in all",
+                                      spec.width, spec.height, most_side, most_pixels));
+  const auto channels = static_cast<std::size_t>(spec.nchannels);
+  if (channels < 1 || channels > 4)
+    throw sim::InputError(fmt::format("it has {} channels; expected 1 to 4", channels));
+  const std::size_t pixels = static_cast<std::size_t>(spec.width) * static_cast<std::size_t>(spec.height);
+  std::vector<std::uint8_t> read(pixels * channels);
+  if (!in->read_image(0, 0, 0, spec.nchannels, OIIO::TypeDesc::UINT8, read.data()))
+    throw sim::InputError(fmt::format("the file is damaged or cut: {}", in->geterror()));
+  Texels texels{spec.width, spec.height, {}};
+  texels.rgba.reserve(pixels);
+  for (std::size_t i = 0; i < pixels; ++i) {
+    const std::uint8_t* const p = read.data() + i * channels;
+    const bool grey = channels < 3;
+    texels.rgba.push_back({p[0], grey ? p[0] : p[1], grey ? p[0] : p[2],
+                           channels % 2 == 0 ? p[channels - 1] : std::uint8_t{255}});
+  }
+  return texels;
 }
 
 std::string exr(const Image& measured, const std::vector<std::string>& channels, const Metadata& texts) {
@@ -117,5 +153,5 @@ std::vector<sim::Colour> colourMap(const std::string& name, int entries) {
 
 extern "C" const espalier::render::Oiio espalierOiio;
 const espalier::render::Oiio espalierOiio{
-    espalier::render::png,   espalier::render::exr,    espalier::render::textBox,  espalier::render::text,
-    espalier::render::paste, espalier::render::resize, espalier::render::colourMap};
+    espalier::render::png,  espalier::render::exr,   espalier::render::readPng, espalier::render::textBox,
+    espalier::render::text, espalier::render::paste, espalier::render::resize,  espalier::render::colourMap};

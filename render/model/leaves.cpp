@@ -1,7 +1,10 @@
 #include "render/model/leaves.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
+
+#include "render/model/leaf_tint.h"
 
 namespace espalier::render {
 namespace {
@@ -87,12 +90,15 @@ void appendElement(ModelMesh& mesh, const sim::PlacedElement& element, const sim
     if (fan.triangles.empty()) continue;
     const Vec3 normal = glm::normalize(areaVector(corners));
     if (fan.with_centre) corners.push_back(centreOf(corners));
+    const int across = std::abs(normal.x) > std::abs(normal.z) ? 2 : 0;
+    const sim::Colour tint = leafTint(piece, youth, element.exposure, shape.varies);
     const auto first = static_cast<std::uint32_t>(mesh.positions_m.size());
     for (const Vec3 corner : corners) {
       const Vec3 uv = (corner - extent.low) / extent.size;
       mesh.positions_m.emplace_back(sim::worldFromVoxel(frame, sim::placed(element, corner)));
       mesh.normals.emplace_back(normal.x * element.x + normal.y * element.y + normal.z * element.z);
-      mesh.uvs.emplace_back(uv.x, uv.y);
+      mesh.uvs.emplace_back(uv[across], uv.y);
+      mesh.tints.push_back(tint);
       mesh.exposures.push_back(element.exposure);
       mesh.youths.push_back(youth);
       mesh.pieces.push_back(piece);

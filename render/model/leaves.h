@@ -27,7 +27,7 @@ sim::Vec3 centreOf(std::span<const sim::Vec3> corners);
 sim::Vec3 bladeBase(const sim::ElementShape& shape);
 
 /// Appends a placed element's polygons. Flat normals on the shape's face (+z) side; UVs span the shape's own
-/// x and y extent, v along its growth.
+/// x and y extent, v along its growth; of a polygon that faces x rather than z, u spans the extent in z.
 void appendElement(ModelMesh& mesh, const sim::PlacedElement& element, const sim::ElementShape& shape,
                    const sim::Frame& frame, float youth, std::uint32_t piece);
 

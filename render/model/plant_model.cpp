@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include "render/model/drawn_leaf.h"
 #include "render/model/leaves.h"
 #include "render/model/limbs.h"
 #include "render/model/meeting_limbs.h"
@@ -21,6 +22,7 @@ using sim::Vec3;
 
 constexpr double kBarkRadii = 50.0;  // width of a repeat of the bark, in radii of a twig
 constexpr int kStalkSides = 3;
+constexpr float kStalkGreen = 0.6f;  // how far they are coloured as leaves rather than as bark
 
 /// What a node sensed where it grew; full light for plants whose process does not say.
 class Exposure {
@@ -47,12 +49,25 @@ class Youth {
   std::int32_t last_ = 1;
 };
 
-void appendStalk(ModelMesh& mesh, const sim::PlacedElement& element, Vec3 stem_vx, Vec3 base_vx,
-                 double radius_vx, const sim::Frame& frame, float youth, std::uint32_t piece) {
+/// How thick a stalk is: thinner than a twig, and in proportion to a small blade.
+double stalkRadius(const sim::Plant& plant, const sim::PlacedElement& element, Vec3 base_vx) {
+  const double blade_vx = glm::distance(base_vx, sim::placed(element, {0.0, 1.0, 0.0}));
+  return std::min(0.55 * plant.girth.twig_vx, 0.02 * blade_vx);
+}
+
+/// A stalk from the stem to a blade that does not begin on it.
+void appendStalk(ModelMesh& mesh, const sim::Plant& plant, const sim::PlacedElement& element,
+                 const StemCurves& curves, double stem_radius_vx, const sim::Frame& frame, float youth,
+                 std::uint32_t piece) {
+  if (at(plant.skeleton.parent, element.node) == sim::kNoNode) return;
+  const Vec3 base = sim::placed(element, bladeBase(plant.shapes[static_cast<std::size_t>(element.shape)]));
+  const Vec3 stem = curves.onStem(plant.skeleton, element.node, element.position_vx);
+  const double radius_vx = stalkRadius(plant, element, base);
+  if (glm::distance(stem, base) <= stem_radius_vx + radius_vx) return;
   const double radius_m = radius_vx * frame.voxel_m;
   const std::array<TubeStation, 2> line{
-      TubeStation{sim::worldFromVoxel(frame, stem_vx), radius_m, element.exposure, youth},
-      TubeStation{sim::worldFromVoxel(frame, base_vx), radius_m, element.exposure, youth}};
+      TubeStation{sim::worldFromVoxel(frame, stem), radius_m, element.exposure, youth},
+      TubeStation{sim::worldFromVoxel(frame, base), radius_m, element.exposure, youth}};
   appendTube(mesh, line, kStalkSides, piece);
 }
 
@@ -83,10 +98,16 @@ PlantModel modelPlant(const sim::Plant& plant, const sim::Frame& frame, const Mo
   model.stems.base_colour = plant.stem_colour;
   sim::throwIfStopped();
 
+  model.stalks.name = plant.name + " stalks";
+  model.stalks.base_colour = plant.stem_colour;
+  if (!plant.shapes.empty())
+    model.stalks.base_colour = glm::mix(plant.stem_colour, plant.shapes.front().colour, kStalkGreen);
   for (const sim::ElementShape& shape : plant.shapes) {
     model.elements.push_back({});
     model.elements.back().name = plant.name + " " + shape.name;
     model.elements.back().base_colour = shape.colour;
+    model.elements.back().picture = shape.picture;
+    if (!shape.drawn.empty()) model.elements.back().picture = drawnLeaf(shape.drawn, shape.colour);
   }
   for (std::size_t e = 0; e < plant.elements.size(); ++e) {
     sim::throwIfStopped();
@@ -97,16 +118,9 @@ PlantModel modelPlant(const sim::Plant& plant, const sim::Frame& frame, const Mo
     const float young = youth.of(element.born);
     appendElement(mesh, element, shape, frame, young, piece);
 
-    const bool on_stem = element.node >= 0 && element.node < plant.skeleton.size() &&
-                         at(plant.skeleton.parent, element.node) != sim::kNoNode;
-    if (!on_stem) continue;
-    const Vec3 base = sim::placed(element, bladeBase(shape));
-    const Vec3 stem = curves.onStem(plant.skeleton, element.node, element.position_vx);
-    const auto stem_radius = static_cast<double>(at(radii, element.node));
-    const double stalk_radius = 0.55 * plant.girth.twig_vx;
-    if (glm::distance(stem, base) > stem_radius + stalk_radius) {
-      appendStalk(mesh, element, stem, base, stalk_radius, frame, young, piece);
-    }
+    if (element.node >= 0 && element.node < plant.skeleton.size())
+      appendStalk(model.stalks, plant, element, curves, static_cast<double>(at(radii, element.node)), frame,
+                  young, piece);
   }
   return model;
 }

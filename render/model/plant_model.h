@@ -26,7 +26,8 @@ struct PlantModel {
   std::string name;
   ModelMesh stems;
   std::size_t meeting_limbs = 0;    ///< pairs of limbs that run into each other where none leaves the other
-  std::vector<ModelMesh> elements;  ///< one for each of the plant's shapes: blades with their stalks
+  ModelMesh stalks;                 ///< from stems to blades that do not begin on them
+  std::vector<ModelMesh> elements;  ///< one for each of the plant's shapes: blades
 };
 
 /// Models a plant: every stem a tube swept along a C2 curve through its nodes, thick as the pipe model says,

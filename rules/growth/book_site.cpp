@@ -24,8 +24,8 @@ Outcome tryToGrow(const sim::SiteView& view, const RuleSet& rules, const sim::Si
   const Senses senses = sense(view, around, light, rules);
   std::optional<Candidate> best = step(rules, around, senses, set, proposal);
   if (!best) return Outcome::no_trial;
-  proposal.elements =
-      proposeElements(view, rules, around, senses, best->to_vx, best->passes, book.firstShape(rules), key);
+  proposal.elements = proposeElements(view, site, rules, around, senses, best->to_vx, best->passes,
+                                      book.firstShape(rules), key);
   proposal.segment = {best->to_vx, std::move(best->takes), best->passage, {}};
   // exposure, order, proximity_vx, sky_exposure, sun_exposure: in the order of their names.
   std::vector<float>& quantities = proposal.segment->quantities;

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <tuple>
 
+#include "rules/growth/element_places.h"
 #include "sim/base/stop.h"
 #include "sim/grow/pieces.h"
 #include "sim/tile/tiling.h"
@@ -49,8 +50,9 @@ sim::LatticeBox reachOf(const sim::SiteView& view, const RuleSet& rules, double 
   double reach = 0.0;
   for (std::size_t i = 0; i < rules.elements.size(); ++i) {
     const auto part = view.plant.element_parts[static_cast<std::size_t>(first_shape) + i];
+    const double petiole_vx = highest(rules.elements[i].petiole.value);
     for (const sim::Vec3 corner : view.pieces.shapeOf(part).corners)
-      reach = std::max(reach, glm::length(corner) * highest(rules.elements[i].size) * vigour);
+      reach = std::max(reach, petiole_vx + glm::length(corner) * highest(rules.elements[i].size) * vigour);
   }
   const sim::Vec3 rim(sim::Vec3(view.world.frame().size));
   const sim::Vec3 most(reach + 1e-3);
@@ -58,40 +60,36 @@ sim::LatticeBox reachOf(const sim::SiteView& view, const RuleSet& rules, double 
           sim::latticePoint(glm::min(glm::max(from_vx, to_vx) + most, rim))};
 }
 
-/// Where each of an element trial's random numbers stands (sim::Slots).
-enum ElementSlot : unsigned { kAlong, kSize, kFace, kChanceTurn, kChanceHeight, kOutTurn, kOutHeight };
-
-sim::Vec3 onSphere(sim::Slots& slots, ElementSlot turn, ElementSlot height) {
-  return sim::inCone(sim::Vec3(0, 1, 0), -1.0, slots.uniform(turn), slots.uniform(height));
-}
-
-/// A natural attitude: the face turns towards the open and the light, as a leaf's blade does, and the element
-/// points outwards and a little down, as its own weight and its stalk make it.
-void turn(sim::PlacedElement& element, const Surroundings& around, const Senses& senses, sim::Vec3 stem,
-          double face, sim::Slots& slots) {
-  const sim::Vec3 light = senses.light == sim::Vec3(0.0) ? sim::Vec3(0, 1, 0) : senses.light;
-  const sim::Vec3 open = glm::normalize(0.9 * around.away + 0.8 * light + 1e-6 * sim::Vec3(0, 1, 0));
-  const sim::Vec3 facing = glm::mix(onSphere(slots, kChanceTurn, kChanceHeight), open, face);
-  element.z = glm::length(facing) > 1e-6 ? glm::normalize(facing) : open;
-  const sim::Vec3 outward =
-      onSphere(slots, kOutTurn, kOutHeight) + 0.6 * around.away - 0.45 * sim::Vec3(0, 1, 0) + 0.15 * stem;
-  const sim::Vec3 in_blade = outward - glm::dot(outward, element.z) * element.z;
-  element.y = glm::length(in_blade) > 1e-6 ? glm::normalize(in_blade) : sim::perpendicular(element.z);
-  element.x = glm::cross(element.y, element.z);
+/// Where elements of a shape go on a segment that leaves a node: as many places as there are to be elements.
+std::vector<ElementPlace> placesOn(const sim::SiteView& view, const sim::Site& site, const Element& rule,
+                                   const Senses& senses, sim::Vec3 segment_vx, unsigned shape,
+                                   const sim::RandomKey& key, LimbPath& path) {
+  if (rule.phyllotaxis) {
+    const double length = glm::length(segment_vx);
+    path = limbPath(view.plant.skeleton, site.node, segment_vx / length);
+    return placesInOrder(*rule.phyllotaxis, path.length_vx, length);
+  }
+  sim::Slots counting(key, sim::Purpose::element_count, shape);
+  const double expected =
+      evaluate(rule.per_segment, senses.circumstance, counting.uniform(0)) * senses.vigour;
+  return std::vector<ElementPlace>(static_cast<std::size_t>(std::floor(expected + counting.uniform(1))));
 }
 
 }  // namespace
 
 std::vector<sim::ElementShape> shapesOf(const RuleSet& rules) {
   std::vector<sim::ElementShape> shapes;
-  for (const Element& element : rules.elements)
-    shapes.push_back({element.name, element.polygons, element.colour});
+  for (const Element& element : rules.elements) {
+    shapes.push_back({element.name, element.polygons, element.colour, element.varies,
+                      element.picture ? "" : element.texture, element.picture});
+  }
   return shapes;
 }
 
-std::vector<sim::ProposedElement> proposeElements(const sim::SiteView& view, const RuleSet& rules,
-                                                  const Surroundings& around, const Senses& senses,
-                                                  sim::Vec3 to_vx, const std::vector<sim::Voxel>& segment,
+std::vector<sim::ProposedElement> proposeElements(const sim::SiteView& view, const sim::Site& site,
+                                                  const RuleSet& rules, const Surroundings& around,
+                                                  const Senses& senses, sim::Vec3 to_vx,
+                                                  const std::vector<sim::Voxel>& segment,
                                                   std::int32_t first_shape, const sim::RandomKey& key) {
   std::vector<sim::ProposedElement> placed;
   Voxels own = segment, tiled;
@@ -108,26 +106,24 @@ std::vector<sim::ProposedElement> proposeElements(const sim::SiteView& view, con
     const auto number = first_shape + static_cast<std::int32_t>(shape);
     const sim::FacetShape& facet_shape =
         view.pieces.shapeOf(view.plant.element_parts[static_cast<std::size_t>(number)]);
-    sim::Slots counting(key, sim::Purpose::element_count, static_cast<unsigned>(shape));
-    const double expected =
-        evaluate(rule.per_segment, senses.circumstance, counting.uniform(0)) * senses.vigour;
-    const auto count = static_cast<unsigned>(std::floor(expected + counting.uniform(1)));
+    LimbPath path;
+    const std::vector<ElementPlace> places =
+        placesOn(view, site, rule, senses, to_vx - around.at_vx, static_cast<unsigned>(shape), key, path);
     double area = 0.0;
     for (const auto& polygon : rule.polygons) area += areaOf(polygon);
-    for (unsigned i = 0; i < count; ++i) {
+    for (unsigned i = 0; i < places.size(); ++i) {
       for (int trial = 0; trial < rule.trials; ++trial) {
         sim::throwIfStopped();
-        // The rule language allows 64 shapes, and 1000 of each: 100 a segment, ten times as many in full
-        // light.
+        // The rule language allows 64 shapes, and 1000 of each.
         sim::Slots slots(key, sim::Purpose::element, static_cast<unsigned>(shape << 10) + i,
                          static_cast<unsigned>(trial));
         sim::PlacedElement element;
         element.shape = number;
-        element.position_vx = glm::mix(around.at_vx, to_vx, 0.1 + 0.9 * slots.uniform(kAlong));
+        const double along = places[i].in_order ? places[i].along : 0.1 + 0.9 * slots.uniform(kAlong);
+        element.position_vx = glm::mix(around.at_vx, to_vx, along);
         element.exposure = static_cast<float>(senses.exposure);
         element.scale = evaluate(rule.size, senses.circumstance, slots.uniform(kSize)) * senses.vigour;
-        turn(element, around, senses, stem, evaluate(rule.face, senses.circumstance, slots.uniform(kFace)),
-             slots);
+        stand(element, rule, places[i], stem, path.across, around, senses, trial, slots);
         // The cheap questions first. The world is frozen: the element's own segment does not stand there yet.
         if (!sim::place(element, facet_shape, facets) || !sim::inside(view.world.frame().size, facets) ||
             nearby.clash(facets, {sim::latticePoint(element.position_vx)}))

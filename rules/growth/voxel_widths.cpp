@@ -6,6 +6,7 @@
 #include <cmath>
 #include <map>
 
+#include "rules/growth/element_places.h"
 #include "rules/growth/rule_book.h"
 #include "sim/base/error.h"
 
@@ -50,6 +51,9 @@ void convert(RuleSet& rules, double voxel_m) {
   for (Element& element : rules.elements) {
     if (element.size_metres) convert(element.size, voxel_m);
     element.size_metres = false;
+    if (element.petiole.metres) convert(element.petiole.value, voxel_m);
+    element.petiole.metres = false;
+    if (element.phyllotaxis) convert(element.phyllotaxis->spacing, voxel_m);
     if (!element.polygons_metres) continue;
     for (auto& polygon : element.polygons) {
       for (sim::Vec3& corner : polygon) corner /= voxel_m;
@@ -82,13 +86,19 @@ double mostVoxels(const Element& element, double scale) {
   return voxels;
 }
 
+/// Not counting what light adds.
+double mostOnASegment(const Element& element) {
+  if (!element.phyllotaxis) return std::ceil(highest(element.per_segment));
+  return std::ceil(kLongestSegment / element.phyllotaxis->spacing.number) * element.phyllotaxis->whorl;
+}
+
 /// What keeps elements from being tiled; empty if nothing does.
 std::string tooManyVoxels(const RuleSet& rules, const std::string& at) {
   double sum = 0.0, most = 0.0;
   std::size_t largest = 0;
   for (std::size_t i = 0; i < rules.elements.size(); ++i) {
     const Element& element = rules.elements[i];
-    const double number = std::max(1.0, std::ceil(highest(element.per_segment) * mostVigour(rules)));
+    const double number = std::max(1.0, mostOnASegment(element) * mostVigour(rules));
     const double voxels = number * mostVoxels(element, highest(element.size) * mostVigour(rules));
     sum += voxels;
     if (voxels > most) largest = i;
@@ -126,6 +136,14 @@ std::string wrongWith(const RuleSet& rules, const std::string& at) {
         min, max, at);
   }
   for (std::size_t i = 0; i < rules.elements.size(); ++i) {
+    const double number = mostOnASegment(rules.elements[i]);
+    if (rules.elements[i].phyllotaxis && number > kMostOnASegment) {
+      return fmt::format(
+          "elements[{}].phyllotaxis: up to {:.0f} elements would stand on a segment of {:.0f} voxel widths "
+          "{}; "
+          "expected at most {}, by a wider spacing or a smaller whorl",
+          i, number, kLongestSegment, at, kMostOnASegment);
+    }
     double farthest = 0.0;
     for (const auto& polygon : rules.elements[i].polygons) {
       for (const sim::Vec3& corner : polygon) farthest = std::max(farthest, glm::length(corner));

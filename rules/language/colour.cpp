@@ -8,10 +8,7 @@
 namespace espalier::rules {
 namespace {
 
-// Float libm: its results do not depend on the processor, which double's do.
-float linear(float s) {
-  return s <= 0.04045f ? s / 12.92f : powf((s + 0.055f) / 1.055f, 2.4f);
-}
+// Float libm, as sim::linearFromSrgb.
 float srgb(float l) {
   return l <= 0.0031308f ? l * 12.92f : 1.055f * powf(l, 1.0f / 2.4f) - 0.055f;
 }
@@ -20,10 +17,6 @@ long byte(float s) {
 }
 
 }  // namespace
-
-sim::Colour linearFromSrgb(sim::Colour c) {
-  return {linear(c.r), linear(c.g), linear(c.b)};
-}
 
 sim::Colour srgbFromLinear(sim::Colour c) {
   return {srgb(c.r), srgb(c.g), srgb(c.b)};

@@ -254,6 +254,39 @@ std::shared_ptr<const Table> stemKeys() {
       .shared();
 }
 
+std::shared_ptr<const Table> phyllotaxisKeys() {
+  return TableOf<Phyllotaxis>()
+      .number("angle", &Phyllotaxis::angle_deg,
+              {.unit = kDegrees,
+               .limits = {0.0, 360.0},
+               .meaning = "About the stem, from one place to the next: 137.5 is the golden angle, 180 puts "
+                          "them in two rows, 90 with a whorl of 2 crosses pairs."})
+      .distance("spacing", &Phyllotaxis::spacing,
+                {.unit = kVoxels,
+                 .limits = {0.0, 1000.0, true},
+                 .meaning = "Along the limb, from one place to the next."})
+      .whole("whorl", &Phyllotaxis::whorl,
+             {.unit = "elements", .limits = {1.0, 16.0}, .meaning = "At one place, evenly about the stem."})
+      .value("pitch", &Phyllotaxis::pitch_deg,
+             {.unit = kDegrees,
+              .limits = kAngle,
+              .meaning = "Between an element and the way that its stem goes; more than 90 hangs back."})
+      .shared();
+}
+
+std::shared_ptr<const Table> variationKeys() {
+  using sim::ColourVariation;
+  const auto weight = [](std::string meaning) {
+    return About{.unit = "weight", .limits = {0.0, 3.0}, .meaning = std::move(meaning)};
+  };
+  return TableOf<ColourVariation>()
+      .number("chance", &ColourVariation::by_chance, weight("How far each has a shade and a hue of its own."))
+      .number("age", &ColourVariation::by_age, weight("How much lighter the young ones are."))
+      .number("light", &ColourVariation::by_light,
+              weight("How much brighter those are that grew in the light."))
+      .shared();
+}
+
 std::shared_ptr<const Table> elementKeys() {
   return TableOf<Element>()
       .name("name", &Element::name, {.meaning = "What it is called in the model and in reports."})
@@ -300,8 +333,22 @@ std::shared_ptr<const Table> elementKeys() {
            .limits = {-1000.0, 1000.0},
            .meaning = "Flat polygons by their corners; attached at [0, 0, 0], growing along +y, facing +z.",
            .greene = "model, polygon",
-           .required = true,
            .most = 256})
+      .custom(
+          "petiole", Kind::length, [](Element& e, const Datum& d) { e.petiole = std::get<Length>(d); },
+          [](const Element& e) { return Datum{e.petiole}; },
+          {.unit = kVoxels,
+           .limits = {0.0, 1000.0},
+           .meaning = "A stalk, from the stem to [0, 0, 0] of the polygons."})
+      .section("phyllotaxis", &Element::phyllotaxis, phyllotaxisKeys(),
+               {.meaning = "They stand along their limb in an order, in place of per_segment by chance."})
+      .file("texture", &Element::texture,
+            {.meaning = "What is painted on the polygons and cuts them out: a PNG file beside this one, or a "
+                        "picture that is drawn: ovate, ivy, palmate, needles, branch, blossom. Polygons that "
+                        "are not given are then cards that fit it, 1 long. A file has its own colours, a "
+                        "drawing those of `colour`."})
+      .section("varies", &Element::varies, variationKeys(),
+               {.meaning = "How far their colours differ: 0 not at all, 1 as leaves do."})
       .shared();
 }
 

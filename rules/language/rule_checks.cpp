@@ -79,7 +79,7 @@ std::string wrongWith(const Polygon& polygon) {
   return "";
 }
 
-void checkElements(const RuleSet& rules, const Check::Given&, const Check::Complain& complain) {
+void checkElements(const RuleSet& rules, const Check::Given& given, const Check::Complain& complain) {
   for (std::size_t i = 0; i < rules.elements.size(); ++i) {
     const auto& element = rules.elements[i];
     const auto path = fmt::format("elements[{}]", i);
@@ -96,8 +96,11 @@ void checkElements(const RuleSet& rules, const Check::Given&, const Check::Compl
           "size is a length, and the corners of the polygons are lengths too; expected a factor here, or "
           "corners as plain numbers, multiples of the size");
     }
-    if (element.polygons.empty())
-      complain(path + ".polygons", "an element without polygons; expected at least one");
+    if (element.polygons.empty() && element.texture.empty())
+      complain(path, "an element without polygons; expected at least one, or a texture");
+    if (element.phyllotaxis && given(path + ".per_segment"))
+      complain(path + ".per_segment",
+               "per_segment beside phyllotaxis, whose spacing says how many there are; expected one of them");
     for (std::size_t p = 0; p < element.polygons.size(); ++p) {
       const auto wrong = wrongWith(element.polygons[p]);
       if (!wrong.empty()) complain(fmt::format("{}.polygons[{}]", path, p), wrong);

@@ -11,6 +11,7 @@
 #include "rules/language/envelope_spec.h"
 #include "rules/language/value.h"
 #include "sim/base/vec.h"
+#include "sim/grow/plant.h"
 #include "sim/grow/stem_girth.h"
 
 /// Rule sets as plain values: what a rule file says. rules/language/registry.h describes every key (type,
@@ -124,6 +125,14 @@ struct Light {
   double boost = 1.0;  ///< growth rate, leaf count and leaf size at full exposure over those at the minimum
 };
 
+/// How elements follow each other along a limb.
+struct Phyllotaxis {
+  double angle_deg = 137.5;  ///< about the stem, from one place to the next
+  Distance spacing{0.5};     ///< from one place to the next
+  int whorl = 1;             ///< elements at one place, evenly about the stem
+  Value pitch_deg = 50.0;    ///< between an element and the way that its stem goes
+};
+
 struct Element {
   std::string name = "leaf";
   int trials = 30;
@@ -134,6 +143,12 @@ struct Element {
   sim::Colour colour{0.13f, 0.30f, 0.05f};       ///< linear RGB
   std::vector<std::vector<sim::Vec3>> polygons;  ///< corners (see sim::ElementShape)
   bool polygons_metres = false;                  ///< they are in metres; else in voxel widths, or in sizes
+  std::optional<Phyllotaxis> phyllotaxis;        ///< without it they stand where chance puts them
+  Length petiole{0.0};                           ///< from the stem to where the polygons' origin is
+  /// What is painted on the polygons, as it is written: a kind that the program draws, or a file.
+  std::string texture;
+  std::shared_ptr<const sim::Picture> picture;  ///< of a file; who reads it puts it here
+  sim::ColourVariation varies;
 };
 
 /// What a plant's stems are like: see sim::StemGirth.

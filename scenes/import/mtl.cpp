@@ -6,13 +6,10 @@
 
 #include "scenes/clean_text.h"
 #include "scenes/import/obj_statements.h"
+#include "sim/base/srgb.h"
 
 namespace espalier::scenes {
 namespace {
-
-float linearFromSrgb(float v) {
-  return v <= 0.04045f ? v / 12.92f : std::pow((v + 0.055f) / 1.055f, 2.4f);
-}
 
 /// Red, green and blue, or one number for all.
 std::optional<sim::Colour> colourOf(ObjStatements& statement) {
@@ -30,7 +27,7 @@ std::optional<sim::Colour> colourOf(ObjStatements& statement) {
 }  // namespace
 
 sim::Material unknownMaterial(const std::string& name) {
-  return {name, sim::Colour(linearFromSrgb(0.6f))};
+  return {name, sim::Colour(sim::linearFromSrgb(0.6f))};
 }
 
 int readMtl(std::string_view mtl, MtlMaterials& materials) {
@@ -46,7 +43,8 @@ int readMtl(std::string_view mtl, MtlMaterials& materials) {
         if (wrong_line == 0) wrong_line = statement.line();
         continue;
       }
-      for (int c = 0; c < 3; ++c) material->colour[c] = linearFromSrgb(std::clamp((*colour)[c], 0.0f, 1.0f));
+      for (int c = 0; c < 3; ++c)
+        material->colour[c] = sim::linearFromSrgb(std::clamp((*colour)[c], 0.0f, 1.0f));
     }
   }
   return wrong_line;

@@ -122,7 +122,7 @@ Scene sceneOf(const Document& document, const fs::path& path, Problems& problems
   scene.read_files.push_back({cleanText(path.filename().string()), "scene", document.hash});
   scene.read_paths.push_back(path);
   for (const auto& read : loader.readFiles()) {
-    scene.read_files.push_back({toldFrom(path, read.path, read.from_root), "rules", read.hash});
+    scene.read_files.push_back({toldFrom(path, read.path, read.from_root), read.kind, read.hash});
     scene.read_paths.push_back(read.path);
   }
   for (const SceneMesh& mesh : scene.meshes) scene.read_paths.push_back(mesh.file);

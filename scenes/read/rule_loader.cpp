@@ -6,9 +6,12 @@
 #include <set>
 #include <system_error>
 
+#include "render/model/drawn_leaf.h"
 #include "rules/language/registry.h"
+#include "scenes/import/picture_reader.h"
 #include "scenes/read/document.h"
 #include "scenes/read/read_table.h"
+#include "sim/base/error.h"
 
 namespace espalier::scenes {
 namespace {
@@ -116,6 +119,7 @@ RulesPointer RuleLoader::build(const Layers& layers, RuleSet rules) {
     }
   };
   for (const auto* layer : layers) readTable(*layer, rules::ruleTable(), &rules, "", reading);
+  addPictures(layers, rules);
   runChecks(rules::ruleChecks(), &rules, layers, reading);
   if (const auto* otherwise = lastGiven(layers, "otherwise")) {
     // A rule set in place changes this one as far as it has been read: without regions and without an
@@ -131,6 +135,46 @@ RulesPointer RuleLoader::build(const Layers& layers, RuleSet rules) {
     rules.twigs = within(*twigs, "twigs", rules.branches ? *rules.branches : trunk);
   rules::finish(rules);
   return std::make_shared<const RuleSet>(std::move(rules));
+}
+
+void RuleLoader::addPictures(const Layers& layers, RuleSet& rules) {
+  const auto* elements = lastGiven(layers, "elements");
+  if (!elements || elements->items.size() != rules.elements.size()) return;
+  for (std::size_t i = 0; i < rules.elements.size(); ++i) {
+    const auto* texture = elements->items[i].entry("texture");
+    if (texture && !rules.elements[i].texture.empty())
+      paint(rules.elements[i], texture->value, elements->items[i].entry("colour") != nullptr);
+  }
+}
+
+void RuleLoader::paint(rules::Element& element, const YamlNode& texture, bool has_colour) {
+  const std::vector<std::string>& drawn = render::drawnKinds();
+  if (std::find(drawn.begin(), drawn.end(), element.texture) != drawn.end()) {
+    if (element.polygons.empty()) element.polygons = render::cardsOf(element.texture);
+    return;
+  }
+  if (element.texture.find_first_of("./") == std::string::npos) {
+    problems_.add(texture.place,
+                  fmt::format("texture is {}; expected the path of a PNG file, or one of {}{}",
+                              described(texture), listed(drawn), didYouMean(element.texture, drawn)));
+    return;
+  }
+  const fs::path path = beside(texture, element.texture);
+  const auto [known, added] = pictures_.try_emplace(canonicalOf(path));
+  if (added) {
+    sim::InputFile read;
+    try {
+      known->second = readPicture(path, read);
+      read_files_.push_back({path, fs::path(element.texture).is_absolute(), read.hash, read.kind});
+    } catch (const sim::InputError& error) {
+      problems_.add(texture.place, error.what());
+    }
+  }
+  element.picture = known->second;
+  if (!element.picture) return;
+  if (!has_colour) element.colour = meanColour(*element.picture);
+  if (element.polygons.empty())
+    element.polygons = render::cardsOf(element.picture->width, element.picture->height);
 }
 
 void RuleLoader::addRegions(const Layers& layers, RuleSet& rules) {

@@ -33,8 +33,9 @@ class RuleLoader {
   const std::vector<RegionMention>& mentions() const { return mentions_; }
   struct ReadFile {
     std::filesystem::path path;
-    bool from_root = false;  ///< its path, or one on the way to it, is written from the machine's root
-    std::uint64_t hash = 0;  ///< of its bytes
+    bool from_root = false;      ///< its path, or one on the way to it, is written from the machine's root
+    std::uint64_t hash = 0;      ///< of its bytes
+    std::string kind = "rules";  ///< or picture
   };
   /// Every file that could be read so far, in the order of reading.
   const std::vector<ReadFile>& readFiles() const { return read_files_; }
@@ -55,6 +56,9 @@ class RuleLoader {
   const File& take(const std::filesystem::path& path, const Document& document, bool from_root);
   std::shared_ptr<const rules::RuleSet> inPlace(const YamlNode& map, const rules::RuleSet& enclosing);
   std::shared_ptr<const rules::RuleSet> build(const Layers& layers, rules::RuleSet rules);
+  /// Finds what elements are painted with, and gives those without polygons cards that fit it.
+  void addPictures(const Layers& layers, rules::RuleSet& rules);
+  void paint(rules::Element& element, const YamlNode& texture, bool has_colour);
   void addRegions(const Layers& layers, rules::RuleSet& rules);
   /// A reference within a rule set, to one that holds in a region or stands by.
   std::shared_ptr<const rules::RuleSet> within(const YamlNode& node, const std::string& path,
@@ -70,6 +74,7 @@ class RuleLoader {
   std::vector<std::pair<std::string, std::string>> open_;  ///< files being read: canonical and shown paths
   std::vector<RegionMention> mentions_;
   std::vector<ReadFile> read_files_;
+  std::map<std::string, std::shared_ptr<const sim::Picture>> pictures_;  ///< by canonical path; null: no good
   Problems warnings_;
   std::set<std::tuple<const std::string*, int, int>>
       mentioned_;  ///< places: a base is read for each that has it

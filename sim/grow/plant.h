@@ -2,10 +2,12 @@
 #include <cstdint>
 #include <functional>
 #include <map>
+#include <memory>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "sim/base/picture.h"
 #include "sim/base/vec.h"
 #include "sim/grow/stem_girth.h"
 #include "sim/sense/intersection.h"
@@ -35,12 +37,24 @@ inline const std::vector<float>* find(const Skeleton& skeleton, std::string_view
   return at == skeleton.columns.end() ? nullptr : &at->second;
 }
 
+/// How far the colours of a shape's elements differ, each 0 (not at all) or more; 1 as leaves mostly do.
+struct ColourVariation {
+  float by_chance = 1.0f;  ///< each its own shade and hue
+  float by_age = 1.0f;     ///< what is young is lighter
+  float by_light = 1.0f;   ///< what grew in the light is warmer and brighter
+};
+
 /// A shape that is placed on a plant: a leaf, a flower. Local frame: the element is attached at the origin,
 /// grows along +y, and shows its face to +z.
 struct ElementShape {
   std::string name;
   std::vector<std::vector<Vec3>> polygons;  ///< corners in order; unit: voxel widths at scale 1
   Colour colour{0.15f, 0.35f, 0.08f};       ///< linear RGB
+  ColourVariation varies = {};
+  /// What is painted on its polygons: a kind of leaf, or a picture that was read, across their extent in x
+  /// and y. Without either they have the colour alone. Growth does not look at it.
+  std::string drawn = {};
+  std::shared_ptr<const Picture> picture = nullptr;
 };
 
 struct PlacedElement {

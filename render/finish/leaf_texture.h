@@ -1,0 +1,32 @@
+#pragma once
+#include <vector>
+
+#include <glm/vec2.hpp>
+
+#include "render/image/image.h"
+#include "render/model/leaf_picture.h"
+#include "sim/base/vec.h"
+
+namespace espalier::render {
+
+/// A leaf's picture made ready to be looked at from near and far. UVs as in LeafPicture; beyond 0..1 its rim
+/// goes on. Several threads may ask.
+class LeafTexture {
+ public:
+  explicit LeafTexture(const LeafPicture& picture);
+
+  /// Whether there is anything of the blade at a place.
+  bool covers(glm::vec2 uv) const;
+  /// Linear colour where a pixel spans that much of the picture's height.
+  sim::Colour colour(glm::vec2 uv, float span) const;
+
+ private:
+  struct Level {
+    int width = 0, height = 0;
+    std::vector<sim::Colour> colours;  // linear, of what covers alone
+  };
+  std::vector<Level> levels_;  // each half as large as the one before
+  std::vector<float> alpha_;   // of the first
+};
+
+}  // namespace espalier::render

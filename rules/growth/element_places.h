@@ -1,0 +1,55 @@
+#pragma once
+#include <vector>
+
+#include "rules/growth/senses.h"
+#include "rules/language/rule_set.h"
+#include "sim/grow/plant.h"
+
+namespace espalier::rules {
+
+/// The most elements of one shape on one segment.
+inline constexpr int kMostOnASegment = 1000;
+
+/// A place for an element on a segment.
+struct ElementPlace {
+  double along = 0.0;     ///< 0 where the segment begins .. 1 where it ends
+  double turn_deg = 0.0;  ///< about the stem, by phyllotaxis
+  bool in_order = false;  ///< it is phyllotaxis that says where; else chance does, trial by trial
+};
+
+/// How far a node is from its plant's seed along its limbs, and a unit vector across the stem that is carried
+/// from the seed to the node without turning about it.
+struct LimbPath {
+  double length_vx = 0.0;
+  sim::Vec3 across{1, 0, 0};
+};
+/// `heading`: of the segment that leaves the node; `across` is square to it.
+LimbPath limbPath(const sim::Skeleton& skeleton, sim::NodeId node, sim::Vec3 heading);
+
+/// Places by phyllotaxis on a segment of that length that begins so far along its limb: in their order, at
+/// most kMostOnASegment.
+std::vector<ElementPlace> placesInOrder(const Phyllotaxis& phyllotaxis, double begins_vx, double length_vx);
+
+/// Random numbers of an element's trial, by their slots (sim::Slots).
+enum ElementSlot : unsigned {
+  kAlong,
+  kSize,
+  kFace,
+  kChanceTurn,
+  kChanceHeight,
+  kOutTurn,
+  kOutHeight,
+  kPitch,
+  kPetiole,
+  kSway,
+  kTilt
+};
+
+/// Which way an element's trial stands on its segment; the axes of `element` are set, and its position moved
+/// out by the petiole. `stem`: unit, the segment's way; `across`: of limbPath. By phyllotaxis it leaves the
+/// stem by the pitch, swaying the more the later the trial; else it points outwards and a little down, as its
+/// own weight and its stalk make it. Its face turns towards the open and the light, as a leaf's blade does.
+void stand(sim::PlacedElement& element, const Element& rule, const ElementPlace& place, sim::Vec3 stem,
+           sim::Vec3 across, const Surroundings& around, const Senses& senses, int trial, sim::Slots& slots);
+
+}  // namespace espalier::rules

@@ -1,0 +1,104 @@
+#include "scenes/import/picture_reader.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <fstream>
+#include <iterator>
+#include <stdexcept>
+
+#include "render/image/oiio.h"
+#include "render/model/leaf_picture.h"
+#include "scenes/clean_text.h"
+#include "scenes/import/guarded_file.h"
+#include "scenes/import/wire.h"
+#include "sim/base/error.h"
+#include "sim/base/hasher.h"
+#include "sim/base/srgb.h"
+
+namespace espalier::scenes {
+namespace {
+
+constexpr std::uintmax_t kMostPngBytes = std::uintmax_t{64} << 20;
+
+bool opaque(const std::array<std::uint8_t, 4>& texel) {
+  return static_cast<float>(texel[3]) >= render::kCutout * 255.0f;
+}
+
+/// The work of the child.
+std::string packedPicture(const std::filesystem::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  std::string bytes{std::istreambuf_iterator<char>(in), {}};
+  if (!in) throw sim::InputError("cannot be read");
+  const render::Texels decoded = render::oiio().read_png(bytes, kMostPicturePixels, kMostPictureSide);
+  Packer out;
+  out.put(sim::hashOf(bytes));
+  out.put(decoded.width);
+  out.put(decoded.height);
+  out.putArray(decoded.rgba.data(), decoded.rgba.size());
+  out.putText(bytes);
+  return out.take();
+}
+
+void requirePicture(bool sound) {
+  if (!sound) throw std::runtime_error("a picture that makes no sense");
+}
+
+}  // namespace
+
+sim::Picture pictureFromChild(std::string_view bytes, sim::InputFile& read) {
+  Unpacker in(bytes);
+  sim::Picture picture;
+  read.hash = in.get<std::uint64_t>();
+  picture.width = in.get<std::int32_t>();
+  picture.height = in.get<std::int32_t>();
+  picture.texels = in.getArray<std::array<std::uint8_t, 4>>();
+  picture.png = in.getText();
+  in.requireEnd();
+  requirePicture(picture.width > 0 && picture.width <= kMostPictureSide && picture.height > 0 &&
+                 picture.height <= kMostPictureSide);
+  requirePicture(picture.texels.size() ==
+                 static_cast<std::size_t>(picture.width) * static_cast<std::size_t>(picture.height));
+  return picture;
+}
+
+std::shared_ptr<const sim::Picture> readPicture(const std::filesystem::path& file, sim::InputFile& read) {
+  try {
+    const std::uintmax_t size = sizeOfFile(file, "picture");
+    if (size > kMostPngBytes)
+      throw sim::InputError(
+          fmt::format("it has {} MB; a picture may have at most {} MB", size >> 20, kMostPngBytes >> 20));
+    render::makeReadyToDraw();  // the child would load it for itself, and say less of why it cannot
+    const std::string bytes = readInChild([&] { return packedPicture(file); }, limitsFor(size), "picture");
+    const std::string name = cleanText(file.filename().string());
+    read = {name, "picture", 0};
+    auto picture = std::make_shared<sim::Picture>();
+    try {
+      *picture = pictureFromChild(bytes, read);
+    } catch (const std::runtime_error& error) {
+      throw sim::InputError(
+          fmt::format("the file is damaged: it confused the picture reader ({})", error.what()));
+    }
+    if (std::none_of(picture->texels.begin(), picture->texels.end(), opaque))
+      throw sim::InputError(
+          "nothing of it is opaque: its alpha is below a half everywhere; expected a picture of "
+          "something");
+    picture->name = name;
+    return picture;
+  } catch (const sim::InputError& error) {
+    throw sim::InputError(fmt::format("{}: {}", file.string(), error.what()));
+  }
+}
+
+sim::Colour meanColour(const sim::Picture& picture) {
+  sim::Vec3 sum(0.0);
+  double count = 0.0;
+  for (const auto& texel : picture.texels) {
+    if (!opaque(texel)) continue;
+    sum += sim::Vec3(sim::linearFromSrgb(sim::Colour(texel[0], texel[1], texel[2]) / 255.0f));
+    count += 1.0;
+  }
+  return count > 0.0 ? sim::Colour(sum / count) : sim::Colour(0.5f);
+}
+
+}  // namespace espalier::scenes

@@ -1,0 +1,25 @@
+#pragma once
+#include <filesystem>
+#include <memory>
+#include <string_view>
+
+#include "sim/base/picture.h"
+#include "sim/base/provenance.h"
+
+namespace espalier::scenes {
+
+/// The most pixels of a picture for leaves, and of one of its sides.
+inline constexpr int kMostPicturePixels = 1 << 24, kMostPictureSide = 8192;
+
+/// Reads a PNG file, in a child process as meshes are (scenes/import/guarded_file.h). One without alpha is
+/// opaque. Throws sim::InputError that begins with the file's path: missing, no regular file, above 64 MB, no
+/// PNG, damaged or cut, of more pixels than above (asked before any is read), or wholly transparent.
+std::shared_ptr<const sim::Picture> readPicture(const std::filesystem::path& file, sim::InputFile& read);
+
+/// What the reading child sent, unpacked and checked; the bytes are not trusted. Throws std::runtime_error.
+sim::Picture pictureFromChild(std::string_view bytes, sim::InputFile& read);
+
+/// The mean colour of what is not cut away, linear RGB.
+sim::Colour meanColour(const sim::Picture& picture);
+
+}  // namespace espalier::scenes

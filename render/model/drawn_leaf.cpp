@@ -89,7 +89,7 @@ void drawLobes(LeafCanvas& leaf, const Paint& paint, vec2 from, const std::vecto
         [&](float t) { return lobe.half_width * profile(t); }, near, far);
     for (int i = 0; i < teeth; ++i) {
       const float t = 0.42f + 0.40f * static_cast<float>(i) / static_cast<float>(std::max(teeth - 1, 1));
-      const float size = lobe.length * (0.30f - 0.22f * (t - 0.42f));
+      const float size = lobe.length * (0.25f - 0.28f * (t - 0.42f));
       for (const float side : {-1.0f, 1.0f}) {
         const vec2 base = from + t * lobe.length * way;
         const vec2 tip = base + size * wayAt(lobe.degrees + 42.0f * side);
@@ -209,23 +209,23 @@ void drawBlossom(LeafCanvas& leaf, const Paint& paint) {
 }
 
 void drawIvy(LeafCanvas& leaf, const Paint& paint) {
-  drawLobes(leaf, paint, {0.0f, 0.17f},
-            {{-104.0f, 0.36f, 0.15f},
-             {104.0f, 0.36f, 0.15f},
-             {-53.0f, 0.60f, 0.185f},
-             {53.0f, 0.60f, 0.185f},
-             {0.0f, 0.82f, 0.225f}},
+  drawLobes(leaf, paint, {0.0f, 0.21f},
+            {{-102.0f, 0.36f, 0.15f},
+             {102.0f, 0.36f, 0.15f},
+             {-53.0f, 0.58f, 0.185f},
+             {53.0f, 0.58f, 0.185f},
+             {0.0f, 0.78f, 0.225f}},
             0.38f, 0.85f, 0);
 }
 
 void drawPalmate(LeafCanvas& leaf, const Paint& paint) {
   drawLobes(leaf, paint, {0.0f, 0.17f},
-            {{-92.0f, 0.40f, 0.075f},
-             {92.0f, 0.40f, 0.075f},
-             {-46.0f, 0.66f, 0.105f},
-             {46.0f, 0.66f, 0.105f},
-             {0.0f, 0.82f, 0.115f}},
-            0.45f, 0.75f, 2);
+            {{-94.0f, 0.38f, 0.085f},
+             {94.0f, 0.38f, 0.085f},
+             {-46.0f, 0.66f, 0.125f},
+             {46.0f, 0.66f, 0.125f},
+             {0.0f, 0.82f, 0.140f}},
+            0.50f, 0.80f, 3);
 }
 
 /// A kind: how wide for its height, how it is drawn, and what polygons hold it.

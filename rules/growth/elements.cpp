@@ -126,15 +126,16 @@ std::vector<sim::ProposedElement> proposeElements(const sim::SiteView& view, con
         stand(element, rule, places[i], stem, path.across, around, senses, trial, slots);
         // The cheap questions first. The world is frozen: the element's own segment does not stand there yet.
         if (!sim::place(element, facet_shape, facets) || !sim::inside(view.world.frame().size, facets) ||
-            nearby.clash(facets, {sim::latticePoint(element.position_vx)}))
+            (!rule.crosses && nearby.clash(facets, {sim::latticePoint(element.position_vx)})))
           continue;
         tiled.clear();
         sim::tileTriangles(facets.corners, facet_shape.triangles, tiled);
         if (!clearOfScene(view.world, own, tiled)) continue;
-        nearby.add(facets);
+        if (!rule.crosses) nearby.add(facets);
         const double share = area * element.scale * element.scale /
                              static_cast<double>(std::max<std::size_t>(1, tiled.size()));
-        placed.push_back({element, tiled, sim::Passage::around, static_cast<float>(std::min(1.0, share))});
+        placed.push_back({element, tiled, rule.crosses ? sim::Passage::through : sim::Passage::around,
+                          static_cast<float>(std::min(1.0, share))});
         break;
       }
     }

@@ -11,7 +11,8 @@ namespace espalier::rules {
 /// and leaves the site's node: one at each place that phyllotaxis names, or an expected number that grows
 /// with the light, as their size does (Greene's boost). Each is tried up to Element::trials times, in other
 /// attitudes and by chance elsewhere, until one lies in no voxel of the scene that its segment does not pass,
-/// crosses no other element and is pierced by no limb but its own (exactly: sim/sense/piece_grid.h).
+/// crosses no other element and is pierced by no limb but its own (exactly: sim/sense/piece_grid.h), which
+/// two things nobody asks of one that `crosses`.
 /// `first_shape` is the plant's number of the rule set's first element.
 std::vector<sim::ProposedElement> proposeElements(const sim::SiteView& view, const sim::Site& site,
                                                   const RuleSet& rules, const Surroundings& around,

@@ -340,6 +340,9 @@ std::shared_ptr<const Table> elementKeys() {
           {.unit = kVoxels,
            .limits = {0.0, 1000.0},
            .meaning = "A stalk, from the stem to [0, 0, 0] of the polygons."})
+      .flag("crosses", &Element::crosses,
+            {.meaning = "It may cross elements and limbs, as sprays do that are mostly holes; it still stays "
+                        "out of the scene."})
       .section("phyllotaxis", &Element::phyllotaxis, phyllotaxisKeys(),
                {.meaning = "They stand along their limb in an order, in place of per_segment by chance."})
       .file("texture", &Element::texture,

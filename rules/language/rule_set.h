@@ -143,6 +143,7 @@ struct Element {
   sim::Colour colour{0.13f, 0.30f, 0.05f};       ///< linear RGB
   std::vector<std::vector<sim::Vec3>> polygons;  ///< corners (see sim::ElementShape)
   bool polygons_metres = false;                  ///< they are in metres; else in voxel widths, or in sizes
+  bool crosses = false;                          ///< others and limbs may pass through it
   std::optional<Phyllotaxis> phyllotaxis;        ///< without it they stand where chance puts them
   Length petiole{0.0};                           ///< from the stem to where the polygons' origin is
   /// What is painted on the polygons, as it is written: a kind that the program draws, or a file.

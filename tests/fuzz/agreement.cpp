@@ -122,6 +122,15 @@ void agreeOnFields(Drawn& fields, const std::vector<std::string>& meshes, tests:
 
 }  // namespace
 
+void agreeOnElement(Drawn& element, tests::Numbers& numbers) {
+  if (numbers.chance(1.0 - kMostly) && numbers.chance(0.2)) return;
+  if (find(element, "phyllotaxis") != nullptr) takeOut(element, {"per_segment"});
+  if (find(element, "polygons") != nullptr || find(element, "texture") != nullptr) return;
+  Drawn texture;
+  texture.text = "ovate";
+  element.entries.push_back({"texture", std::move(texture)});
+}
+
 void agreeOnCrown(Drawn& crown, const std::string& radius, tests::Numbers& numbers) {
   const std::set<std::string> no_solids{"trunk", "count", "spread", "density"};
   std::vector<std::string> solids;

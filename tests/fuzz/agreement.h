@@ -12,4 +12,7 @@ void makeAgree(Drawn& scene, tests::Numbers& numbers);
 /// Leaves a crown one solid of those that were drawn, or makes it a sphere.
 void agreeOnCrown(Drawn& crown, const std::string& radius, tests::Numbers& numbers);
 
+/// Gives an element something to be, and one way to say how many there are.
+void agreeOnElement(Drawn& element, tests::Numbers& numbers);
+
 }  // namespace espalier::fuzz

@@ -5,6 +5,7 @@
 #include <array>
 #include <fstream>
 
+#include "render/model/drawn_leaf.h"
 #include "tests/fuzz/random_files.h"
 
 /// What drawn scenes read beside their rules: meshes, points and volumes.
@@ -45,6 +46,14 @@ std::string RandomFiles::writeMesh() {
   std::ofstream(folder_ / "paint.mtl") << "newmtl stone\nKd 0.5 0.5 0.5\nnewmtl brick\nKd 0.6 0.2 0.1\n";
   const std::string name = fmt::format("mesh_{}.obj", numbers_.whole(1, 9));
   std::ofstream(folder_ / name) << text;
+  return name;
+}
+
+/// A leaf for elements.
+std::string RandomFiles::writePicture() {
+  const std::string name = fmt::format("leaf_{}.png", numbers_.whole(1, 3));
+  std::ofstream(folder_ / name, std::ios::binary)
+      << render::drawnLeaf(numbers_.pick(render::drawnKinds()), sim::Colour(0.4f, 0.3f, 0.1f))->png;
   return name;
 }
 

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <fstream>
 
+#include "render/model/drawn_leaf.h"
 #include "rules/language/registry.h"
 #include "scenes/read/read_scene.h"
 #include "scenes/read/registry.h"
@@ -37,6 +38,9 @@ const std::map<std::string, rules::Limits> kUsual = {
     {"elements[].trials", {1.0, 12.0}},
     {"elements[].per_segment", {0.0, 3.0}},
     {"elements[].size", {0.05, 2.0}},
+    {"elements[].petiole", {0.0, 3.0}},
+    {"elements[].phyllotaxis.spacing", {0.3, 5.0}},
+    {"elements[].phyllotaxis.whorl", {1.0, 3.0}},
     {"world.layers", {0.0, 6.0}},
     {"sky.accuracy", {0.01, 0.5}},
     {"sky.directions", {1.0, 300.0}},
@@ -210,6 +214,8 @@ void RandomFiles::knowSpecials() {
     if (crowned) agreeOnCrown(drawn, fmt::format("{}", 0.5 * side()), numbers_);
     return crowned;
   };
+  rule("elements[].texture",
+       [=, this] { return numbers_.chance(0.3) ? writePicture() : numbers_.pick(render::drawnKinds()); });
   rule("colonization.fields", [=] { return std::string(colonizes ? "[main]" : "[main, other]"); });
   specials_["rules:espalier"] = [this](Drawn& drawn) {
     drawn.text = numbers_.chance(0.5) ? "rules" : "rules/1";
@@ -263,8 +269,9 @@ bool RandomFiles::value(const rules::Key& key, const std::string& path, Drawn& d
       for (int i = 0, count = numbers_.whole(1, most); i < count; ++i) {
         const std::string name = key.kind == Kind::named ? kNames[static_cast<std::size_t>(i)] : "";
         Drawn entry;
-        if (one(path + (key.kind == Kind::named ? ".<name>." : "[]."), entry))
-          drawn.entries.push_back({name, std::move(entry)});
+        if (!one(path + (key.kind == Kind::named ? ".<name>." : "[]."), entry)) continue;
+        if (path == "rules:elements") agreeOnElement(entry, numbers_);
+        drawn.entries.push_back({name, std::move(entry)});
       }
       return true;
     }

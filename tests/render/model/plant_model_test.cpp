@@ -66,7 +66,8 @@ TEST(PlantModel, IsLight) {
   const auto model = modelPlant(plant, tests::kVineFrame);
   const auto segments = static_cast<std::size_t>(plant.skeleton.size());
   EXPECT_LT(model.stems.triangles.size(), 45 * segments);
-  EXPECT_EQ(model.elements[0].triangles.size(), (6 + 10) * plant.elements.size());  // blade and stalk
+  EXPECT_EQ(model.elements[0].triangles.size(), 6 * plant.elements.size());
+  EXPECT_EQ(model.stalks.triangles.size(), 10 * plant.elements.size());
 }
 
 TEST(PlantModel, ExposureComesFromTheNodes) {
@@ -174,12 +175,13 @@ TEST(Leaves, StalksReachFromTheStemToTheBlade) {
   element.z = {0, -1, 0};
   element.scale = 4.0;
   plant.elements = {element};
-  const auto with_stalk = modelPlant(plant, kUnit).elements[0];
+  const auto with_stalk = modelPlant(plant, kUnit).stalks;
   const Vec3 base = sim::placed(element, render::bladeBase(plant.shapes[0]));
   EXPECT_LT(distanceTo(with_stalk, {5, 3, 5}), 0.1);
   EXPECT_LT(distanceTo(with_stalk, base), 1e-5);
   plant.shapes[0].polygons = {{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}}};  // begins on the stem
   EXPECT_EQ(modelPlant(plant, kUnit).elements[0].triangles.size(), 1u);
+  EXPECT_TRUE(modelPlant(plant, kUnit).stalks.empty());
 }
 
 TEST(Leaves, WhereThereIsNoStemThereIsNoStalk) {

@@ -21,6 +21,8 @@ using sim::Vec3;
 std::vector<sim::ProposedElement> elementsOf(const sim::World& world, const RuleSet& rules,
                                              double vigour = 1.0) {
   sim::Plant plant;
+  plant.skeleton.parent = {sim::kNoNode};
+  plant.skeleton.position_vx = {Vec3(10, 10, 10)};
   sim::PieceGrid pieces(world.frame().size);
   for (const Element& element : rules.elements) {
     plant.element_parts.push_back(static_cast<sim::PartId>(plant.element_parts.size() + 1));
@@ -40,7 +42,8 @@ std::vector<sim::ProposedElement> elementsOf(const sim::World& world, const Rule
   const Vec3 to(12, 10, 10);
   std::vector<sim::Voxel> segment;
   sim::tileSegment(around.at_vx, to, segment);
-  return proposeElements(view, rules, around, senses, to, segment, 0, {sim::streamOf(1, "vine", 2), 3, 0, 4});
+  return proposeElements(view, {0, 0, 0, around.at_vx}, rules, around, senses, to, segment, 0,
+                         {sim::streamOf(1, "vine", 2), 3, 0, 4});
 }
 
 sim::World emptyWorld(sim::Voxel size) {

@@ -54,7 +54,17 @@ const std::map<std::string, Datum>& otherValues() {
       {"elements[].size", Length{0.6}},
       {"elements[].face", Value(0.1)},
       {"elements[].polygons", Polygons{square()}},
+      {"elements[].petiole", Length{0.8}},
+      {"elements[].crosses", true},
+      {"elements[].phyllotaxis.angle", 60.0},
+      {"elements[].phyllotaxis.spacing", Distance{0.9}},
+      {"elements[].phyllotaxis.whorl", std::int64_t{2}},
+      {"elements[].phyllotaxis.pitch", Value(15.0)},
       // These change how the plant looks, and not how it grows.
+      {"elements[].texture", std::string("ovate")},
+      {"elements[].varies.chance", 0.2},
+      {"elements[].varies.age", 0.2},
+      {"elements[].varies.light", 0.2},
       {"elements[].name", std::string("thorn")},
       {"elements[].colour", sim::Colour(0.9f, 0.1f, 0.1f)},
   };
@@ -145,8 +155,8 @@ void forEachKey(const Table& table, const std::string& prefix,
 /// What came of a book: how it grew, and how it looks.
 struct Result {
   std::uint64_t state = 0;
-  std::vector<std::string> shapes;
-  std::vector<float> colours;  // of the shapes, and of each voxel
+  std::vector<std::string> shapes;  // their names, and what is painted on them
+  std::vector<float> colours;       // of the shapes and how they vary, and of each voxel
   int segments = 0;
   std::size_t elements = 0;
 };
@@ -161,8 +171,9 @@ Result resultOf(const RuleSet& book, int iterations = 7) {
   };
   for (const auto& plant : growth.plants) {
     for (const auto& shape : plant.shapes) {
-      result.shapes.push_back(shape.name);
+      result.shapes.insert(result.shapes.end(), {shape.name, shape.drawn});
       colour(shape.colour);
+      colour({shape.varies.by_chance, shape.varies.by_age, shape.varies.by_light});
     }
     result.segments += plant.skeleton.size() - 1;
     result.elements += plant.elements.size();
@@ -222,12 +233,14 @@ TEST_P(EveryKey, ChangesWhatGrows) {
     const auto other = otherValues().find(path);
     if (other == otherValues().end()) return;
     RuleSet changed = lively();
+    // Or that there is an order at all would be the difference.
+    if (path.starts_with("elements[].phyllotaxis.")) changed.elements.at(0).phyllotaxis.emplace();
     ASSERT_TRUE(set(changed, path, other->second)) << path;
     const Result result = resultOf(book(changed));
-    if (path == "elements[].name") {
+    if (path == "elements[].name" || path == "elements[].texture") {
       EXPECT_NE(result.shapes, plain.shapes);
       EXPECT_EQ(result.state, plain.state);
-    } else if (path == "elements[].colour") {
+    } else if (path == "elements[].colour" || path.starts_with("elements[].varies.")) {
       EXPECT_NE(result.colours, plain.colours);
       EXPECT_EQ(result.state, plain.state);
     } else {

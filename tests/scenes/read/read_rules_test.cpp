@@ -3,6 +3,10 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <array>
+
+#include "render/image/image_io.h"
+#include "render/model/drawn_leaf.h"
 #include "rules/language/colour.h"
 #include "tests/support/scratch.h"
 
@@ -126,6 +130,55 @@ TEST(ReadRules, ReadsSizesAndPolygonsWithAUnitOrWithout) {
   const auto drawn = element("1.5", "[0, 0, 0], [3 cm, 0, 0], [0, \"6 cm\", -5 mm]");
   EXPECT_TRUE(!drawn.size_metres && drawn.polygons_metres);
   EXPECT_EQ(drawn.polygons[0][2], sim::Vec3(0, 0.06, -0.005));
+}
+
+TEST(ReadRules, GivesElementsThatArePaintedCardsThatFit) {
+  const auto rules = goodRulesText(
+      "elements:\n"
+      "  - {name: a, texture: ovate}\n"
+      "  - {name: b, texture: ovate, polygons: [[[0, 0, 0], [1, 0, 0], [0, 1, 0]]]}\n");
+  EXPECT_EQ(rules->elements[0].polygons, render::cardsOf("ovate"));
+  EXPECT_EQ(rules->elements[1].polygons.size(), 1u);
+  EXPECT_EQ(rules->elements[0].picture, nullptr) << "it is drawn when it is looked at";
+}
+
+/// A picture of that size, orange where it is not clear.
+std::string orangePng(int width, int height) {
+  render::Image image(width, height, 4);
+  for (std::size_t i = 0; i < image.pixels.size(); ++i) {
+    constexpr std::array kOrange{1.0f, 0.6f, 0.0f};
+    image.pixels[i] = i % 4 < 3 ? kOrange.at(i % 4) : (i % 8 < 4 ? 1.0f : 0.0f);
+  }
+  return render::encodePng(image);
+}
+
+TEST(ReadRules, FindsAPictureBesideTheFileThatNamesIt) {
+  const Scratch scratch;
+  scratch.write("leaves/oak.png", orangePng(30, 60));
+  scratch.write("leaves/base.yaml",
+                "espalier: rules\nelements:\n  - {name: a, texture: oak.png}\n"
+                "  - {name: b, texture: ./oak.png, colour: \"#336699\"}\n");
+  const auto rules = goodRules(scratch.write("r.yaml", "espalier: rules\nbase: leaves/base.yaml\n"));
+  ASSERT_EQ(rules->elements.size(), 2u);
+  const auto& a = rules->elements[0];
+  ASSERT_NE(a.picture, nullptr);
+  EXPECT_EQ(a.picture, rules->elements[1].picture) << "read once";
+  EXPECT_EQ(a.picture->height, 60);
+  EXPECT_EQ(a.polygons, render::cardsOf(30, 60));
+  EXPECT_EQ(rules::hexFromLinear(a.colour), "#ff9900") << "what it looks like from afar";
+  EXPECT_EQ(rules::hexFromLinear(rules->elements[1].colour), "#336699");
+}
+
+TEST(ReadRules, TellsWhereAPictureIsAskedForThatIsNone) {
+  const Scratch scratch;
+  scratch.write("leaf.png", "no picture");
+  const auto problems =
+      readRules(scratch.write("r.yaml",
+                              "espalier: rules\nelements:\n  - {name: a, texture: leaf.png}\n"
+                              "  - {name: b, texture: leaf.png}\n"))
+          .problems();
+  const std::string shown = scratch.shown(problems);
+  EXPECT_EQ(shown, "r.yaml:3:23: leaf.png: it is no PNG; expected one\n");
 }
 
 TEST(ReadRules, TakesANumberForATwistsAmount) {

@@ -69,6 +69,15 @@ small $work/whorls/fields.png fields 1100
 grow scenes/library/whorls_volume.yaml
 small $work/whorls_volume/graph.png whorls_volume 1000
 
+for tree in simple_tree fir cypress pachira animal_tree figure_18; do grow scenes/library/$tree.yaml; done
+oiiotool $work/simple_tree/vines.png --resize 0x1120 $work/fir/vines.png $work/cypress/vines.png --mosaic:pad=8 3x1 -o $work/three_trees.png
+small $work/three_trees.png three_trees 1100
+small $work/pachira/vines.png pachira 560
+small $work/animal_tree/vines.png animal_tree 760
+small $work/figure_18/vines.png figure_18 1100
+grow docs/first/tree.yaml
+small $work/tree/vines.png first_tree 760
+
 grow scenes/library/figure_2.yaml
 small $work/figure_2/figure_2.png flat_walk 960
 grow scenes/library/figure_3.yaml
@@ -82,6 +91,7 @@ if [ -f $work/ruin/vines.png ]; then small $work/ruin/vines.png ruin 720; else e
 build/release/tests/figures $work
 small $work/lattice_sweep.png lattice_sweep 1040
 small $work/house.png house 1100
+small $work/leaves.png leaves 1100
 small $work/moss.png moss 960
 
 expose scenes/library/street.yaml

@@ -18,6 +18,8 @@ inline void text(render::Image& image, glm::vec2 at, const std::string& words, f
 render::Image house();
 /// Of docs/lattice-sweep.md.
 render::Image latticeSweep();
+/// Of docs/trees.md: the leaves that the program draws.
+render::Image leaves();
 /// Of docs/house.md: its example.
 render::Image moss();
 

@@ -21,6 +21,7 @@ int main(int argc, char** argv) {
     std::filesystem::create_directories(folder);
     sim::writeWhole(folder / "house.png", render::encodePng(figures::house()));
     sim::writeWhole(folder / "lattice_sweep.png", render::encodePng(figures::latticeSweep()));
+    sim::writeWhole(folder / "leaves.png", render::encodePng(figures::leaves()));
     sim::writeWhole(folder / "moss.png", render::encodePng(figures::moss()));
   } catch (const std::exception& error) {
     fmt::print(stderr, "figures: {}\n", error.what());

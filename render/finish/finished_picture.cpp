@@ -154,7 +154,8 @@ void Painter::meet(const SurfaceHit& hit, Vec3f direction, Fragment& f) const {
   if (glm::dot(smooth, smooth) > 1e-6f) {
     f.normal = glm::normalize(glm::dot(smooth, f.flat) < 0.0f ? -smooth : smooth);
   }
-  f.look = f.blade ? bladeLook(surface, hit, pixel_ * hit.distance_m) : barkLook(noise_, mesh, hit, f.p_m);
+  f.look = f.blade ? bladeLook(surface, hit, pixel_ * hit.distance_m)
+                   : barkLook(noise_, surface, hit, f.p_m, pixel_ * hit.distance_m);
 }
 
 Vec3f Painter::sunPoint(glm::vec2 disc) const {

@@ -16,12 +16,14 @@ struct Between {
   std::array<float, 4> weight;
 };
 
-Between between(glm::vec2 uv, int width, int height) {
-  const auto axis = [](float at, int size) {
-    const float place = std::clamp(at, 0.0f, 1.0f) * static_cast<float>(size) - 0.5f;
+Between between(glm::vec2 uv, int width, int height, bool tiles) {
+  const auto axis = [=](float at, int size) {
+    const float whole = tiles ? at - std::floor(at) : std::clamp(at, 0.0f, 1.0f);
+    const float place = whole * static_cast<float>(size) - 0.5f;
     const float low = std::floor(place);
     const auto index = [&](float i) {
-      return static_cast<std::size_t>(std::clamp(static_cast<int>(i), 0, size - 1));
+      const int texel = static_cast<int>(i);
+      return static_cast<std::size_t>(tiles ? (texel + size) % size : std::clamp(texel, 0, size - 1));
     };
     return std::tuple(index(low), index(low + 1.0f), place - low);
   };
@@ -34,7 +36,7 @@ Between between(glm::vec2 uv, int width, int height) {
 
 }  // namespace
 
-LeafTexture::LeafTexture(const LeafPicture& picture) {
+LeafTexture::LeafTexture(const LeafPicture& picture) : tiles_(picture.tiles) {
   std::array<float, 256> linear{};
   for (std::size_t i = 0; i < linear.size(); ++i)
     linear[i] = sim::linearFromSrgb(static_cast<float>(i) / 255.0f);
@@ -65,7 +67,7 @@ LeafTexture::LeafTexture(const LeafPicture& picture) {
 }
 
 bool LeafTexture::covers(glm::vec2 uv) const {
-  const Between b = between(uv, levels_.front().width, levels_.front().height);
+  const Between b = between(uv, levels_.front().width, levels_.front().height, tiles_);
   float alpha = 0.0f;
   for (std::size_t i = 0; i < 4; ++i) alpha += b.weight[i] * alpha_[b.texel[i]];
   return alpha >= kCutout;
@@ -76,7 +78,7 @@ sim::Colour LeafTexture::colour(glm::vec2 uv, float span) const {
   const int wanted = texels > 1.0f ? static_cast<int>(std::lround(std::log2(texels))) : 0;
   const Level& level =
       levels_[static_cast<std::size_t>(std::min(wanted, static_cast<int>(levels_.size()) - 1))];
-  const Between b = between(uv, level.width, level.height);
+  const Between b = between(uv, level.width, level.height, tiles_);
   sim::Colour colour(0.0f);
   for (std::size_t i = 0; i < 4; ++i) colour += b.weight[i] * level.colours[b.texel[i]];
   return colour;

@@ -9,8 +9,8 @@
 
 namespace espalier::render {
 
-/// A leaf's picture made ready to be looked at from near and far. UVs as in LeafPicture; beyond 0..1 its rim
-/// goes on. Several threads may ask.
+/// A picture made ready to be looked at from near and far. UVs as in LeafPicture; beyond 0..1 it tiles, or
+/// its rim goes on. Several threads may ask.
 class LeafTexture {
  public:
   explicit LeafTexture(const LeafPicture& picture);
@@ -25,6 +25,7 @@ class LeafTexture {
     int width = 0, height = 0;
     std::vector<sim::Colour> colours;  // linear, of what covers alone
   };
+  bool tiles_;
   std::vector<Level> levels_;  // each half as large as the one before
   std::vector<float> alpha_;   // of the first
 };

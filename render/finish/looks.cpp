@@ -1,7 +1,5 @@
 #include "render/finish/looks.h"
 
-#include <Random123/philox.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -11,13 +9,6 @@ namespace {
 
 using sim::Colour;
 using sim::Vec3f;
-
-constexpr int kSide = 32;
-constexpr std::uint32_t kNoiseKey = 0x5e5e;
-
-float unit(std::uint32_t bits) {
-  return static_cast<float>(bits >> 8) * 0x1p-24f;
-}
 
 template <class Data>
 auto atHit(const Data& data, const std::array<std::uint32_t, 3>& t, const SurfaceHit& hit) {
@@ -44,34 +35,6 @@ Colour throughBlade(Colour albedo) {
 
 }  // namespace
 
-Noise::Noise() : table_(static_cast<std::size_t>(kSide) * kSide * kSide) {
-  r123::Philox4x32 philox;
-  for (std::uint32_t i = 0; i < table_.size(); i += 4) {
-    const auto bits = philox({{i, 0, 0, 0}}, {{kNoiseKey, 0}});
-    for (std::uint32_t k = 0; k < 4; ++k) table_[i + k] = 2.0f * unit(bits[k]) - 1.0f;
-  }
-}
-
-float Noise::operator()(Vec3f p) const {
-  std::array<std::array<std::size_t, 2>, 3> corner;  // of the cell, wrapped
-  Vec3f f;
-  for (int axis = 0; axis < 3; ++axis) {
-    int low = static_cast<int>(p[axis]);
-    if (p[axis] < static_cast<float>(low)) --low;
-    const float t = p[axis] - static_cast<float>(low);
-    f[axis] = t * t * (3.0f - 2.0f * t);
-    for (int side = 0; side < 2; ++side) {
-      corner[static_cast<std::size_t>(axis)][static_cast<std::size_t>(side)] =
-          static_cast<std::size_t>((low + side) & (kSide - 1));
-    }
-  }
-  const auto row = [&](std::size_t y, std::size_t z) {
-    const float* const along = table_.data() + (corner[1][y] * kSide + corner[2][z]) * kSide;
-    return glm::mix(along[corner[0][0]], along[corner[0][1]], f.x);
-  };
-  return glm::mix(glm::mix(row(0, 0), row(0, 1), f.z), glm::mix(row(1, 0), row(1, 1), f.z), f.y);
-}
-
 Look stoneLook(const Noise& noise, Colour base, Vec3f p_m) {
   const float stain = noise(p_m * 2.3f) + 0.5f * noise(p_m * 7.1f);
   const float grain = noise(p_m * 61.0f);
@@ -85,13 +48,19 @@ Look groundLook(const Noise& noise, Colour base, Vec3f p_m) {
   return {glm::clamp(base * value, 0.0f, 1.0f), Colour(0.0f), 0.0f};
 }
 
-Look barkLook(const Noise& noise, const ModelMesh& mesh, const SurfaceHit& hit, Vec3f p_m) {
+Look barkLook(const Noise& noise, const Surface& stem, const SurfaceHit& hit, Vec3f p_m, float pixel_m) {
+  const ModelMesh& mesh = *stem.model;
   const auto& t = mesh.triangles[hit.triangle];
   const float youth = atHit(mesh.youths, t, hit);
   const Colour shoot(0.13f, 0.17f, 0.05f);
-  const Colour base = glm::mix(mesh.base_colour, shoot, 0.55f * youth * youth);
-  const float streak = noise(Vec3f(p_m.x * 180.0f, p_m.y * 40.0f, p_m.z * 180.0f));
-  return {base * (1.0f + 0.25f * streak), Colour(0.0f), 0.15f};
+  Colour bark = mesh.base_colour;
+  float streak = 1.0f;
+  if (stem.texture != nullptr) {
+    bark = stem.texture->colour(atHit(mesh.uvs, t, hit), pixel_m * picturePerMetre(mesh, t));
+  } else {
+    streak += 0.25f * noise(Vec3f(p_m.x * 180.0f, p_m.y * 40.0f, p_m.z * 180.0f));
+  }
+  return {glm::mix(bark, shoot, 0.55f * youth * youth) * streak, Colour(0.0f), 0.15f};
 }
 
 Look bladeLook(const Surface& blade, const SurfaceHit& hit, float pixel_m) {

@@ -1,7 +1,6 @@
 #pragma once
-#include <vector>
-
 #include "render/finish/ray_scene.h"
+#include "render/image/noise.h"
 #include "sim/base/vec.h"
 
 namespace espalier::render {
@@ -13,23 +12,13 @@ struct Look {
   float gloss = 0.0f;         ///< strength of the waxy sheen
 };
 
-/// Smooth keyed noise in space, -1..1, repeating every 32 units: a small table, so that a look-up costs
-/// little.
-class Noise {
- public:
-  Noise();
-  float operator()(sim::Vec3f p) const;
-
- private:
-  std::vector<float> table_;
-};
-
 /// Masonry: the material's colour, weathered a little.
 Look stoneLook(const Noise& noise, sim::Colour base, sim::Vec3f p_m);
 /// The ground that carries on, calm: grain and the faintest of stains.
 Look groundLook(const Noise& noise, sim::Colour base, sim::Vec3f p_m);
-/// Bark, greener towards young ends; p in metres.
-Look barkLook(const Noise& noise, const ModelMesh& mesh, const SurfaceHit& hit, sim::Vec3f p_m);
+/// Bark by its picture, else in its colour with a few streaks; greener towards young ends. p in metres.
+/// `pixel_m`: how much of it a pixel spans.
+Look barkLook(const Noise& noise, const Surface& stem, const SurfaceHit& hit, sim::Vec3f p_m, float pixel_m);
 /// Leaves by their pictures, and else in their colour with a pale midrib; each in its own tint. `pixel_m`:
 /// how much of it a pixel spans.
 Look bladeLook(const Surface& blade, const SurfaceHit& hit, float pixel_m);

@@ -82,7 +82,8 @@ RayScene::RayScene(const ModelScene& scene)
     for (const ModelMesh& element : plant->elements) add(element, SurfaceKind::blade);
   }
   for (const Surface& surface : *surfaces_) {
-    const Surface* const cut = surface.texture != nullptr ? &surface : nullptr;
+    const bool solid = surface.texture == nullptr || surface.model->picture->tiles;
+    const Surface* const cut = solid ? nullptr : &surface;
     if (surface.mesh != nullptr)
       device_->add(surface.mesh->vertices_m, surface.mesh->triangles, cut);
     else

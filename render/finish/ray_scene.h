@@ -33,7 +33,7 @@ struct Surface {
   SurfaceKind kind = SurfaceKind::scene;
   const sim::Mesh* mesh = nullptr;       ///< of a scene surface
   const ModelMesh* model = nullptr;      ///< of stems and blades
-  const LeafTexture* texture = nullptr;  ///< of blades that are cut out
+  const LeafTexture* texture = nullptr;  ///< of stems and blades with a picture
 };
 
 /// Of a triangle's three corners, each with its value, at barycentric weights of the second and third.

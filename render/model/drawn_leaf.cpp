@@ -228,9 +228,10 @@ void drawPalmate(LeafCanvas& leaf, const Paint& paint) {
             0.50f, 0.80f, 3);
 }
 
-/// A kind: how wide for its height, how it is drawn, and what polygons hold it.
+/// A kind: how wide for its height, which share of that is blade, how it is drawn, and what polygons hold it.
 struct Kind {
   float width;
+  double blade;
   void (*draw)(LeafCanvas&, const Paint&);
   Cards cards;
 };
@@ -260,15 +261,17 @@ Cards crossed(double width) {
 const std::map<std::string, Kind>& kinds() {
   static const std::map<std::string, Kind> all = {
       {"ovate",
-       {0.60f, drawOvate,
+       {0.60f, 0.597, drawOvate,
         folded({{0, 0}, {0.13f, 0.05f}, {0.30f, 0.28f}, {0.30f, 0.55f}, {0.14f, 0.86f}, {0, 1}}, 0.22)}},
       {"ivy",
-       {1.04f, drawIvy, folded({{0, 0}, {0.40f, 0.0f}, {0.52f, 0.50f}, {0.24f, 0.62f}, {0, 1}}, 0.16)}},
+       {1.04f, 0.456, drawIvy,
+        folded({{0, 0}, {0.40f, 0.0f}, {0.52f, 0.50f}, {0.24f, 0.62f}, {0, 1}}, 0.16)}},
       {"palmate",
-       {1.04f, drawPalmate, folded({{0, 0}, {0.44f, 0.0f}, {0.52f, 0.62f}, {0.20f, 0.80f}, {0, 1}}, 0.14)}},
-      {"needles", {0.46f, drawNeedles, crossed(0.46)}},
-      {"branch", {0.56f, drawBranch, crossed(0.56)}},
-      {"blossom", {1.0f, drawBlossom, folded({{0, 0}, {0.5f, 0.0f}, {0.5f, 1.0f}, {0, 1}}, -0.2)}},
+       {1.04f, 0.4, drawPalmate,
+        folded({{0, 0}, {0.44f, 0.0f}, {0.52f, 0.62f}, {0.20f, 0.80f}, {0, 1}}, 0.14)}},
+      {"needles", {0.46f, 0.436, drawNeedles, crossed(0.46)}},
+      {"branch", {0.56f, 0.496, drawBranch, crossed(0.56)}},
+      {"blossom", {1.0f, 0.644, drawBlossom, folded({{0, 0}, {0.5f, 0.0f}, {0.5f, 1.0f}, {0, 1}}, -0.2)}},
   };
   return all;
 }
@@ -300,6 +303,17 @@ std::shared_ptr<const LeafPicture> drawnLeaf(const std::string& kind, sim::Colou
     picture = std::make_shared<const LeafPicture>(canvas.picture(kind));
   }
   return picture;
+}
+
+double bladeShareOf(const std::string& kind) {
+  return kindOf(kind).blade;
+}
+
+double bladeShareOf(const LeafPicture& picture) {
+  const auto blade = std::count_if(picture.texels.begin(), picture.texels.end(), [](const auto& texel) {
+    return static_cast<float>(texel[3]) >= kCutout * 255.0f;
+  });
+  return static_cast<double>(blade) / static_cast<double>(std::max<std::size_t>(picture.texels.size(), 1));
 }
 
 Cards cardsOf(const std::string& kind) {

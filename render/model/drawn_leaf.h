@@ -17,6 +17,10 @@ const std::vector<std::string>& drawnKinds();
 /// for a kind that is none, and where OpenImageIO's module is missing.
 std::shared_ptr<const LeafPicture> drawnLeaf(const std::string& kind, sim::Colour colour);
 
+/// Which share of such a picture is blade.
+double bladeShareOf(const std::string& kind);
+double bladeShareOf(const LeafPicture& picture);
+
 using Cards = std::vector<std::vector<sim::Vec3>>;
 /// Polygons that hold such a picture, 1 long (see sim::ElementShape): near its outline, so that not much is
 /// cut away; blades folded a little along the middle, sprays as two cards that cross.

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include "render/model/drawn_bark.h"
 #include "render/model/drawn_leaf.h"
 #include "render/model/leaves.h"
 #include "render/model/limbs.h"
@@ -96,6 +97,7 @@ PlantModel modelPlant(const sim::Plant& plant, const sim::Frame& frame, const Mo
   model.name = plant.name;
   model.stems.name = plant.name + " stems";
   model.stems.base_colour = plant.stem_colour;
+  model.stems.picture = plant.bark.empty() ? plant.bark_picture : drawnBark(plant.stem_colour);
   sim::throwIfStopped();
 
   model.stalks.name = plant.name + " stalks";

@@ -86,6 +86,8 @@ sim::Plant seedlingOf(const RuleBook& book) {
   plant.shapes = book.shapes();
   plant.stem_colour = book.top().stem.colour;
   const Stem& stem = book.top().stem;
+  plant.bark = stem.picture ? "" : stem.texture;
+  plant.bark_picture = stem.picture;
   plant.girth = {stem.by, stem.radius.number, stem.exponent, stem.thickens.number, stem.thickest.number};
   plant.skeleton.columns["proximity_vx"];
   if (book.hasOrders()) plant.skeleton.columns["order"];

@@ -110,7 +110,7 @@ std::vector<sim::ProposedElement> proposeElements(const sim::SiteView& view, con
     const std::vector<ElementPlace> places =
         placesOn(view, site, rule, senses, to_vx - around.at_vx, static_cast<unsigned>(shape), key, path);
     double area = 0.0;
-    for (const auto& polygon : rule.polygons) area += areaOf(polygon);
+    for (const auto& polygon : rule.polygons) area += rule.opacity * areaOf(polygon);
     for (unsigned i = 0; i < places.size(); ++i) {
       for (int trial = 0; trial < rule.trials; ++trial) {
         sim::throwIfStopped();

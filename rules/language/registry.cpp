@@ -233,6 +233,10 @@ std::shared_ptr<const Table> stemKeys() {
   using By = sim::StemGirth::By;
   return TableOf<Stem>()
       .colour("colour", &Stem::colour, {.meaning = "Colour of the bark."})
+      .file(
+          "texture", &Stem::texture,
+          {.meaning = "What is painted on it, side by side: bark, which is drawn in `colour`, or a PNG file "
+                      "beside this one that tiles."})
       .distance(
           "radius", &Stem::radius,
           {.unit = kVoxels, .limits = {0.0, 100.0, true}, .meaning = "Radius of a twig that does not fork."})

@@ -149,6 +149,7 @@ struct Element {
   /// What is painted on the polygons, as it is written: a kind that the program draws, or a file.
   std::string texture;
   std::shared_ptr<const sim::Picture> picture;  ///< of a file; who reads it puts it here
+  double opacity = 1.0;  ///< share of the polygons' area that the texture leaves; who reads it puts it here
   sim::ColourVariation varies;
 };
 
@@ -160,6 +161,8 @@ struct Stem {
   double exponent = 2.05;
   Distance thickens{0.02};  ///< by age: in an iteration
   Distance thickest{kNoLimit};
+  std::string texture;                          ///< as Element::texture
+  std::shared_ptr<const sim::Picture> picture;  ///< of a file; who reads it puts it here
 };
 
 struct RuleSet;

@@ -1,11 +1,14 @@
 #include "scenes/read/rule_loader.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cmath>
 #include <set>
 #include <system_error>
 
+#include "render/model/drawn_bark.h"
 #include "render/model/drawn_leaf.h"
 #include "rules/language/registry.h"
 #include "scenes/import/picture_reader.h"
@@ -28,6 +31,25 @@ const YamlNode* lastGiven(const std::vector<const YamlNode*>& layers, std::strin
     if (const auto* entry = (*layer)->entry(key)) return &entry->value;
   }
   return nullptr;
+}
+
+/// Which share of an element's polygons a picture leaves of which `blade` is: it is stretched over their
+/// extent, of which polygons near its outline have cut a part away already.
+double opacityOf(const rules::Element& element, double blade) {
+  double area = 0.0;
+  sim::Vec3 low(INFINITY), high(-INFINITY);
+  for (const auto& polygon : element.polygons) {
+    sim::Vec3 twice(0.0);
+    for (std::size_t i = 0; i < polygon.size(); ++i) {
+      twice += glm::cross(polygon[i], polygon[(i + 1) % polygon.size()]);
+      low = glm::min(low, polygon[i]);
+      high = glm::max(high, polygon[i]);
+    }
+    area += 0.5 * glm::length(twice);
+  }
+  if (!(area > 0.0)) return 1.0;
+  const sim::Vec3 extent = high - low;
+  return std::min(1.0, blade * std::max(1.0, std::max(extent.x, extent.z) * extent.y / area));
 }
 
 std::string canonicalOf(const fs::path& path) {
@@ -138,6 +160,13 @@ RulesPointer RuleLoader::build(const Layers& layers, RuleSet rules) {
 }
 
 void RuleLoader::addPictures(const Layers& layers, RuleSet& rules) {
+  for (auto layer = layers.rbegin(); layer != layers.rend(); ++layer) {
+    const auto* stem = (*layer)->entry("stem");
+    const auto* bark = stem != nullptr ? stem->value.entry("texture") : nullptr;
+    if (!bark) continue;
+    if (!rules.stem.texture.empty()) paintStem(rules.stem, bark->value);
+    break;
+  }
   const auto* elements = lastGiven(layers, "elements");
   if (!elements || elements->items.size() != rules.elements.size()) return;
   for (std::size_t i = 0; i < rules.elements.size(); ++i) {
@@ -151,30 +180,45 @@ void RuleLoader::paint(rules::Element& element, const YamlNode& texture, bool ha
   const std::vector<std::string>& drawn = render::drawnKinds();
   if (std::find(drawn.begin(), drawn.end(), element.texture) != drawn.end()) {
     if (element.polygons.empty()) element.polygons = render::cardsOf(element.texture);
+    element.opacity = opacityOf(element, render::bladeShareOf(element.texture));
     return;
   }
-  if (element.texture.find_first_of("./") == std::string::npos) {
-    problems_.add(texture.place,
-                  fmt::format("texture is {}; expected the path of a PNG file, or one of {}{}",
-                              described(texture), listed(drawn), didYouMean(element.texture, drawn)));
-    return;
-  }
-  const fs::path path = beside(texture, element.texture);
-  const auto [known, added] = pictures_.try_emplace(canonicalOf(path));
-  if (added) {
-    sim::InputFile read;
-    try {
-      known->second = readPicture(path, read);
-      read_files_.push_back({path, fs::path(element.texture).is_absolute(), read.hash, read.kind});
-    } catch (const sim::InputError& error) {
-      problems_.add(texture.place, error.what());
-    }
-  }
-  element.picture = known->second;
+  element.picture = picture(texture, element.texture, drawn);
   if (!element.picture) return;
   if (!has_colour) element.colour = meanColour(*element.picture);
   if (element.polygons.empty())
     element.polygons = render::cardsOf(element.picture->width, element.picture->height);
+  element.opacity = opacityOf(element, render::bladeShareOf(*element.picture));
+}
+
+void RuleLoader::paintStem(rules::Stem& stem, const YamlNode& texture) {
+  if (stem.texture == render::kDrawnBark) return;
+  const auto read = picture(texture, stem.texture, {render::kDrawnBark});
+  if (!read) return;
+  sim::Picture tile = *read;
+  tile.tiles = true;
+  stem.picture = std::make_shared<const sim::Picture>(std::move(tile));
+}
+
+std::shared_ptr<const sim::Picture> RuleLoader::picture(const YamlNode& asker, const std::string& written,
+                                                        const std::vector<std::string>& drawn) {
+  if (written.find_first_of("./") == std::string::npos) {
+    problems_.add(asker.place,
+                  fmt::format("texture is {}; expected the path of a PNG file, or one of {}{}",
+                              described(asker), fmt::join(drawn, ", "), didYouMean(written, drawn)));
+    return nullptr;
+  }
+  const fs::path path = beside(asker, written);
+  const auto [known, added] = pictures_.try_emplace(canonicalOf(path));
+  if (!added) return known->second;
+  try {
+    sim::InputFile read;
+    known->second = readPicture(path, read);
+    read_files_.push_back({path, fs::path(written).is_absolute(), read.hash, read.kind});
+  } catch (const sim::InputError& error) {
+    problems_.add(asker.place, error.what());
+  }
+  return known->second;
 }
 
 void RuleLoader::addRegions(const Layers& layers, RuleSet& rules) {

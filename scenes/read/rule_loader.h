@@ -59,6 +59,10 @@ class RuleLoader {
   /// Finds what elements are painted with, and gives those without polygons cards that fit it.
   void addPictures(const Layers& layers, rules::RuleSet& rules);
   void paint(rules::Element& element, const YamlNode& texture, bool has_colour);
+  void paintStem(rules::Stem& stem, const YamlNode& texture);
+  /// Of a file beside the one that asks; null, after a problem was reported, where it is none.
+  std::shared_ptr<const sim::Picture> picture(const YamlNode& asker, const std::string& written,
+                                              const std::vector<std::string>& drawn);
   void addRegions(const Layers& layers, rules::RuleSet& rules);
   /// A reference within a rule set, to one that holds in a region or stands by.
   std::shared_ptr<const rules::RuleSet> within(const YamlNode& node, const std::string& path,

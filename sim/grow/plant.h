@@ -77,6 +77,9 @@ struct Plant {
   std::vector<ElementShape> shapes;
   std::vector<PlacedElement> elements;
   Colour stem_colour{0.16f, 0.10f, 0.05f};
+  std::string bark =
+      {};  ///< what is painted on its stems, as on ElementShape: a kind of bark, or a picture that tiles
+  std::shared_ptr<const Picture> bark_picture = nullptr;
   StemGirth girth;
   PartId stem_part = kFree;
   std::vector<PartId> element_parts;  ///< a part for each shape

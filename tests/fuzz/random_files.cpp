@@ -214,6 +214,7 @@ void RandomFiles::knowSpecials() {
     if (crowned) agreeOnCrown(drawn, fmt::format("{}", 0.5 * side()), numbers_);
     return crowned;
   };
+  rule("stem.texture", [this] { return numbers_.chance(0.3) ? writePicture() : std::string("bark"); });
   rule("elements[].texture",
        [=, this] { return numbers_.chance(0.3) ? writePicture() : numbers_.pick(render::drawnKinds()); });
   rule("colonization.fields", [=] { return std::string(colonizes ? "[main]" : "[main, other]"); });

@@ -71,6 +71,8 @@ TEST_P(DrawnLeaf, IsCutOutAndKeepsWithinItsCards) {
   const double share = static_cast<double>(covered) / (leaf_.width * leaf_.height);
   EXPECT_GT(share, 0.2);
   EXPECT_LT(share, 0.85);
+  EXPECT_NEAR(bladeShareOf(GetParam()), share, 0.01);
+  EXPECT_EQ(bladeShareOf(leaf_), share);
   EXPECT_LT(cut, covered / 200) << "of " << covered;
   // It begins where it is attached, at the foot's middle, and reaches the top.
   bool at_the_foot = false, at_the_top = false;

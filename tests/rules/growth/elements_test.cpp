@@ -125,5 +125,45 @@ TEST(Elements, OfOneSegmentShareVoxelsAndDoNotCross) {
   EXPECT_EQ(tests::crossings({plant}), 0u);
 }
 
+TEST(Elements, CastShadeByWhatTheirPictureLeaves) {
+  const sim::World world = emptyWorld({22, 21, 21});
+  Element element = square(3.0);
+  const auto whole = elementsOf(world, with(element));
+  element.opacity = 0.25;
+  const auto quarter = elementsOf(world, with(element));
+  ASSERT_EQ(whole.size(), 1u);
+  ASSERT_EQ(quarter.size(), 1u);
+  EXPECT_EQ(quarter[0].takes, whole[0].takes);
+  EXPECT_NEAR(quarter[0].coverage / whole[0].coverage, 0.25, 1e-6);
+}
+
+TEST(Elements, ThatCrossTakeNoHeedOfEachOther) {
+  const sim::World world = emptyWorld({22, 21, 21});
+  Element element = square(5.0);
+  element.per_segment = 12.0;
+  element.trials = 3;
+  const std::size_t apart = elementsOf(world, with(element)).size();
+  EXPECT_LT(apart, 12u);
+  element.crosses = true;
+  const auto all = elementsOf(world, with(element));
+  EXPECT_EQ(all.size(), 12u);
+  for (const auto& one : all) EXPECT_EQ(one.passage, sim::Passage::through);
+}
+
+TEST(Elements, StandInAnOrderWhereOneIsGiven) {
+  const sim::World world = emptyWorld({22, 21, 21});
+  Element element = square(0.3);
+  element.phyllotaxis.emplace();
+  element.phyllotaxis->spacing = {0.4};
+  element.petiole.value = 1.0;
+  const auto placed = elementsOf(world, with(element));
+  ASSERT_EQ(placed.size(), 5u);  // along 2
+  for (std::size_t i = 0; i < placed.size(); ++i) {
+    const Vec3 at = placed[i].element.position_vx;
+    EXPECT_NEAR(at.x, 10.0 + 0.4 * static_cast<double>(i + 1), 1e-9);
+    EXPECT_NEAR(glm::length(Vec3(0, at.y - 10.0, at.z - 10.0)), 1.0, 1e-9) << "a petiole away from the stem";
+  }
+}
+
 }  // namespace
 }  // namespace espalier::rules

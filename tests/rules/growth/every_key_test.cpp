@@ -78,6 +78,7 @@ const std::map<std::string, std::string> kWithoutEffect = {
     {"base", "read with the file: growth sees what came of it"},
     {"propagate", "one for all sets of a plant"},
     {"stem.colour", "a plant has one stem: that of the top rule set"},
+    {"stem.texture", "the same"},
     {"stem.radius", "the same"},
     {"stem.by", "girth is for models alone"},
     {"stem.exponent", "the same"},

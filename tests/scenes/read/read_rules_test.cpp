@@ -139,6 +139,8 @@ TEST(ReadRules, GivesElementsThatArePaintedCardsThatFit) {
       "  - {name: b, texture: ovate, polygons: [[[0, 0, 0], [1, 0, 0], [0, 1, 0]]]}\n");
   EXPECT_EQ(rules->elements[0].polygons, render::cardsOf("ovate"));
   EXPECT_EQ(rules->elements[1].polygons.size(), 1u);
+  EXPECT_GT(rules->elements[0].opacity, 0.8) << "the cards lie close to the leaf";
+  EXPECT_EQ(rules->elements[1].opacity, 1.0) << "half of the picture's extent is less than the leaf";
   EXPECT_EQ(rules->elements[0].picture, nullptr) << "it is drawn when it is looked at";
 }
 
@@ -165,8 +167,20 @@ TEST(ReadRules, FindsAPictureBesideTheFileThatNamesIt) {
   EXPECT_EQ(a.picture, rules->elements[1].picture) << "read once";
   EXPECT_EQ(a.picture->height, 60);
   EXPECT_EQ(a.polygons, render::cardsOf(30, 60));
+  EXPECT_NEAR(a.opacity, 0.5, 0.01) << "every other column is clear";
   EXPECT_EQ(rules::hexFromLinear(a.colour), "#ff9900") << "what it looks like from afar";
   EXPECT_EQ(rules::hexFromLinear(rules->elements[1].colour), "#336699");
+}
+
+TEST(ReadRules, ABasesBarkStaysWhereTheStemIsChanged) {
+  const Scratch scratch;
+  scratch.write("oak.png", orangePng(30, 60));
+  scratch.write("base.yaml", "espalier: rules\nstem: {texture: oak.png}\n");
+  const auto rules =
+      goodRules(scratch.write("r.yaml", "espalier: rules\nbase: base.yaml\nstem: {radius: 3 mm}\n"));
+  ASSERT_NE(rules->stem.picture, nullptr);
+  EXPECT_TRUE(rules->stem.picture->tiles);
+  EXPECT_EQ(goodRulesText("stem: {texture: bark}\n")->stem.picture, nullptr) << "drawn when it is looked at";
 }
 
 TEST(ReadRules, TellsWhereAPictureIsAskedForThatIsNone) {

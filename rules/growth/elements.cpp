@@ -27,11 +27,6 @@ bool among(const Voxels& sorted, sim::Voxel v) {
   return std::binary_search(sorted.begin(), sorted.end(), v, sim::beforeInRows);
 }
 
-/// Whether a voxel is part of the scene.
-bool isScene(const sim::World& world, sim::Voxel v) {
-  return world.solid().at(v) && world.part(world.partAt(v)).kind == sim::PartKind::scene;
-}
-
 /// Takes the scene's voxels out of an element's. False where there is one that its own segment does not pass.
 bool clearOfScene(const sim::World& world, const Voxels& own, Voxels& tiled) {
   bool clear = true;
@@ -81,6 +76,10 @@ void turn(sim::PlacedElement& element, const Surroundings& around, const Senses&
 }
 
 }  // namespace
+
+bool isScene(const sim::World& world, sim::Voxel v) {
+  return world.solid().at(v) && world.part(world.partAt(v)).kind == sim::PartKind::scene;
+}
 
 std::vector<sim::ElementShape> shapesOf(const RuleSet& rules) {
   std::vector<sim::ElementShape> shapes;

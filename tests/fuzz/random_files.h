@@ -51,6 +51,7 @@ class RandomFiles {
   std::string writeMesh();
   std::string writePoints(const std::string& name, int most, double beyond);
   std::string writeVolume();
+  std::string writeSkeleton();
   void knowSpecials();
   Drawn table(const rules::Table& table, const std::string& path);
   bool value(const rules::Key& key, const std::string& path, Drawn& drawn);

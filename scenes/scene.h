@@ -253,6 +253,7 @@ struct Scene {
   std::vector<RegionMention> region_mentions;  ///< in the rules of its plants: each place once
   std::vector<Problem> warnings;               ///< what its files say without effect
   int iterations = 50;
+  std::optional<int> skeleton_iterations;  ///< in which given skeletons grow whole; without it, in all
   std::uint64_t seed = 1;
   int image_width = 1280;
   int image_height = 960;

@@ -121,7 +121,8 @@ sim::Inputs inputsOf(const Scene& scene, const Site& site) {
   // How fast given skeletons grow; not among the keys of plants, as the plants are the same.
   if (std::any_of(scene.plants.begin(), scene.plants.end(),
                   [](const PlantSpec& p) { return p.skeleton.has_value(); }))
-    inputs.emplace_back("skeletons.iterations", fmt::format("{}", scene.iterations));
+    inputs.emplace_back("skeletons.iterations",
+                        fmt::format("{}", scene.skeleton_iterations.value_or(scene.iterations)));
   for (std::size_t i = 0; i < scene.fields.size(); ++i) {
     if (scene.fields[i].file.empty()) continue;
     const VectorLattice& grid = site.fields[i].grid;

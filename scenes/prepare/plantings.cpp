@@ -115,7 +115,9 @@ sim::Planting given(const PlantSpec& spec, const std::vector<FileTree>& trees, c
     all.push_back(givenTree(tree, *spec.skeleton, frame));
     roots_vx.push_back(all.back().position_vx.front());
   }
-  return {spec.name, rules::makeGivenSkeleton(spec.rules, frame, std::move(all), scene.iterations),
+  return {spec.name,
+          rules::makeGivenSkeleton(spec.rules, frame, std::move(all),
+                                   scene.skeleton_iterations.value_or(scene.iterations)),
           sim::seedsAt(frame, roots_vx), true};
 }
 

@@ -57,7 +57,10 @@ void addGrow(CLI::App& app, int& exit_status) {
     arguments->keeping.keep = !arguments->no_state;
     exit_status = runJob(arguments->job, [&](scenes::Scene scene, const scenes::RunOptions& run) {
       if (arguments->seed) scene.seed = *arguments->seed;
-      if (arguments->iterations) scene.iterations = *arguments->iterations;
+      if (arguments->iterations) {
+        scene.skeleton_iterations = scene.iterations;
+        scene.iterations = *arguments->iterations;
+      }
       scenes::RunOptions options = run;
       options.coarser_models = arguments->coarser;
       const scenes::Report report = scenes::runScene(scene, options, arguments->keeping);

@@ -10,7 +10,7 @@ foreach(room sim rules render scenes)
   install(DIRECTORY ${room} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/espalier FILES_MATCHING PATTERN "*.h")
 endforeach()
 install(DIRECTORY rules/library DESTINATION ${CMAKE_INSTALL_DATADIR}/espalier/rules)
-install(DIRECTORY scenes/library scenes/meshes DESTINATION ${CMAKE_INSTALL_DATADIR}/espalier/scenes)
+install(DIRECTORY scenes/library scenes/meshes scenes/skeletons DESTINATION ${CMAKE_INSTALL_DATADIR}/espalier/scenes)
 install(EXPORT espalier NAMESPACE espalier:: DESTINATION ${package_folder} FILE espalierTargets.cmake)
 write_basic_package_version_file(${PROJECT_BINARY_DIR}/espalierConfigVersion.cmake COMPATIBILITY SameMinorVersion)
 install(FILES ${PROJECT_BINARY_DIR}/espalierConfigVersion.cmake cmake/espalierConfig.cmake

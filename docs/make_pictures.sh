@@ -58,6 +58,8 @@ grow scenes/library/four_crowns.yaml
 small $work/four_crowns/vines.png four_crowns 1100
 grow scenes/library/tree_and_wall.yaml
 small $work/tree_and_wall/vines.png tree_and_wall 720
+grow scenes/library/lsystem_tree.yaml
+small $work/lsystem_tree/vines.png lsystem_tree 720
 grow scenes/library/hedge.yaml
 small $work/hedge/vines.png hedge 700
 grow scenes/library/roots.yaml

@@ -128,6 +128,15 @@ struct PointTable {
   std::optional<int> type;  ///< of the points that are meant, in the fourth column; without it all are
 };
 
+/// Trees that somebody else made, from a file, in place of growth. Placed as meshes are.
+struct SkeletonSpec {
+  std::filesystem::path file;
+  std::string told;  ///< what reports call the file
+  double scale = 1.0;
+  sim::Vec3 rotate_deg{0.0};  ///< about x, then y, then z
+  sim::Vec3 translate_m{0.0};
+};
+
 struct PlantSpec {
   std::string name;
   std::filesystem::path rules_file;
@@ -135,12 +144,18 @@ struct PlantSpec {
   Place rules_place = {};  ///< where the scene file names them; without a path where none does
   std::vector<SeedSpec> seeds;
   std::optional<Scatter> scatter;
-  PointTable table;  ///< of more seeds
+  PointTable table;                      ///< of more seeds
+  std::optional<SkeletonSpec> skeleton;  ///< instead of all these: its roots are the seeds
 };
 
 /// What the attractors of a planting's own crown are called.
 inline std::string crownOf(const std::string& planting) {
   return "crown of " + planting;
+}
+
+/// Whether a planting's rules have it colonize.
+inline bool colonizes(const PlantSpec& plant) {
+  return !plant.skeleton && plant.rules->propagate == rules::Propagate::colonization;
 }
 
 /// What the attractors are called that a planting's front grows to: the scene's, or its own crown.
@@ -238,6 +253,7 @@ struct Scene {
   std::vector<RegionMention> region_mentions;  ///< in the rules of its plants: each place once
   std::vector<Problem> warnings;               ///< what its files say without effect
   int iterations = 50;
+  std::optional<int> skeleton_iterations;  ///< in which given skeletons grow whole; without it, in all
   std::uint64_t seed = 1;
   int image_width = 1280;
   int image_height = 960;

@@ -20,6 +20,9 @@ declare -A sources=(
   [states]="sim/grow/state.cpp sim/grow/restore.cpp sim/grow/columns.h sim/base/cbor_writer.h"
   [mesh_wire]="scenes/import/mesh_wire.cpp scenes/import/mesh_import.cpp"
   [obj]="$all_meshes scenes/import/obj_ scenes/import/mtl." [stl]="$all_meshes"
+  [skeleton_json]="scenes/import/skeleton_json scenes/import/skeleton_forest"
+  [skeleton_obj]="scenes/import/skeleton_obj scenes/import/skeleton_forest scenes/import/obj_statements"
+  [skeleton_wire]="scenes/import/skeleton_reader"
   [ply]="$all_meshes scenes/import/ply_" [gltf]="$all_meshes scenes/import/gltf_"
 )
 for target in "${!sources[@]}"; do
@@ -27,7 +30,7 @@ for target in "${!sources[@]}"; do
     compgen -G "$path*" >/dev/null || { echo "fuzz.sh: there is no $path" >&2 && exit 2; }
   done
 done
-all=(yaml rules scenes states mesh_wire obj stl ply gltf)
+all=(yaml rules scenes states mesh_wire obj stl ply gltf skeleton_json skeleton_obj skeleton_wire)
 
 seconds=60 files=500 targets=()
 while [ $# -gt 0 ]; do

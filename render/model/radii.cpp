@@ -38,17 +38,28 @@ std::vector<double> byAge(const sim::Skeleton& skeleton, const sim::StemGirth& g
   return radii;
 }
 
+std::vector<double> asGiven(const std::vector<float>& given, const sim::StemGirth& girth) {
+  std::vector<double> radii;
+  for (const float radius : given)
+    radii.push_back(std::isfinite(radius) && radius > 0.0f ? static_cast<double>(radius) : girth.twig_vx);
+  return radii;
+}
+
+std::vector<double> uncut(const sim::Skeleton& skeleton, const sim::StemGirth& girth) {
+  if (const auto* const given = sim::find(skeleton, sim::kRadiusColumn)) return asGiven(*given, girth);
+  return girth.by == sim::StemGirth::By::age ? byAge(skeleton, girth) : byPipes(skeleton, girth);
+}
+
 }  // namespace
 
 std::vector<float> stemRadii(const sim::Skeleton& skeleton, const sim::StemGirth& girth) {
   if (!(girth.exponent >= 1.0 && girth.twig_vx > 0.0 && girth.most_vx > 0.0 && girth.thickens_vx >= 0.0)) {
     throw sim::InputError("the exponent of stems must be at least 1, and their radii positive");
   }
-  const bool age = girth.by == sim::StemGirth::By::age;
   const auto nodes = static_cast<std::size_t>(skeleton.size());
   std::vector<float> radii;
   radii.reserve(nodes);
-  for (const double radius : age ? byAge(skeleton, girth) : byPipes(skeleton, girth))
+  for (const double radius : uncut(skeleton, girth))
     radii.push_back(static_cast<float>(std::min(girth.most_vx, radius)));
   // A seed has no segment of its own; it is as thick as what grows from it.
   std::vector<float> thickest(nodes, 0.0f);

@@ -9,7 +9,9 @@ namespace espalier::render {
 /// By pipes a stem is a bundle of pipes, one to each tip (Shinozaki et al. 1964, with the exponent of Runions
 /// et al. 2007): r^exponent is the sum of the children's r^exponent. By age it is thicker by as much in each
 /// iteration since its node was placed (Tanaka et al. 2022).
-/// Throws InputError unless the exponent is 1 at least and the radii are positive.
+/// Where the skeleton has a column of radii (sim::kRadiusColumn) these are taken, up to the girth's most; of
+/// one that is no radius, the twig's. Throws InputError unless the exponent is 1 at least and the radii are
+/// positive.
 std::vector<float> stemRadii(const sim::Skeleton& skeleton, const sim::StemGirth& girth);
 
 }  // namespace espalier::render

@@ -1,71 +1,63 @@
 #include "render/model/spline.h"
 
 #include <algorithm>
-#include <cmath>
+#include <numeric>
 
 namespace espalier::render {
 namespace {
 
-struct Place {
-  std::size_t span;
-  double u;
-};
-
-Place placeAt(double t, std::size_t controls) {
-  const double spans = static_cast<double>(controls) - 3.0;
-  if (spans < 1) return {0, 0.0};
-  const double span = std::clamp(std::floor(t), 0.0, spans - 1.0);
-  return {static_cast<std::size_t>(span), t - span};
+std::vector<double> evenKnots(std::size_t count) {
+  std::vector<double> knots(count);
+  std::iota(knots.begin(), knots.end(), 0.0);
+  return knots;
 }
 
 }  // namespace
 
-Spline::Spline(std::span<const sim::Vec3> points, std::optional<sim::Vec3> start_derivative) {
-  const std::size_t n = points.size();
-  if (n == 1) {
-    controls_.assign(3, points[0]);
-    return;
-  }
-  // (c[i-1] + 4 c[i] + c[i+1]) / 6 = p[i] with the end conditions put in: tridiagonal, solved from the start
-  // (Thomas). An end without curvature has its control point on the curve's own point.
-  std::vector<sim::Vec3> c(n);
+Spline::Spline(std::span<const sim::Vec3> points, std::optional<sim::Vec3> start_derivative)
+    : Spline(points, evenKnots(points.size()), start_derivative) {}
+
+Spline::Spline(std::span<const sim::Vec3> points, std::vector<double> knots,
+               std::optional<sim::Vec3> start_derivative)
+    : points_(points.begin(), points.end()), bends_(points.size(), sim::Vec3(0.0)), knots_(std::move(knots)) {
+  const std::size_t n = points_.size();
+  if (n == 1) return;
+  const auto width = [&](std::size_t i) { return knots_[i + 1] - knots_[i]; };
+  const auto slope = [&](std::size_t i) { return (points_[i + 1] - points_[i]) / width(i); };
+  // That first derivatives are the same on both sides of a point is a tridiagonal system of the bends, solved
+  // from the start (Thomas).
   std::vector<double> upper(n, 0.0);
   if (start_derivative) {
     upper[0] = 0.5;
-    c[0] = 0.25 * (6.0 * points[0] + 2.0 * *start_derivative);
-  } else {
-    c[0] = points[0];
+    bends_[0] = 3.0 / width(0) * (slope(0) - *start_derivative);
   }
   for (std::size_t i = 1; i + 1 < n; ++i) {
-    const double pivot = 4.0 - upper[i - 1];
-    upper[i] = 1.0 / pivot;
-    c[i] = (6.0 * points[i] - c[i - 1]) / pivot;
+    const double pivot = 2.0 * (width(i - 1) + width(i)) - width(i - 1) * upper[i - 1];
+    upper[i] = width(i) / pivot;
+    bends_[i] = (6.0 * (slope(i) - slope(i - 1)) - width(i - 1) * bends_[i - 1]) / pivot;
   }
-  c[n - 1] = points[n - 1];
-  for (std::size_t i = n - 1; i-- > 0;) c[i] -= upper[i] * c[i + 1];
+  for (std::size_t i = n - 1; i-- > 0;) bends_[i] -= upper[i] * bends_[i + 1];
+}
 
-  controls_.reserve(n + 2);
-  controls_.push_back(start_derivative ? c[1] - 2.0 * *start_derivative : 2.0 * c[0] - c[1]);
-  controls_.insert(controls_.end(), c.begin(), c.end());
-  controls_.push_back(2.0 * c[n - 1] - c[n - 2]);
+Spline::Place Spline::placeAt(double t) const {
+  const auto above = std::upper_bound(knots_.begin() + 1, knots_.end() - 1, t);
+  const auto i = static_cast<std::size_t>(above - knots_.begin()) - 1;
+  const double width = knots_[i + 1] - knots_[i], before = (t - knots_[i]) / width;
+  return {i, width, before, 1.0 - before};
 }
 
 sim::Vec3 Spline::position(double t) const {
-  const auto [i, u] = placeAt(t, controls_.size());
-  const double v = 1.0 - u;
-  if (controls_.size() == 3) return controls_[1];
-  return (v * v * v * controls_[i] + (3.0 * u * u * u - 6.0 * u * u + 4.0) * controls_[i + 1] +
-          (3.0 * v * v * v - 6.0 * v * v + 4.0) * controls_[i + 2] + u * u * u * controls_[i + 3]) /
-         6.0;
+  if (points_.size() == 1) return points_[0];
+  const auto [i, h, b, a] = placeAt(t);
+  return a * points_[i] + b * points_[i + 1] +
+         h * h / 6.0 * ((a * a * a - a) * bends_[i] + (b * b * b - b) * bends_[i + 1]);
 }
 
 sim::Vec3 Spline::derivative(double t) const {
-  const auto [i, u] = placeAt(t, controls_.size());
-  const double v = 1.0 - u;
-  if (controls_.size() == 3) return sim::Vec3(0.0);
-  return (-v * v * controls_[i] + (3.0 * u * u - 4.0 * u) * controls_[i + 1] -
-          (3.0 * v * v - 4.0 * v) * controls_[i + 2] + u * u * controls_[i + 3]) /
-         2.0;
+  if (points_.size() == 1) return sim::Vec3(0.0);
+  const auto [i, h, b, a] = placeAt(t);
+  return (points_[i + 1] - points_[i]) / h +
+         h / 6.0 * ((3.0 * b * b - 1.0) * bends_[i + 1] - (3.0 * a * a - 1.0) * bends_[i]);
 }
 
 }  // namespace espalier::render

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace espalier::render {
 
@@ -19,14 +20,18 @@ StemLine::StemLine(std::span<const Vec3> points, std::optional<Vec3> start_deriv
   std::vector<int> pieces(points.size() - 1, 1);
   for (int round = 0;; ++round) {
     std::vector<Vec3> through{points[0]};
+    std::vector<double> knots{0.0};
     knots_.assign(1, 0.0);
     for (std::size_t i = 0; i < pieces.size(); ++i) {
-      for (int k = 1; k <= pieces[i]; ++k)
+      const double time = std::sqrt(glm::distance(points[i], points[i + 1]) / pieces[i]);
+      for (int k = 1; k <= pieces[i]; ++k) {
         through.push_back(glm::mix(points[i], points[i + 1], static_cast<double>(k) / pieces[i]));
-      knots_.push_back(static_cast<double>(through.size()) - 1.0);
+        knots.push_back(knots.back() + time);
+      }
+      knots_.push_back(knots.back());
     }
     const auto start = start_derivative ? std::optional(*start_derivative / knots_[1]) : std::nullopt;
-    spline_ = Spline(through, start);
+    spline_ = Spline(through, std::move(knots), start);
     if (!blocked) return;
     std::vector<bool> entering(pieces.size(), false);
     bool any = false;
@@ -41,7 +46,7 @@ StemLine::StemLine(std::span<const Vec3> points, std::optional<Vec3> start_deriv
     }
     for (std::size_t i = 0; i < pieces.size(); ++i)
       if (entering[i]) pieces[i] *= 2;
-    // The spline takes equal time from point to point: it swings out where short pieces meet long ones.
+    // The more alike pieces are beside each other, the less it swings out.
     for (std::size_t i = 1; i < pieces.size(); ++i) pieces[i] = std::max(pieces[i], pieces[i - 1] / 2);
     for (std::size_t i = pieces.size() - 1; i > 0; --i)
       pieces[i - 1] = std::max(pieces[i - 1], pieces[i] / 2);

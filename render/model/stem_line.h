@@ -11,9 +11,11 @@ namespace espalier::render {
 /// Whether a place, in voxel space, is in something.
 using Blocked = std::function<bool(sim::Vec3)>;
 
-/// A smooth line through a stem's nodes: node i at parameter i. It is a spline; where that would enter what
-/// the straight segments leave free, the spline passes through points of the segments too, as many as it
-/// takes, and where sixteen to a segment are not enough, the segment is straight.
+/// A smooth line through a stem's nodes: node i at parameter i. It is a centripetal spline: it takes the root
+/// of a segment's length from node to node (Lee 1989), so that it neither swings out nor loops where short
+/// segments meet long ones. Where that would enter what the straight segments leave free, the spline passes
+/// through points of the segments too, as many as it takes, and where sixteen to a segment are not enough,
+/// the segment is straight.
 class StemLine {
  public:
   StemLine() = default;  ///< to be given nodes later

@@ -13,7 +13,7 @@ using sim::Outcome;
 Outcome tryToGrow(const sim::SiteView& view, const RuleSet& rules, const sim::Site& site,
                   const sim::RandomKey& key, unsigned set, const RuleBook& book, int order, const Step& step,
                   sim::Proposal& proposal) {
-  const Exposure seen = view.light != nullptr ? exposureOf(*view.light) : Exposure{1.0, 1.0};
+  const Exposure seen = seenAt(view);
   const Vigour light = vigourOf(seen, rules);
   if (light.exposure < rules.require.exposure_min) return Outcome::too_dark;
   if (light.exposure > rules.require.exposure_max) return Outcome::too_bright;
@@ -26,20 +26,32 @@ Outcome tryToGrow(const sim::SiteView& view, const RuleSet& rules, const sim::Si
   if (!best) return Outcome::no_trial;
   proposal.elements = proposeElements(view, site, rules, around, senses, best->to_vx, best->passes,
                                       book.firstShape(rules), key);
-  proposal.segment = {best->to_vx, std::move(best->takes), best->passage, {}};
-  // exposure, order, proximity_vx, sky_exposure, sun_exposure: in the order of their names.
-  std::vector<float>& quantities = proposal.segment->quantities;
-  if (view.light != nullptr) quantities.push_back(static_cast<float>(senses.exposure));
-  if (book.hasOrders()) quantities.push_back(static_cast<float>(order));
-  quantities.push_back(static_cast<float>(best->proximity_vx));
-  if (view.light != nullptr) {
-    quantities.push_back(static_cast<float>(seen.sky));
-    quantities.push_back(static_cast<float>(seen.sun));
-  }
+  proposal.segment = {best->to_vx, std::move(best->takes), best->passage,
+                      quantitiesOf(view, book, seen, senses.exposure, order, best->proximity_vx)};
   return Outcome::grown;
 }
 
 }  // namespace
+
+Exposure seenAt(const sim::SiteView& view) {
+  return view.light != nullptr ? exposureOf(*view.light) : Exposure{1.0, 1.0};
+}
+
+std::vector<float> quantitiesOf(const sim::SiteView& view, const RuleBook& book, const Exposure& seen,
+                                double exposure, int order, double proximity_vx,
+                                std::optional<float> radius_vx) {
+  // exposure, order, proximity_vx, radius_vx, sky_exposure, sun_exposure: in the order of their names.
+  std::vector<float> quantities;
+  if (view.light != nullptr) quantities.push_back(static_cast<float>(exposure));
+  if (book.hasOrders()) quantities.push_back(static_cast<float>(order));
+  quantities.push_back(static_cast<float>(proximity_vx));
+  if (radius_vx) quantities.push_back(*radius_vx);
+  if (view.light != nullptr) {
+    quantities.push_back(static_cast<float>(seen.sky));
+    quantities.push_back(static_cast<float>(seen.sun));
+  }
+  return quantities;
+}
 
 sim::Proposal proposeByBook(const sim::SiteView& view, const sim::Site& site, const sim::RandomKey& key,
                             const RuleBook& book, int order, const Step& step) {

@@ -28,11 +28,6 @@ bool among(const Voxels& sorted, sim::Voxel v) {
   return std::binary_search(sorted.begin(), sorted.end(), v, sim::beforeInRows);
 }
 
-/// Whether a voxel is part of the scene.
-bool isScene(const sim::World& world, sim::Voxel v) {
-  return world.solid().at(v) && world.part(world.partAt(v)).kind == sim::PartKind::scene;
-}
-
 /// Takes the scene's voxels out of an element's. False where there is one that its own segment does not pass.
 bool clearOfScene(const sim::World& world, const Voxels& own, Voxels& tiled) {
   bool clear = true;
@@ -66,6 +61,7 @@ std::vector<ElementPlace> placesOn(const sim::SiteView& view, const sim::Site& s
                                    const sim::RandomKey& key, LimbPath& path) {
   if (rule.phyllotaxis) {
     const double length = glm::length(segment_vx);
+    if (!(length > 0.0)) return {};
     path = limbPath(view.plant.skeleton, site.node, segment_vx / length);
     return placesInOrder(*rule.phyllotaxis, path.length_vx, length);
   }
@@ -76,6 +72,10 @@ std::vector<ElementPlace> placesOn(const sim::SiteView& view, const sim::Site& s
 }
 
 }  // namespace
+
+bool isScene(const sim::World& world, sim::Voxel v) {
+  return world.solid().at(v) && world.part(world.partAt(v)).kind == sim::PartKind::scene;
+}
 
 std::vector<sim::ElementShape> shapesOf(const RuleSet& rules) {
   std::vector<sim::ElementShape> shapes;

@@ -20,6 +20,9 @@ std::vector<sim::ProposedElement> proposeElements(const sim::SiteView& view, con
                                                   const std::vector<sim::Voxel>& segment,
                                                   std::int32_t first_shape, const sim::RandomKey& key);
 
+/// Whether a voxel is part of the scene.
+bool isScene(const sim::World& world, sim::Voxel v);
+
 /// The shapes that a rule set's elements place, in their order.
 std::vector<sim::ElementShape> shapesOf(const RuleSet& rules);
 

@@ -137,9 +137,12 @@ sim::Mesh importMesh(const std::filesystem::path& file, RegionsFrom regions_from
   }
 }
 
+glm::dmat3 turnBy(const sim::Vec3& rotate_deg) {
+  return turnAbout(2, rotate_deg.z) * turnAbout(1, rotate_deg.y) * turnAbout(0, rotate_deg.x);
+}
+
 sim::Mesh placeMesh(sim::Mesh mesh, double scale, const sim::Vec3& rotate_deg, const sim::Vec3& translate_m) {
-  const glm::dmat3 turn =
-      turnAbout(2, rotate_deg.z) * turnAbout(1, rotate_deg.y) * turnAbout(0, rotate_deg.x);
+  const glm::dmat3 turn = turnBy(rotate_deg);
   for (auto& p : mesh.vertices_m) p = turn * (p * scale) + translate_m;
   requireFinite(mesh);
   return mesh;

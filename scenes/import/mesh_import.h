@@ -1,6 +1,7 @@
 #pragma once
 #include <cstdint>
 #include <filesystem>
+#include <glm/mat3x3.hpp>
 #include <optional>
 #include <string_view>
 #include <vector>
@@ -47,8 +48,11 @@ sim::Mesh importMesh(const std::filesystem::path& file, RegionsFrom regions_from
 /// bytes are not trusted. Throws sim::InputError, without the file's name.
 sim::Mesh meshFromChild(std::string_view bytes, MeshSources& sources);
 
-/// The mesh scaled about the origin, turned about the x, then the y, then the z axis, then moved. Quarter
-/// turns are exact. Throws sim::InputError where the result is not finite.
+/// A turn about the x, then the y, then the z axis. Quarter turns are exact.
+glm::dmat3 turnBy(const sim::Vec3& rotate_deg);
+
+/// The mesh scaled about the origin, turned (turnBy), then moved. Throws sim::InputError where the result is
+/// not finite.
 sim::Mesh placeMesh(sim::Mesh mesh, double scale, const sim::Vec3& rotate_deg, const sim::Vec3& translate_m);
 
 }  // namespace espalier::scenes

@@ -1,8 +1,13 @@
 #include "scenes/import/obj_statements.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+
+#include "scenes/problem.h"
+#include "sim/base/error.h"
 
 namespace espalier::scenes {
 namespace {
@@ -91,6 +96,35 @@ std::string_view ObjStatements::takeNumber() {
   if (!word.starts_with('#')) return word;
   numbers_ = {};
   return {};
+}
+
+void ObjVertices::failOutOfRange(const std::string& vertex, int line, const char* who) const {
+  throw sim::InputError(fmt::format("line {}: {} asks for vertex {}, which is out of range: there are {}",
+                                    line, who, vertex, count_));
+}
+
+std::int64_t ObjVertices::asked(std::string_view word, int line, const char* who) {
+  const std::string_view number = word.substr(0, word.find('/'));
+  std::int64_t vertex = 0;
+  const auto [end, error] = std::from_chars(number.data(), number.data() + number.size(), vertex);
+  if (error != std::errc() || end != number.data() + number.size())
+    throw sim::InputError(fmt::format("line {}: {} is not the number of a vertex", line, inQuotes(word)));
+  if (vertex == 0)
+    throw sim::InputError(fmt::format("line {}: {} asks for vertex 0; they are counted from 1", line, who));
+  if (vertex < 0) {
+    if (vertex < -count_) failOutOfRange(std::string(number), line, who);
+    return count_ + 1 + vertex;
+  }
+  if (vertex > highest_) {  // it may come later
+    highest_ = vertex;
+    highest_line_ = line;
+    highest_who_ = who;
+  }
+  return vertex;
+}
+
+void ObjVertices::requireAll() const {
+  if (highest_ > count_) failOutOfRange(std::to_string(highest_), highest_line_, highest_who_);
 }
 
 }  // namespace espalier::scenes

@@ -1,4 +1,5 @@
 #pragma once
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -33,6 +34,27 @@ class ObjStatements {
   std::string_view left_, statement_, keyword_, rest_, numbers_;
   std::string joined_;
   int lines_ = 0, line_ = 0;
+};
+
+/// The vertices of an OBJ file as its other statements ask for them: counted from 1, or backwards from the
+/// last one so far. A number may ask for one that comes later. `who` asks: "a face". All throw
+/// sim::InputError, with the line.
+class ObjVertices {
+ public:
+  void add() { ++count_; }
+  std::int64_t count() const { return count_; }
+
+  /// The vertex, from 1, of `vertex/texture/normal`.
+  std::int64_t asked(std::string_view word, int line, const char* who);
+  /// To be called at the end: whether all came that were asked for.
+  void requireAll() const;
+
+ private:
+  [[noreturn]] void failOutOfRange(const std::string& vertex, int line, const char* who) const;
+
+  std::int64_t count_ = 0, highest_ = 0;
+  int highest_line_ = 0;
+  const char* highest_who_ = "";
 };
 
 }  // namespace espalier::scenes

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <array>
-#include <charconv>
 #include <set>
 
 #include "scenes/import/obj_statements.h"
@@ -32,19 +31,13 @@ class TakingApart {
         addLibrary(named(statement));
       }
     }
-    if (highest_ > vertices_) {
-      line_ = highest_line_;
-      failOutOfRange(std::to_string(highest_));
-    }
+    vertices_.requireAll();
     return std::move(text_);
   }
 
  private:
   [[noreturn]] void fail(const std::string& what) const {
     throw sim::InputError(fmt::format("line {}: {}", line_, what));
-  }
-  [[noreturn]] void failOutOfRange(const std::string& vertex) const {
-    fail(fmt::format("a face asks for vertex {}, which is out of range: there are {}", vertex, vertices_));
   }
 
   /// Three coordinates, and a fourth alone: more are colours.
@@ -56,7 +49,7 @@ class TakingApart {
     text_.shapes += 'v';
     for (std::size_t i = 0; i < (count == 4 ? 4 : 3); ++i) addNumber(words[i]);
     text_.shapes += '\n';
-    ++vertices_;
+    vertices_.add();
   }
 
   void addNumber(std::string_view word) {
@@ -69,7 +62,7 @@ class TakingApart {
   void addPolygon(ObjStatements& statement) {
     corners_.clear();
     for (std::string_view word = statement.takeNumber(); !word.empty(); word = statement.takeNumber())
-      corners_.push_back(vertexOf(word));
+      corners_.push_back(vertices_.asked(word, line_, "a face"));
     if (corners_.size() < 3) return;
     text_.shapes += 'f';
     for (const std::int64_t vertex : corners_)
@@ -81,25 +74,6 @@ class TakingApart {
       text_.stretches.push_back(now_);
     }
     ++text_.polygons;
-  }
-
-  /// Of `vertex/texture/normal`; counted from 1, or backwards from the last one so far.
-  std::int64_t vertexOf(std::string_view word) {
-    const std::string_view number = word.substr(0, word.find('/'));
-    std::int64_t vertex = 0;
-    const auto [end, error] = std::from_chars(number.data(), number.data() + number.size(), vertex);
-    if (error != std::errc() || end != number.data() + number.size())
-      fail(fmt::format("{} is not the number of a vertex", inQuotes(word)));
-    if (vertex == 0) fail("a face asks for vertex 0; they are counted from 1");
-    if (vertex < 0) {
-      if (vertex < -vertices_) failOutOfRange(std::string(number));
-      return vertices_ + 1 + vertex;
-    }
-    if (vertex > highest_) {  // it may come later
-      highest_ = vertex;
-      highest_line_ = line_;
-    }
-    return vertex;
   }
 
   static ObjText::Named named(const ObjStatements& statement) {
@@ -115,8 +89,8 @@ class TakingApart {
   ObjText::Stretch now_;
   std::set<std::string> known_libraries_;
   std::vector<std::int64_t> corners_;
-  std::int64_t vertices_ = 0, highest_ = 0;
-  int highest_line_ = 0, line_ = 0;
+  ObjVertices vertices_;
+  int line_ = 0;
 };
 
 }  // namespace

@@ -1,10 +1,13 @@
 #include "scenes/job/plant_reports.h"
 
+#include <fmt/format.h>
+
 #include <iterator>
 #include <span>
 #include <utility>
 
 #include "rules/growth/front_memory.h"
+#include "scenes/problem.h"
 #include "sim/base/provenance.h"
 
 namespace espalier::scenes {
@@ -16,6 +19,7 @@ Report::Growth::Plant plantReport(const PlantSpec& spec, const sim::Frame& frame
   report.name = plant.name;
   report.planting = spec.name;
   report.rules = spec.rules->name;
+  report.given = spec.skeleton.has_value();
   report.at_m = sim::worldFromVoxel(frame, plant.skeleton.position_vx.front());
   const bool named = number < spec.seeds.size() && !spec.seeds[number].key.empty();
   report.key = named ? spec.seeds[number].key : sim::hexOf(plant.key);
@@ -35,6 +39,23 @@ std::vector<Report::Growth::Attractors> attractorReports(const Scene& scene, con
                        rules::endingIn(columns, growth.iterations, by_itself)});
   }
   return reports;
+}
+
+/// How much of a planting whose skeletons were given lies in what stands in the scene; empty where nothing
+/// does.
+std::string inTheWay(const std::string& planting, std::span<const sim::Plant> plants,
+                     std::span<const sim::Tally> tallies) {
+  std::uint64_t met = 0, segments = 0;
+  for (std::size_t i = 0; i < plants.size(); ++i) {
+    met += sim::timesOf(tallies[i].trials, sim::Outcome::blocked);
+    segments += static_cast<std::uint64_t>(plants[i].skeleton.size()) - 1;
+  }
+  if (met == 0) return "";
+  return fmt::format(
+      "{} of {} segments of the skeleton of {} pass through the scene's objects, and stand there all the "
+      "same; "
+      "move it by translate, rotate or scale if they should not",
+      met, segments, inQuotes(planting));
 }
 
 }  // namespace
@@ -60,6 +81,10 @@ Report::Growth growthReport(const Scene& scene, const sim::World& grown, const s
           plantReport(spec, grown.frame(), growth.plants[first + k], k, growth.tallies[first + k]));
       report.plants.back().failure = std::move(failures[k]);
     }
+    if (!spec.skeleton) continue;
+    std::string met = inTheWay(spec.name, std::span(growth.plants).subspan(first, count),
+                               std::span(growth.tallies).subspan(first, count));
+    if (!met.empty()) report.in_the_way.push_back(std::move(met));
   }
   return report;
 }

@@ -33,7 +33,8 @@ struct Report {
   struct Growth {
     struct Plant {
       std::string name, planting;
-      std::string rules;  ///< the name of its rule set
+      std::string rules;   ///< the name of its rule set
+      bool given = false;  ///< its skeleton was, by the scene
       sim::Vec3 at_m{0.0};
       std::string
           key;  ///< of its seed: the name that it was given, or else the number, as sim::hexOf writes it
@@ -57,7 +58,8 @@ struct Report {
     };
     std::vector<Attractors> attractors;  ///< the scene's, by their names
     std::uint64_t state_hash = 0;
-    std::string cut_short;  ///< sim::Growth::cut_short; among the warnings too
+    std::string cut_short;                     ///< sim::Growth::cut_short; among the warnings too
+    std::vector<std::string> in_the_way = {};  ///< of given skeletons that walls meet, likewise
     std::vector<Field> fields = {};
   };
   std::optional<Growth> growth;  ///< where plants grew

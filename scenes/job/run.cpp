@@ -6,6 +6,7 @@
 #include <ostream>
 #include <span>
 
+#include "render/files/skeleton_json.h"
 #include "render/files/vdb.h"
 #include "render/image/image_io.h"
 #include "render/model/plant_model.h"
@@ -34,7 +35,7 @@
 namespace espalier::scenes {
 namespace {
 
-constexpr const char *kModelFile = "plant.glb", *kWorldFile = "world.vdb";
+constexpr const char *kModelFile = "plant.glb", *kSkeletonFile = "skeleton.json", *kWorldFile = "world.vdb";
 
 /// The free voxels of the boundary layers, which lie around the scene.
 sim::VoxelSet openLayers(const sim::BitVolume& scene, const sim::World& grown) {
@@ -178,7 +179,7 @@ sim::Growth growOn(const Scene& scene, Prepared& prepared, std::optional<sim::Gr
 
 Report runScene(const Scene& scene, const RunOptions& options, const Keeping& keeping) {
   if (options.pictures) requirePicturesFit(scene, picturesOf(scene));
-  std::vector<std::string> names = {kModelFile, kWorldFile, kReportFile};
+  std::vector<std::string> names = {kModelFile, kSkeletonFile, kWorldFile, kReportFile};
   for (int level = 1; level <= options.coarser_models; ++level) names.push_back(levelFile(level));
   if (keeping.keep || keeping.every > 0) names.emplace_back(kStateFile);
   if (options.pictures) {
@@ -208,6 +209,7 @@ Report runScene(const Scene& scene, const RunOptions& options, const Keeping& ke
   });
   report.growth = growthReport(scene, world, bare, growth, prepared.seed_lights);
   if (!growth.cut_short.empty()) report.warnings.push_back(growth.cut_short);
+  for (const std::string& met : report.growth->in_the_way) report.warnings.push_back(met);
   report.occupied_voxels = world.occupied().count();
 
   std::shared_ptr<const sim::VoxelSet> layers;
@@ -239,6 +241,9 @@ Report runScene(const Scene& scene, const RunOptions& options, const Keeping& ke
                                 report.made_by, [](std::size_t, std::size_t) {});
                      }});
   }
+  files.push_back({kSkeletonFile, [&](std::ostream& out) {
+                     render::writeSkeletons(out, growth.plants, world.frame(), report.made_by);
+                   }});
   files.push_back({kWorldFile, [&](std::ostream& out) {
                      std::vector<render::VdbField> fields = worldFields(light, *layers);
                      fields.insert(fields.end(), guides.fields.begin(), guides.fields.end());
@@ -342,6 +347,7 @@ std::string fates(const Report::Growth& report) {
                   of(sim::Outcome::forbidden));
   for (const Report::Growth::Attractors& one : report.attractors)
     text += fmt::format("attractors {}: {}\n", inQuotes(one.name), one.ending);
+  for (const std::string& met : report.in_the_way) text += "note: " + met + "\n";
   return text + poorPlants(report.plants);
 }
 

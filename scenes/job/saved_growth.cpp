@@ -29,6 +29,7 @@ bool startsWith(std::string_view path, std::initializer_list<std::string_view> k
 bool namesAFile(std::string_view path) {
   return (path.starts_with("meshes[") && (path.ends_with("].file") || path.ends_with("].optional"))) ||
          ((path.starts_with("attractors.") || path.starts_with("plants[")) && path.ends_with(".points")) ||
+         (path.starts_with("plants[") && path.ends_with(".skeleton.file")) ||
          (path.starts_with("fields.") && path.ends_with(".file"));
 }
 
@@ -106,6 +107,22 @@ sim::Inputs inputsOf(const Scene& scene, const Site& site) {
     hash.add(points);
     inputs.emplace_back(path + ".contents", fmt::format("{:016x}", hash.digest()));
   });
+  for (std::size_t i = 0; i < scene.plants.size(); ++i) {
+    if (!scene.plants[i].skeleton) continue;
+    sim::Hasher hash;
+    for (const FileTree& tree : site.skeletons[i]) {
+      hash.add(tree.parent);
+      hash.add(tree.position);
+      hash.add(tree.radius);
+    }
+    inputs.emplace_back(fmt::format("plants[{}].skeleton.contents", i),
+                        fmt::format("{:016x}", hash.digest()));
+  }
+  // How fast given skeletons grow; not among the keys of plants, as the plants are the same.
+  if (std::any_of(scene.plants.begin(), scene.plants.end(),
+                  [](const PlantSpec& p) { return p.skeleton.has_value(); }))
+    inputs.emplace_back("skeletons.iterations",
+                        fmt::format("{}", scene.skeleton_iterations.value_or(scene.iterations)));
   for (std::size_t i = 0; i < scene.fields.size(); ++i) {
     if (scene.fields[i].file.empty()) continue;
     const VectorLattice& grid = site.fields[i].grid;

@@ -17,7 +17,8 @@ namespace espalier::scenes {
 inline constexpr const char* kStateFile = "growth.state";
 
 /// What a scene's growth follows from: its keys but its name, exposure, iterations, images, cameras and the
-/// hour of its shadows, and what its meshes hold.
+/// hour of its shadows, and what its meshes and skeletons hold; where there are skeletons also the iterations
+/// in which they grow whole.
 sim::Inputs inputsOf(const Scene& scene, const Site& site);
 
 /// What must be the same.

@@ -173,7 +173,7 @@ std::string soonStopped(const std::vector<const Plant*>& stand) {
   sim::OutcomeCounts ends{};
   for (const Plant* plant : stand) {
     segments.push_back(plant->segments);
-    if (plant->segments == 0 || plant->segments >= kFew) continue;
+    if (plant->given || plant->segments == 0 || plant->segments >= kFew) continue;
     poor.push_back(plant);
     for (std::size_t i = 0; i < ends.size(); ++i) ends[i] += plant->tally.sites[i];
   }

@@ -162,7 +162,7 @@ std::vector<NamedPoints> crownsOf(const Scene& scene, const Site& site,
   for (std::size_t i = 0; i < scene.plants.size(); ++i) {
     const PlantSpec& plant = scene.plants[i];
     const auto& crown = plant.rules->colonization.crown;
-    if (!crown || plant.rules->propagate != rules::Propagate::colonization) continue;
+    if (!crown || !colonizes(plant)) continue;
     const Naming say(crownOf(plant.name), plant.rules_place, scene, site.world, warnings);
     const sim::Strewing strewing = rules::strewingOf(crown->strewing);
     count += static_cast<double>(strewing.count) * static_cast<double>(plantings.at(i).seeds.size());

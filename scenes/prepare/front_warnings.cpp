@@ -74,7 +74,7 @@ std::vector<Problem> frontWarnings(const Scene& scene, const sim::Frame& frame,
   std::vector<Problem> warnings;
   for (const PlantSpec& plant : scene.plants) {
     const rules::RuleSet& trunk = *plant.rules;
-    if (trunk.propagate != rules::Propagate::colonization) continue;
+    if (!colonizes(plant)) continue;
     const std::string wanted = attractorsFor(plant);
     const auto named = std::find_if(attractors.begin(), attractors.end(),
                                     [&](const NamedPoints& points) { return points.name == wanted; });

@@ -4,10 +4,12 @@
 
 #include <bit>
 
+#include "rules/growth/given_skeleton.h"
 #include "rules/growth/make_process.h"
 #include "rules/growth/shared_guide.h"
 #include "scenes/prepare/in_scene.h"
 #include "scenes/prepare/unknown_regions.h"
+#include "scenes/problem.h"
 #include "sim/base/error.h"
 #include "sim/base/random.h"
 
@@ -80,6 +82,45 @@ std::shared_ptr<const rules::RuleSet> rulesOf(const PlantSpec& spec) {
   return std::make_shared<const rules::RuleSet>(std::move(own));
 }
 
+/// A tree of a skeleton file in the world's voxels. Throws where it does not stand in the world.
+rules::GivenTree givenTree(const FileTree& tree, const SkeletonSpec& spec, const sim::Frame& frame) {
+  rules::GivenTree given;
+  given.parent.assign(tree.parent.begin(), tree.parent.end());
+  for (std::size_t n = 0; n < tree.position.size(); ++n) {
+    const sim::Vec3 at_m = tree.position[n];
+    given.position_vx.push_back(sim::voxelFromWorld(frame, at_m));
+    if (rules::standsIn(frame.size, given.position_vx.back())) continue;
+    const sim::Vec3 low = sim::worldFromVoxel(frame, sim::Vec3(-0.5)),
+                    high = sim::worldFromVoxel(frame, sim::Vec3(frame.size) - 0.5);
+    throw sim::InputError(fmt::format(
+        "{}: node {}{} stands at [{:.4g}, {:.4g}, {:.4g}] m, outside of the world, which reaches from "
+        "[{:.4g}, {:.4g}, "
+        "{:.4g}] to [{:.4g}, {:.4g}, {:.4g}]; expected another scale, rotate or translate, or a larger world "
+        "(bounds, "
+        "margin)",
+        spec.told, tree.number[n], tree.name.empty() ? "" : fmt::format(" of {}", inQuotes(tree.name)),
+        at_m.x, at_m.y, at_m.z, low.x, low.y, low.z, high.x, high.y, high.z));
+  }
+  for (const float radius_m : tree.radius)
+    given.radius_vx.push_back(static_cast<float>(radius_m / frame.voxel_m));
+  return given;
+}
+
+/// Each tree from its root.
+sim::Planting given(const PlantSpec& spec, const std::vector<FileTree>& trees, const Scene& scene,
+                    const sim::Frame& frame) {
+  std::vector<rules::GivenTree> all;
+  std::vector<sim::Vec3> roots_vx;
+  for (const FileTree& tree : trees) {
+    all.push_back(givenTree(tree, *spec.skeleton, frame));
+    roots_vx.push_back(all.back().position_vx.front());
+  }
+  return {spec.name,
+          rules::makeGivenSkeleton(spec.rules, frame, std::move(all),
+                                   scene.skeleton_iterations.value_or(scene.iterations)),
+          sim::seedsAt(frame, roots_vx), true};
+}
+
 sim::Planting plant(const PlantSpec& spec, const std::vector<sim::Vec3>& listed_m, const Site& site,
                     std::uint64_t seed) {
   return {spec.name, rules::makeProcess(rulesOf(spec), site.world.frame()),
@@ -92,9 +133,12 @@ std::vector<sim::Planting> makePlantings(const Scene& scene, const Site& site) {
   std::vector<sim::Planting> plantings;
   inScene(scene, [&] {
     requireRegionsToScatterOver(scene, site.world);
-    for (std::size_t i = 0; i < scene.plants.size(); ++i)
-      plantings.push_back(
-          plant(scene.plants[i], site.listed_m.at(scene.attractors.size() + i), site, scene.seed));
+    for (std::size_t i = 0; i < scene.plants.size(); ++i) {
+      const PlantSpec& spec = scene.plants[i];
+      plantings.push_back(spec.skeleton
+                              ? given(spec, site.skeletons.at(i), scene, site.world.frame())
+                              : plant(spec, site.listed_m.at(scene.attractors.size() + i), site, scene.seed));
+    }
   });
   return plantings;
 }

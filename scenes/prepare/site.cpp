@@ -11,6 +11,7 @@
 #include "scenes/clean_text.h"
 #include "scenes/import/mesh_import.h"
 #include "scenes/import/points_reader.h"
+#include "scenes/import/skeleton_reader.h"
 #include "scenes/import/world_of.h"
 #include "scenes/lights.h"
 #include "scenes/prepare/in_scene.h"
@@ -38,6 +39,14 @@ void addFiles(const SceneMesh& spec, const std::vector<sim::InputFile>& read, Me
     if (std::find(to.files.begin(), to.files.end(), named) == to.files.end())
       to.files.push_back(std::move(named));
   }
+}
+
+/// Adds a file that stands alone, called as the scene's file calls it.
+void addFile(const std::filesystem::path& path, const std::string& told, sim::InputFile read, MeshFiles& to) {
+  if (!told.empty()) read.name = told;
+  to.paths.push_back(path);
+  if (std::find(to.files.begin(), to.files.end(), read) == to.files.end())
+    to.files.push_back(std::move(read));
 }
 
 /// Those that stand in the world, and those that do not.
@@ -85,11 +94,22 @@ std::vector<std::vector<sim::Vec3>> readListed(const Scene& scene, MeshFiles& fi
     if (table.file.empty()) return;
     sim::InputFile read;
     all.back() = readPoints(table.file, table.type, read);
-    if (!table.told.empty()) read.name = table.told;
-    files.paths.push_back(table.file);
-    if (std::find(files.files.begin(), files.files.end(), read) == files.files.end())
-      files.files.push_back(std::move(read));
+    addFile(table.file, table.told, std::move(read), files);
   });
+  return all;
+}
+
+std::vector<std::vector<FileTree>> readPlaced(const Scene& scene, MeshFiles& files) {
+  std::vector<std::vector<FileTree>> all;
+  for (const PlantSpec& plant : scene.plants) {
+    all.emplace_back();
+    if (!plant.skeleton) continue;
+    const SkeletonSpec& spec = *plant.skeleton;
+    sim::InputFile read;
+    all.back() = readSkeletons(spec.file, read);
+    placeSkeletons(all.back(), spec.scale, spec.rotate_deg, spec.translate_m);
+    addFile(spec.file, spec.told, std::move(read), files);
+  }
   return all;
 }
 
@@ -156,6 +176,7 @@ Site makeSite(const Scene& scene) {
   std::vector<Problem> warnings;
   Meshes meshes = readMeshes(scene, files, warnings);
   std::vector<std::vector<sim::Vec3>> listed_m = readListed(scene, files);
+  std::vector<std::vector<FileTree>> skeletons = readPlaced(scene, files);
   std::vector<FieldVolume> fields = readFields(scene, files, warnings);
   Site made = inScene(scene, [&]() -> Site {
     std::vector<sim::FillReport> fills;
@@ -167,12 +188,11 @@ Site makeSite(const Scene& scene) {
                           sky = sim::makeSky(skySettings(scene.sky));
                           sun = makeSun(scene.sun);
                         });
-    return {std::move(meshes.tiled), std::move(meshes.shapes),
-            std::move(listed_m),     std::move(fields),
-            std::move(fills),        std::move(*world),
-            std::move(sky),          randomSky(scene.sky, scene.seed),
-            std::move(sun),          std::move(files.files),
-            std::move(files.paths),  std::move(warnings)};
+    return {std::move(meshes.tiled), std::move(meshes.shapes), std::move(listed_m),
+            std::move(skeletons),    std::move(fields),        std::move(fills),
+            std::move(*world),       std::move(sky),           randomSky(scene.sky, scene.seed),
+            std::move(sun),          std::move(files.files),   std::move(files.paths),
+            std::move(warnings)};
   });
   findRegions(scene, made);
   return made;

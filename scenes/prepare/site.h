@@ -3,6 +3,7 @@
 #include <stdexcept>
 #include <vector>
 
+#include "scenes/import/skeleton_forest.h"
 #include "scenes/prepare/fields.h"
 #include "scenes/problem.h"
 #include "scenes/scene.h"
@@ -27,13 +28,15 @@ struct Site {
   std::vector<sim::TiledMesh> meshes;  ///< as placed, world metres
   std::vector<sim::Mesh> shapes;       ///< placed likewise, but no part of the world: for attractors
   std::vector<std::vector<sim::Vec3>> listed_m;  ///< what tables of points list, as forEachTable has them
+  std::vector<std::vector<FileTree>> skeletons;  ///< of each of the scene's plants, placed: in metres
   std::vector<FieldVolume> fields;               ///< of each of the scene's fields
   std::vector<sim::FillReport> fills;            ///< of the solid ones
   sim::World world;                              ///< with nothing but the meshes in it
   sim::Sky sky;
   std::optional<sim::RandomSky> random_sky;  ///< where the scene asks for it: instead of sky's directions
   sim::Sun sun;
-  std::vector<sim::InputFile> mesh_files;  ///< what meshes, points and volumes were read from, each once
+  std::vector<sim::InputFile>
+      mesh_files;  ///< what meshes, points, skeletons and volumes were read from, each once
   std::vector<std::filesystem::path> mesh_paths;  ///< where those are
   std::vector<Problem> warnings;                  ///< of what mesh files name and have not, and of fields
 };

@@ -101,7 +101,7 @@ void checkFronts(const Scene& scene, const rules::Check::Given&, const rules::Ch
   const std::vector<std::string> attractors = namesOf(scene.attractors), fields = namesOf(scene.fields);
   for (std::size_t i = 0; i < scene.plants.size(); ++i) {
     const auto& rules = scene.plants[i].rules;
-    if (!rules || rules->propagate != rules::Propagate::colonization) continue;
+    if (!rules || !colonizes(scene.plants[i])) continue;
     const std::string own = crownOf(scene.plants[i].name);
     if (rules->colonization.crown && std::find(attractors.begin(), attractors.end(), own) != attractors.end())
       complain("attractors." + own,

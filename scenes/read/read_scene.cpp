@@ -3,7 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
+#include <initializer_list>
+#include <string_view>
 #include <system_error>
 
 #include "scenes/clean_text.h"
@@ -29,12 +30,12 @@ void fillNames(Scene& scene) {
   }
 }
 
-bool isKnownMesh(const fs::path& file) {
-  constexpr std::array<std::string_view, 5> kEndings{".obj", ".gltf", ".glb", ".ply", ".stl"};
+/// Whether a file's name ends in one of these, in letters of any case.
+bool endsIn(const fs::path& file, std::initializer_list<std::string_view> endings) {
   auto ending = file.extension().string();
   std::transform(ending.begin(), ending.end(), ending.begin(),
                  [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
-  return std::find(kEndings.begin(), kEndings.end(), ending) != kEndings.end();
+  return std::find(endings.begin(), endings.end(), ending) != endings.end();
 }
 
 /// Turns the meshes' paths, so far as the file has them, into paths from here.
@@ -47,7 +48,7 @@ void findMeshes(Scene& scene, const YamlNode& root, const rules::Check::Complain
     mesh.file = beside(root, written);
     mesh.told = toldFrom(scene.file, mesh.file, fs::path(written).is_absolute());
     std::error_code error;
-    if (!isKnownMesh(mesh.file)) {
+    if (!endsIn(mesh.file, {".obj", ".gltf", ".glb", ".ply", ".stl"})) {
       complain(key, fmt::format("{} is no mesh file that is known; expected .obj, .gltf, .glb, .ply or .stl",
                                 inQuotes(written)));
     } else if (!mesh.optional && !fs::is_regular_file(mesh.file, error)) {
@@ -91,6 +92,25 @@ void findVolumes(Scene& scene, const YamlNode& root, const rules::Check::Complai
   }
 }
 
+/// The same for skeletons.
+void findSkeletons(Scene& scene, const YamlNode& root, const rules::Check::Complain& complain) {
+  for (std::size_t i = 0; i < scene.plants.size(); ++i) {
+    if (!scene.plants[i].skeleton || scene.plants[i].skeleton->file.empty()) continue;
+    SkeletonSpec& skeleton = *scene.plants[i].skeleton;
+    const auto key = fmt::format("plants[{}].skeleton.file", i);
+    const auto written = skeleton.file.string();
+    skeleton.file = beside(root, written);
+    skeleton.told = toldFrom(scene.file, skeleton.file, fs::path(written).is_absolute());
+    std::error_code error;
+    if (!endsIn(skeleton.file, {".json", ".obj"})) {
+      complain(key,
+               fmt::format("{} is no skeleton that is known; expected .json or .obj", inQuotes(written)));
+    } else if (!fs::is_regular_file(skeleton.file, error)) {
+      complain(key, fmt::format("there is no skeleton {}; expected one", skeleton.file.string()));
+    }
+  }
+}
+
 Scene sceneOf(const Document& document, const fs::path& path, Problems& problems) {
   const YamlNode& root = *document.root;
   static const auto paths = pathsOf(sceneTable());
@@ -117,6 +137,8 @@ Scene sceneOf(const Document& document, const fs::path& path, Problems& problems
       {{}, [&](const void*, const auto&, const auto& complain) { findPoints(scene, root, complain); }});
   checks.push_back(
       {{}, [&](const void*, const auto&, const auto& complain) { findVolumes(scene, root, complain); }});
+  checks.push_back(
+      {{}, [&](const void*, const auto&, const auto& complain) { findSkeletons(scene, root, complain); }});
   fillNames(scene);
   scene.region_mentions = loader.mentions();
   scene.read_files.push_back({cleanText(path.filename().string()), "scene", document.hash});

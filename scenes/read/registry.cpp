@@ -23,8 +23,24 @@ constexpr Limits kPositive{0.0, 1e6, true};
 constexpr Limits kTypes{0.0, 1e6};
 constexpr std::size_t kMostEntries = 1000;
 
+/// How what a file holds is placed.
+template <class Placed>
+void addPlacement(TableOf<Placed>& table) {
+  table
+      .number(
+          "scale", &Placed::scale,
+          {.unit = "factor", .limits = kPositive, .meaning = "Metres for a unit of the file; applied first."})
+      .point("rotate", &Placed::rotate_deg,
+             {.unit = kDegrees,
+              .limits = {-360.0, 360.0},
+              .meaning = "About x, then y, then z; applied second."})
+      .place("translate", &Placed::translate_m,
+             {.unit = kMetres, .limits = kCoordinate, .meaning = "Applied last."});
+}
+
 std::shared_ptr<const Table> meshKeys() {
-  return TableOf<SceneMesh>()
+  TableOf<SceneMesh> table;
+  table
       .file("file", &SceneMesh::file,
             {.meaning = "The mesh: .obj, .gltf, .glb, .ply or .stl.", .required = true})
       .name("name", &SceneMesh::name,
@@ -37,17 +53,9 @@ std::shared_ptr<const Table> meshKeys() {
       .flag("tiled", &SceneMesh::tiled,
             {.meaning = "Whether it stands in the world; otherwise it is a shape for attractors alone."})
       .flag("optional", &SceneMesh::optional,
-            {.meaning = "Where the file is missing, the scene is skipped instead of being an error."})
-      .number(
-          "scale", &SceneMesh::scale,
-          {.unit = "factor", .limits = kPositive, .meaning = "Metres for a unit of the file; applied first."})
-      .point("rotate", &SceneMesh::rotate_deg,
-             {.unit = kDegrees,
-              .limits = {-360.0, 360.0},
-              .meaning = "About x, then y, then z; applied second."})
-      .place("translate", &SceneMesh::translate_m,
-             {.unit = kMetres, .limits = kCoordinate, .meaning = "Applied last."})
-      .colour("colour", &SceneMesh::colour, {.meaning = "Instead of the file's own colours."})
+            {.meaning = "Where the file is missing, the scene is skipped instead of being an error."});
+  addPlacement(table);
+  return table.colour("colour", &SceneMesh::colour, {.meaning = "Instead of the file's own colours."})
       .shared();
 }
 
@@ -117,6 +125,15 @@ std::shared_ptr<const Table> seedKeys() {
       .shared();
 }
 
+std::shared_ptr<const Table> skeletonKeys() {
+  TableOf<SkeletonSpec> table;
+  table.file("file", &SkeletonSpec::file,
+             {.meaning = "Its trees: the skeleton.json of a run, nodes in JSON, or the lines of an .obj.",
+              .required = true});
+  addPlacement(table);
+  return table.shared();
+}
+
 std::shared_ptr<const Table> plantKeys() {
   const auto scatter =
       TableOf<Scatter>()
@@ -149,6 +166,9 @@ std::shared_ptr<const Table> plantKeys() {
                       "their type."})
       .whole("type", [](auto& p) -> auto& { return p.table.type; },
              {.limits = kTypes, .meaning = "Those points of the table that are of this type alone."})
+      .section("skeleton", &PlantSpec::skeleton, skeletonKeys(),
+               {.meaning = "In place of seeds: trees that somebody else made, which the rules dress."},
+               "file")
       .shared();
 }
 

@@ -112,11 +112,21 @@ void checkPlants(const Scene& scene, const Given& given, const Complain& complai
   for (std::size_t p = 0; p < scene.plants.size(); ++p) {
     const auto& plant = scene.plants[p];
     const std::string path = fmt::format("plants[{}]", p);
+    if (plant.skeleton) {
+      for (const char* const key : {"seeds", "scatter", "points", "type"}) {
+        if (given(path + "." + key))
+          complain(path + "." + key,
+                   fmt::format(
+                       "{} means nothing to a plant with a skeleton, which starts at its roots; expected one "
+                       "of them",
+                       key));
+      }
+      continue;
+    }
     if (plant.seeds.empty() && !plant.scatter && plant.table.file.empty()) {
-      complain(
-          path,
-          "a plant without seeds; expected seeds: [[x, y, z], ...], scatter: {region: name, count: 10} or "
-          "points: FILE");
+      complain(path,
+               "a plant without seeds; expected seeds: [[x, y, z], ...], scatter: {region: name, count: 10}, "
+               "points: FILE or skeleton: FILE");
     }
     if (plant.table.file.empty() && given(path + ".type"))
       complain(path + ".type", "type means nothing without points; expected it with a table of points");

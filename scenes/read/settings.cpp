@@ -157,6 +157,9 @@ Settings settings(const Scene& scene) {
   for (auto& mesh : beside.meshes) place(mesh.file);
   forEachTable(beside, [&](PointTable& table, const std::string&) { place(table.file); });
   for (auto& field : beside.fields) place(field.file);
+  for (auto& plant : beside.plants) {
+    if (plant.skeleton) place(plant.skeleton->file);
+  }
   return settings(sceneTable(), &beside);
 }
 

@@ -26,10 +26,8 @@ std::vector<UsedField> usedFields(const Scene& scene) {
   for (const FieldSpec& field : scene.fields) {
     UsedField used{field.name, {}};
     for (std::size_t i = 0; i < scene.plants.size(); ++i) {
-      const rules::RuleSet& rules = *scene.plants[i].rules;
-      const auto& names = rules.colonization.fields;
-      if (rules.propagate == rules::Propagate::colonization &&
-          std::find(names.begin(), names.end(), field.name) != names.end())
+      const auto& names = scene.plants[i].rules->colonization.fields;
+      if (colonizes(scene.plants[i]) && std::find(names.begin(), names.end(), field.name) != names.end())
         used.uses.push_back({i, attractorsFor(scene.plants[i])});
     }
     fields.push_back(std::move(used));

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <set>
+#include <numeric>
 #include <tuple>
 #include <utility>
 
@@ -13,6 +13,7 @@
 #include "sim/base/stop.h"
 #include "sim/grow/claims.h"
 #include "sim/grow/pieces.h"
+#include "sim/grow/seeded.h"
 
 namespace espalier::sim {
 
@@ -27,34 +28,6 @@ struct Growing::Asked {
 };
 
 namespace {
-
-void requireFree(const World& world, const Planting& planting, Vec3 seed_vx) {
-  const Voxel v = voxelAt(seed_vx);
-  const Vec3 m = worldFromVoxel(world.frame(), seed_vx);
-  if (!contains(world.frame().size, v)) {
-    throw InputError(fmt::format("a seed of '{}' at [{:.3f}, {:.3f}, {:.3f}] lies outside the world",
-                                 planting.name, m.x, m.y, m.z));
-  }
-  if (const PartId part = world.partAt(v); part != kFree) {
-    throw InputError(
-        fmt::format("a seed of '{}' at [{:.3f}, {:.3f}, {:.3f}] lies inside '{}' ({}); move it into the open",
-                    planting.name, m.x, m.y, m.z, world.part(part).object, world.part(part).region));
-  }
-}
-
-void requireSeeds(const World& world, const std::vector<Planting>& plantings) {
-  std::set<std::pair<std::string, std::uint64_t>> keys;  // two of one name may be two plantings
-  for (const Planting& planting : plantings) {
-    for (const Seed& seed : planting.seeds) {
-      requireFree(world, planting, seed.at_vx);
-      if (!keys.emplace(planting.name, seed.key).second)
-        throw InputError(fmt::format(
-            "two seeds of '{}' have the same key, or stand in one place; expected keys that differ, "
-            "places, or names of the plants",
-            planting.name));
-    }
-  }
-}
 
 /// What the process of a planting did against its contract.
 [[noreturn]] void broken(const Planting& planting, const std::string& what) {
@@ -127,39 +100,6 @@ Growing::Growing(World& world, std::vector<Planting> plantings, GrowthSettings s
     }
   }
 }
-
-namespace {
-
-/// Plants as seeds: a node each, and parts in the world.
-Growth seeded(World& world, const std::vector<Planting>& plantings, const GrowthSettings& settings) {
-  requireProcesses(plantings);
-  requireSeeds(world, plantings);
-  Growth growth;
-  growth.commons = settings.commons;
-  growth.recorded = settings.record_attempts;
-  for (const Planting& planting : plantings) {
-    growth.stands.push_back({growth.plants.size(), planting.seeds.size(), {}});
-    for (std::size_t i = 0; i < planting.seeds.size(); ++i) {
-      const int number = static_cast<int>(growth.plants.size());
-      Plant plant = planting.process->seedling();
-      plant.name = planting.seeds.size() == 1 ? planting.name : fmt::format("{} {}", planting.name, i + 1);
-      plant.key = planting.seeds[i].key;
-      plant.stem_part = world.addPart({plant.name, "stem", PartKind::stem, number});
-      for (const ElementShape& shape : plant.shapes) {
-        plant.element_parts.push_back(world.addPart({plant.name, shape.name, PartKind::element, number}));
-      }
-      plant.skeleton.parent.push_back(kNoNode);
-      plant.skeleton.position_vx.push_back(planting.seeds[i].at_vx);
-      plant.skeleton.born.push_back(0);
-      for (auto& [name, values] : plant.skeleton.columns) values.push_back(0.0f);
-      growth.plants.push_back(std::move(plant));
-    }
-  }
-  growth.tallies.resize(growth.plants.size());
-  return growth;
-}
-
-}  // namespace
 
 Growing::Growing(World& world, std::vector<Planting> plantings, GrowthSettings settings)
     : Growing(world, plantings, settings, seeded(world, plantings, settings)) {
@@ -344,12 +284,12 @@ void Growing::acceptAll(std::vector<Asked>& asked) {
   claims_->clear();
 }
 
-void Growing::settleAll(const std::vector<Asked>& asked) {
+void Growing::settleAll(std::span<const std::size_t> plantings, const std::vector<Asked>& asked) {
   std::vector<Verdict> verdicts;
   for (const Asked& a : asked)
     verdicts.push_back({a.site, &a.proposal, a.proposal.outcome, a.node, a.first_element, a.elements});
   std::size_t first = 0;
-  for (std::size_t i = 0; i < plantings_.size(); ++i) {
+  for (const std::size_t i : plantings) {
     std::size_t last = first;
     while (last < asked.size() && asked[last].planting == i) ++last;
     plantings_[i].process->settle(view(i), std::span(verdicts).subspan(first, last - first),
@@ -365,20 +305,34 @@ std::size_t Growing::alive() const {
   return sum;
 }
 
-bool Growing::step() {
-  const StopScope in_force(settings_.stop);
-  throwIfStopped();
-  if (growth_.iterations >= settings_.iterations || alive() == 0 || !nextFits()) return false;
+/// Asks those plantings once; in a later round of an iteration those that said that they go on.
+void Growing::round(std::span<const std::size_t> plantings, bool later) {
   std::vector<Asked> asked;
-  for (std::size_t i = 0; i < plantings_.size(); ++i) {
+  for (const std::size_t i : plantings) {
+    const std::size_t before = asked.size();
     for (const Site& site : dueOf(i, growth_.stands[i].memory, growth_.commons))
       asked.push_back({i, growth_.stands[i].first + static_cast<std::size_t>(site.plant), site});
+    if (later && asked.size() == before) broken(plantings_[i], "goes on and names no site");
   }
   proposeAll(asked);
   proposals_ += asked.size();
   fits_.asked(asked.size());
   acceptAll(asked);
-  settleAll(asked);
+  settleAll(plantings, asked);
+}
+
+bool Growing::step() {
+  const StopScope in_force(settings_.stop);
+  throwIfStopped();
+  if (growth_.iterations >= settings_.iterations || alive() == 0 || !nextFits()) return false;
+  std::vector<std::size_t> turn(plantings_.size());
+  std::iota(turn.begin(), turn.end(), std::size_t{0});
+  for (bool later = false; !turn.empty(); later = true) {
+    round(turn, later);
+    std::erase_if(turn, [&](std::size_t i) {
+      return !plantings_[i].process->goesOn(view(i), growth_.stands[i].memory);
+    });
+  }
   ++growth_.iterations;
   if (settings_.progress) {
     settings_.progress(

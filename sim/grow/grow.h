@@ -2,6 +2,7 @@
 #include <cstdint>
 #include <functional>
 #include <optional>
+#include <span>
 #include <stop_token>
 #include <vector>
 
@@ -96,7 +97,8 @@ class Growing {
   void acceptAll(std::vector<Asked>& asked);
   bool hindered(const Asked& asked, std::uint32_t before);
   void place(Asked& asked, std::uint32_t before, std::vector<TiledVoxel>& edit);
-  void settleAll(const std::vector<Asked>& asked);
+  void settleAll(std::span<const std::size_t> plantings, const std::vector<Asked>& asked);
+  void round(std::span<const std::size_t> plantings, bool later);
 
   World& world_;
   std::vector<Planting> plantings_;

@@ -28,6 +28,7 @@ struct Planting {
   std::string name;
   std::shared_ptr<const Process> process;  ///< never null
   std::vector<Seed> seeds;                 ///< inside the world, in free voxels
+  bool anywhere = false;                   ///< seeds may stand inside things too
 };
 
 /// Throws BrokenContract where one has no process.

@@ -31,6 +31,10 @@ struct Skeleton {
   NodeId size() const { return static_cast<NodeId>(parent.size()); }
 };
 
+/// The column of radii that are given, of the segment that ends in each node: what models then take, in place
+/// of what the plant's girth makes of its skeleton. A seed's own means nothing.
+inline constexpr const char* kRadiusColumn = "radius_vx";
+
 /// The column of that name; null where the plant's process keeps none.
 inline const std::vector<float>* find(const Skeleton& skeleton, std::string_view name) {
   const auto at = skeleton.columns.find(name);

@@ -146,7 +146,8 @@ struct Wants {
 ///   due        serially, planting by planting; may be parallel inside;
 ///   propose    in parallel over all sites of all plantings, with world, plants, memory and commons frozen;
 ///   settle     serially, planting by planting, after the proposals were accepted one by one in the order
-///              (planting, plant, node, number) against what was claimed before them; may be parallel inside.
+///              (planting, plant, node, number) against what was claimed before them; may be parallel inside;
+///   goesOn     those that have more to place in this iteration are asked all of it again.
 class Process {
  public:
   virtual ~Process() = default;
@@ -175,6 +176,11 @@ class Process {
   /// of a plant in this order too; its iteration is still the one in which they were proposed.
   virtual void settle(const StandView& stand, std::span<const Verdict> verdicts, Columns& memory,
                       Commons& commons) const = 0;
+  /// Whether it would place more within this very iteration, on what has just grown: then the house asks it
+  /// again, due, propose and settle, before the iteration ends. Its due must then name a site.
+  virtual bool goesOn(const StandView& stand, const Columns& memory) const {
+    return static_cast<void>(stand), static_cast<void>(memory), false;
+  }
   /// Sites that may still grow, now or later. Growth ends when no process has any.
   virtual std::size_t alive(const Columns& memory, const Commons& commons) const = 0;
 };

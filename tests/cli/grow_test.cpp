@@ -30,9 +30,9 @@ TEST_F(Plot, WritesTheModelTheWorldThePicturesAndTheReport) {
     EXPECT_NE(ran.output.find(name), std::string::npos) << "the program does not name " << name;
   }
   for (const char* name :
-       {"plant.glb", "world.vdb", "report.json", "vines.png", "sun_exposure.png", "sun_exposure.exr",
-        "sky_exposure.png", "sky_exposure.exr", "threshold.png", "shadow_matte.png", "surface_colour.png",
-        "first_pass.png", "section.png", "contact_sheet.png"}) {
+       {"plant.glb", "skeleton.json", "world.vdb", "report.json", "vines.png", "sun_exposure.png",
+        "sun_exposure.exr", "sky_exposure.png", "sky_exposure.exr", "threshold.png", "shadow_matte.png",
+        "surface_colour.png", "first_pass.png", "section.png", "contact_sheet.png"}) {
     EXPECT_TRUE(names.contains(name)) << name;
   }
   const json r = report();
@@ -106,8 +106,8 @@ TEST_F(Plot, EveryByteIsTheSameOnOneTwoAndFiveThreads) {
   other.erase("run");
   EXPECT_NE(first, other);
   const auto others = files(scratch_.path("other"));
-  for (const char* name :
-       {"plant.glb", "world.vdb", "growth.state", "vines.png", "sky_exposure.png", "sky_exposure.exr"})
+  for (const char* name : {"plant.glb", "skeleton.json", "world.vdb", "growth.state", "vines.png",
+                           "sky_exposure.png", "sky_exposure.exr"})
     EXPECT_FALSE(one.at(name) == others.at(name)) << name;
 }
 

@@ -8,7 +8,7 @@
 #include "render/model/drawn_leaf.h"
 #include "tests/fuzz/random_files.h"
 
-/// What drawn scenes read beside their rules: meshes, points and volumes.
+/// What drawn scenes read beside their rules: meshes, points, volumes and skeletons.
 namespace espalier::fuzz {
 
 /// A floor, a wall, a box and a sloping quad between -0.5 and 0.5, each a group and a material of its own.
@@ -87,6 +87,29 @@ std::string RandomFiles::writeVolume() {
   file.write({grid});
   file.close();
   return "winds.vdb";
+}
+
+/// A tree about the middle, as lines or as nodes.
+std::string RandomFiles::writeSkeleton() {
+  const bool lines = numbers_.chance(0.5), thick = numbers_.chance(0.5);
+  std::string text = lines ? "" : "[";
+  const int nodes = numbers_.whole(2, 60);
+  for (int n = 0; n < nodes; ++n) {
+    sim::Vec3 at = world_.middle_m;
+    for (int axis = 0; axis < 3; ++axis) at[axis] += numbers_.uniform(-0.3, 0.3) * world_.extent_m()[axis];
+    const int parent = n == 0 ? -1 : numbers_.whole(0, n - 1);
+    if (lines) {
+      text += fmt::format("v {} {} {}\n", at.x, at.y, at.z);
+      if (n > 0) text += fmt::format("l {} {}\n", parent + 1, n + 1);
+    } else {
+      text += fmt::format(R"({}{{"parent": {}, "position": [{}, {}, {}]{}}})", n == 0 ? "" : ",\n", parent,
+                          at.x, at.y, at.z,
+                          thick ? fmt::format(R"(, "radius": {})", 0.3 * world_.voxel_m / (1 + n)) : "");
+    }
+  }
+  const std::string name = lines ? "sticks.obj" : "nodes.json";
+  std::ofstream(folder_ / name) << text << (lines ? "" : "]");
+  return name;
 }
 
 }  // namespace espalier::fuzz

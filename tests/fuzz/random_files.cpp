@@ -176,6 +176,13 @@ void RandomFiles::knowSpecials() {
   text("plants[].points",
        [this] { return numbers_.chance(0.3) ? writePoints("starts.csv", 1, 0.45) : std::string(); });
   text("plants[].type", [this] { return fmt::format("{}", numbers_.whole(0, 2)); });
+  // Scaled about the world's origin it mostly stays in the world.
+  text("plants[].skeleton.file", [this] { return writeSkeleton(); });
+  text("plants[].skeleton.scale", [this] { return fmt::format("{}", numbers_.uniform(0.5, 1.2)); });
+  text("plants[].skeleton.translate", [this] {
+    const sim::Vec3 by = numbers_.uniform(-0.1, 0.1) * world_.extent_m();
+    return ValueDrawer::point(by.x, by.y, by.z);
+  });
   text("fields.<name>.file", [this] { return writeVolume(); });
   text("fields.<name>.grid", [this] { return std::string(numbers_.chance(0.9) ? "up" : "down"); });
   text("attractors.<name>.spacing",
@@ -229,6 +236,7 @@ bool RandomFiles::wanted(const rules::Key& key, const std::string& path) {
   if (kAlways.contains(path)) return true;
   if (path == "scene:meshes") return world_.meshes;
   if (colonizes_ && kOfFronts.contains(path)) return true;
+  if (path == "scene:plants[].skeleton") return numbers_.chance(0.15);
   if (path == "scene:plants[].scatter" || path == "scene:meshes[].rotate")
     return world_.meshes && numbers_.chance(0.2);
   const bool holds_others = key.child || key.kind == Kind::rules || key.kind == Kind::regions;

@@ -80,6 +80,7 @@ class WholeProgram {
   /// Half of the way anew, and the rest from the state that was kept.
   void goOn(Scene scene, const Report& whole) {
     const int iterations = scene.iterations;
+    scene.skeleton_iterations = iterations;
     std::filesystem::remove_all(folder_);
     scene.iterations = iterations / 2;
     const Report half = grow(scene, false, {});

@@ -45,6 +45,17 @@ TEST(Radii, EveryForkFollowsThePipeModel) {
   EXPECT_GT(forks, 10);
 }
 
+TEST(Radii, ThatAreGivenAreTaken) {
+  sim::Skeleton skeleton;
+  skeleton.parent = {sim::kNoNode, 0, 1, 1, 0};
+  skeleton.position_vx = {{0, 0, 0}, {0, 1, 0}, {0, 2, 0}, {1, 2, 0}, {1, 0, 0}};
+  skeleton.born = {0, 0, 1, 1, 0};
+  skeleton.columns[sim::kRadiusColumn] = {0.0f, 2.0f, 3.0f, std::nanf(""), 0.5f};
+  EXPECT_EQ(stemRadii(skeleton, {.twig_vx = 0.25}), (std::vector<float>{2.0f, 2.0f, 3.0f, 0.25f, 0.5f}));
+  EXPECT_EQ(stemRadii(skeleton, {.by = StemGirth::By::age, .twig_vx = 0.25, .most_vx = 2.5}),
+            (std::vector<float>{2.0f, 2.0f, 2.5f, 0.25f, 0.5f}));
+}
+
 TEST(Radii, AreCappedOnlyWhereAsked) {
   const sim::Skeleton skeleton = tests::smallVine().skeleton;
   const auto capped = stemRadii(skeleton, {.twig_vx = 0.1, .most_vx = 0.15});

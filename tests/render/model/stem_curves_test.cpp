@@ -48,6 +48,22 @@ TEST(Spline, AStraightRowStaysStraight) {
   for (double t = 0.0; t <= 3.0; t += 0.125) expectNear(curve.position(t), Vec3(0, 2 * t, 0), 1e-12);
 }
 
+TEST(Spline, GoesByItsKnots) {
+  const std::vector<Vec3> points{{0, 0, 0}, {1, 2, 0}, {3, 1, 1}, {4, 4, 2}};
+  const std::vector<double> knots{0.0, 0.5, 3.0, 3.25};
+  const Spline curve(points, knots, Vec3(0, 3, 0));
+  EXPECT_EQ(curve.last(), 3.25);
+  for (std::size_t i = 0; i < points.size(); ++i) expectNear(curve.position(knots[i]), points[i], 1e-12);
+  expectNear(curve.derivative(0.0), Vec3(0, 3, 0), 1e-12);
+  const double h = 1e-5;
+  for (const double t : {0.5, 3.0}) {
+    expectNear(curve.derivative(t - 1e-9), curve.derivative(t + 1e-9), 1e-6);
+    const Vec3 below = (curve.derivative(t - h) - curve.derivative(t - 2 * h)) / h;
+    const Vec3 above = (curve.derivative(t + 2 * h) - curve.derivative(t + h)) / h;
+    expectNear(below, above, 2e-2);
+  }
+}
+
 TEST(Spline, TwoPointsAndOnePoint) {
   const Spline line(std::vector<Vec3>{{1, 1, 1}, {3, 1, 1}});
   expectNear(line.position(0.5), Vec3(2, 1, 1), 1e-12);
@@ -75,6 +91,22 @@ TEST(StemLine, KeepsOutOfWhatItsSegmentsLeaveFree) {  // around the edge of a wa
   // Wherever its segments go there is nothing to keep out of.
   expectNear(render::StemLine(points, {}, [](Vec3) { return true; }).position(0.4),
              render::StemLine(points, {}, {}).position(0.4), 1e-12);
+}
+
+TEST(StemLine,
+     KeepsByItsSegmentsWhereTheirLengthsDiffer) {  // a corner in steps of a hundredth, of long segments
+  const std::vector<Vec3> points{{0, 0, 0},      {20, 0, 0},    {20.2, 0.2, 0},
+                                 {20.4, 0.6, 0}, {20.4, 20, 0}, {20.3, 20.1, 0}};
+  const render::StemLine line(points, {}, {});
+  double farthest = 0.0;
+  for (int i = 0; i <= 5000; ++i) {
+    const double t = 0.001 * i;
+    const auto segment = std::min<std::size_t>(static_cast<std::size_t>(t), points.size() - 2);
+    const Vec3 a = points[segment], ab = points[segment + 1] - a, p = line.position(t);
+    const double along = std::clamp(glm::dot(p - a, ab) / glm::dot(ab, ab), 0.0, 1.0);
+    farthest = std::max(farthest, glm::distance(p, a + along * ab));
+  }
+  EXPECT_LT(farthest, 0.5);  // by equal times it would be 2.5
 }
 
 TEST(StemLine, ItsDerivativeGoesByNodes) {

@@ -115,6 +115,14 @@ Change crown(const std::string& solid, const std::string& from, const std::strin
           {from, to}};
 }
 
+/// A skeleton that somebody else made.
+Change given(const std::string& skeleton, const std::string& from, const std::string& to) {
+  return {
+      "state_hash",
+      {{"seeds: [[-0.4, 0.25, 0.25], {at: [-0.7, 0.25, 0.25], key: one}]", "skeleton: {" + skeleton + "}"}},
+      {from, to}};
+}
+
 /// A guide field.
 Change bent(const std::string& field, const std::string& from, const std::string& to) {
   return {"state_hash", {{"seed: 5", "seed: 5\nfields: {main: {" + field + "}}"}}, {from, to}};
@@ -192,6 +200,12 @@ const std::map<std::string, Change>& changes() {
        {"state_hash",
         {{"{name: vine,", "{name: vine, points: typed.csv, type: 1,"}},
         {"type: 1", "type: 2"}}},
+      {"plants[].skeleton.file", given("file: sticks.obj", "sticks.obj", "others.obj")},
+      {"plants[].skeleton.scale", given("file: sticks.obj, scale: 0.5", "scale: 0.5", "scale: 0.6")},
+      {"plants[].skeleton.rotate",
+       given("file: sticks.obj, rotate: [0, 0, 0]", "rotate: [0, 0, 0]", "rotate: [0, 90, 0]")},
+      {"plants[].skeleton.translate",
+       given("file: sticks.obj, translate: [0, 0, 0]", "translate: [0, 0, 0]", "translate: [0, 5 cm, 0]")},
       {"plants[].scatter.region",
        {"state_hash",
         {{"rules: vine.yaml", "rules: vine.yaml, scatter: {region: floor, count: 2}"}},
@@ -313,6 +327,8 @@ class EverySceneKey : public testing::TestWithParam<std::string> {
     tests::writeVolume(scratch_.path("two.vdb"), {grid("a", {0, 1, 0}), grid("b", {1, 0, 0})});
     scratch_.write("listed.csv", "0,0.5,0.4\n0.1,0.5,0.4\n");
     scratch_.write("typed.csv", "0,0.5,0.4,1\n0.1,0.5,0.4,2\n");
+    scratch_.write("sticks.obj", "v 0 0.2 0.3\nv 0 0.7 0.3\nv 0.3 1 0.5\nl 1 2 3\n");
+    scratch_.write("others.obj", "v 0 0.2 0.3\nv 0 0.8 0.3\nv 0.3 1 0.5\nl 1 2 3\n");
     scratch_.write("other.csv", "0,0.5,0.4\n0.1,0.6,0.4\n");
     scratch_.write("paint.mtl", "newmtl stone\nKd 0.5 0.5 0.5\nnewmtl brick\nKd 0.6 0.2 0.1\n");
     scratch_.write(

@@ -204,8 +204,11 @@ inline std::vector<std::string> badTexts(const rules::Key& key) {
               "{a: {nmae: x}}",
               "{a: {rules: {}, name: x}}",
               "{others: {nmae: x}}"};
-    case Kind::section:
-      return {"[[]]", "{unknown_key: 1}", "few_words"};
+    case Kind::section: {
+      const auto* const brief = rules::briefOf(key);
+      const bool any_text = brief != nullptr && brief->kind == Kind::file;
+      return {"[[]]", "{unknown_key: 1}", any_text ? "\"\"" : "few_words"};
+    }
     case Kind::entries:
       return {"{}", "few_words", "[{unknown_key: 1}]", "[[]]"};
     case Kind::named:

@@ -202,6 +202,77 @@ TEST(Growing, PlantsThatDoNotMeetDoNotKnowOfEachOther) {
               1e-9);  // a plant that was moved goes on as it was
 }
 
+/// Goes up by one voxel at a time, so many in each iteration.
+class Climber : public Creeper {
+ public:
+  explicit Climber(int in_each, bool names_sites = true) : in_each_(in_each), names_sites_(names_sites) {}
+  std::vector<sim::Site> due(const sim::StandView& stand, sim::Columns& memory,
+                             sim::Commons&) const override {
+    const sim::Skeleton& s = stand.plants[0].skeleton;
+    const bool later = (s.size() - 1) % in_each_ != 0;
+    sim::column<std::int32_t>(memory, "rounds").push_back(stand.iteration);
+    if (later && !names_sites_) return {};
+    return {{0, s.size() - 1, 0, s.position_vx.back()}};
+  }
+  sim::Proposal propose(const sim::SiteView&, const sim::Site& site, const sim::RandomKey&) const override {
+    const Vec3 to = site.at_vx + Vec3(0, 1, 0);
+    sim::Proposal proposal{.outcome = Outcome::grown};
+    proposal.segment = sim::ProposedSegment{to, {sim::voxelAt(to)}, sim::Passage::through, {1.0f}};
+    return proposal;
+  }
+  void settle(const sim::StandView&, std::span<const sim::Verdict>, sim::Columns&,
+              sim::Commons&) const override {}
+  bool goesOn(const sim::StandView& stand, const sim::Columns&) const override {
+    return (stand.plants[0].skeleton.size() - 1) % in_each_ != 0;
+  }
+  std::size_t alive(const sim::Columns&, const sim::Commons&) const override { return 1; }
+
+ private:
+  int in_each_;
+  bool names_sites_;
+};
+
+TEST(Growing, AProcessMayGoOnWithinAnIteration) {
+  sim::World world = tests::wallPlot();
+  const auto creeper = std::make_shared<Creeper>();
+  const auto growth =
+      sim::grow(world,
+                {{"climber", std::make_shared<Climber>(3), sim::seedsAt(world.frame(), {{10, 3, 10}})},
+                 {"creeper", creeper, sim::seedsAt(world.frame(), {{24, 4, 30}})}},
+                settings(4));
+  const sim::Skeleton& s = growth.plants[0].skeleton;
+  ASSERT_EQ(s.size(), 13);
+  for (int n = 1; n < 13; ++n) {
+    EXPECT_EQ(s.born[static_cast<std::size_t>(n)], (n - 1) / 3);
+    EXPECT_EQ(s.position_vx[static_cast<std::size_t>(n)], Vec3(10, 3 + n, 10));
+  }
+  EXPECT_EQ(sim::column<std::int32_t>(growth.stands[0].memory, "rounds"),
+            (std::vector<std::int32_t>{0, 0, 0, 1, 1, 1, 2, 2, 2, 3, 3, 3}));
+  // The others have one turn in each, and grow what they would without it.
+  sim::World other = tests::wallPlot();
+  const auto alone =
+      sim::grow(other, {{"creeper", creeper, sim::seedsAt(other.frame(), {{24, 4, 30}})}}, settings(4));
+  EXPECT_EQ(growth.plants[1].skeleton.position_vx, alone.plants[0].skeleton.position_vx);
+  // One that goes on and has nothing more would go on for ever.
+  sim::World third = tests::wallPlot();
+  EXPECT_THROW(sim::grow(third,
+                         {{"climber", std::make_shared<Climber>(3, false),
+                           sim::seedsAt(third.frame(), {{10, 3, 10}})}},
+                         settings(4)),
+               sim::BrokenContract);
+}
+
+TEST(Growing, SeedsStandInThingsOnlyWhereTheirPlantingMay) {
+  sim::World world = tests::wallPlot();
+  std::vector<sim::Planting> in_soil{
+      {"creeper", std::make_shared<Creeper>(), sim::seedsAt(world.frame(), {{10, 0, 10}})}};
+  EXPECT_THROW(sim::grow(world, in_soil, settings(1)), sim::InputError);
+  in_soil[0].anywhere = true;
+  EXPECT_EQ(sim::grow(world, in_soil, settings(1)).plants.size(), 1u);
+  in_soil[0].seeds = sim::seedsAt(world.frame(), {{10, -3, 10}});
+  EXPECT_THROW(sim::grow(world, in_soil, settings(1)), sim::InputError);
+}
+
 TEST(Growing, SeedsAreCheckedBeforeTheWorldIsTouched) {
   sim::World world = tests::wallPlot();
   const std::size_t parts = world.parts().size();

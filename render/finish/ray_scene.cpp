@@ -53,6 +53,7 @@ RayScene::RayScene(const ModelScene& scene) : device_(std::make_unique<Device>()
   };
   for (const PlantModel* plant : scene.plants) {
     add(plant->stems, SurfaceKind::stem);
+    add(plant->stalks, SurfaceKind::stem);
     for (const ModelMesh& element : plant->elements) add(element, SurfaceKind::blade);
   }
   // Built by one thread: then the tree, and with it the winner among surfaces in one place, is always the

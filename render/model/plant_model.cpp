@@ -56,6 +56,15 @@ void appendStalk(ModelMesh& mesh, const sim::PlacedElement& element, Vec3 stem_v
   appendTube(mesh, line, kStalkSides, piece);
 }
 
+void putAsInstances(PlantModel& model, const sim::Plant& plant, const sim::Frame& frame) {
+  model.instances.push_back(stalksAsInstances(model.stalks, kStalkSides));
+  for (std::size_t shape = 0; shape < model.elements.size(); ++shape)
+    model.instances.push_back(bladesAsInstances(model.elements[shape], plant, shape, frame));
+  std::erase_if(model.instances, [](const Instances& one) { return one.places.empty(); });
+  model.stalks = {};
+  model.elements.clear();
+}
+
 }  // namespace
 
 PlantModel modelPlant(const sim::Plant& plant, const sim::Frame& frame, const ModelOptions& options) {
@@ -81,6 +90,8 @@ PlantModel modelPlant(const sim::Plant& plant, const sim::Frame& frame, const Mo
   model.name = plant.name;
   model.stems.name = plant.name + " stems";
   model.stems.base_colour = plant.stem_colour;
+  model.stalks.name = plant.name + " stalks";
+  model.stalks.base_colour = plant.stem_colour;
   sim::throwIfStopped();
 
   for (const sim::ElementShape& shape : plant.shapes) {
@@ -105,9 +116,19 @@ PlantModel modelPlant(const sim::Plant& plant, const sim::Frame& frame, const Mo
     const auto stem_radius = static_cast<double>(at(radii, element.node));
     const double stalk_radius = 0.55 * plant.girth.twig_vx;
     if (glm::distance(stem, base) > stem_radius + stalk_radius) {
-      appendStalk(mesh, element, stem, base, stalk_radius, frame, young, piece);
+      appendStalk(model.stalks, element, stem, base, stalk_radius, frame, young, piece);
     }
   }
+  const auto orderOf = [&](const sim::PlacedElement& element) {
+    const bool on_plant = element.node >= 0 && element.node < plant.skeleton.size();
+    return on_plant ? curves.orderAt(element.node) : std::uint8_t{0};
+  };
+  const auto addOrders = [&](ModelMesh& mesh) {
+    for (const std::uint32_t piece : mesh.pieces) mesh.orders.push_back(orderOf(plant.elements[piece]));
+  };
+  addOrders(model.stalks);
+  for (ModelMesh& mesh : model.elements) addOrders(mesh);
+  if (options.instances) putAsInstances(model, plant, frame);
   return model;
 }
 

@@ -141,6 +141,7 @@ sim::Mesh placeMesh(sim::Mesh mesh, double scale, const sim::Vec3& rotate_deg, c
   const glm::dmat3 turn =
       turnAbout(2, rotate_deg.z) * turnAbout(1, rotate_deg.y) * turnAbout(0, rotate_deg.x);
   for (auto& p : mesh.vertices_m) p = turn * (p * scale) + translate_m;
+  for (auto& normal : mesh.normals) normal = sim::unitOrNone(turn * sim::Vec3(normal));
   requireFinite(mesh);
   return mesh;
 }

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <set>
@@ -22,6 +23,10 @@ class TakingApart {
       const std::string_view keyword = statement.keyword();
       if (keyword == "v") {
         addVertex(statement);
+      } else if (keyword == "vt") {
+        uvs_.push_back(glm::vec2(looksIn(statement)));
+      } else if (keyword == "vn") {
+        normals_.push_back(looksIn(statement));
       } else if (keyword == "f") {
         addPolygon(statement);
       } else if (keyword == "g" || keyword == "o") {
@@ -36,6 +41,8 @@ class TakingApart {
       line_ = highest_line_;
       failOutOfRange(std::to_string(highest_));
     }
+    text_.uvs = pick(uv_of_, uvs_);
+    text_.normals = pick(normal_of_, normals_);
     return std::move(text_);
   }
 
@@ -66,11 +73,27 @@ class TakingApart {
     text_.shapes += word;
   }
 
+  /// Up to three numbers of a `vt` or `vn`; zero where it is none.
+  static sim::Vec3f looksIn(ObjStatements& statement) {
+    sim::Vec3f looks(0.0f);
+    for (int i = 0; i < 3; ++i) {
+      const std::string_view word = statement.takeNumber();
+      const auto number = word.empty() ? 0.0f : numberOf(word);
+      if (!number) return sim::Vec3f(0.0f);
+      looks[i] = *number;
+    }
+    return looks;
+  }
+
   void addPolygon(ObjStatements& statement) {
     corners_.clear();
-    for (std::string_view word = statement.takeNumber(); !word.empty(); word = statement.takeNumber())
+    words_.clear();
+    for (std::string_view word = statement.takeNumber(); !word.empty(); word = statement.takeNumber()) {
       corners_.push_back(vertexOf(word));
+      words_.push_back(word);
+    }
     if (corners_.size() < 3) return;
+    for (const std::string_view word : words_) addLooks(word);
     text_.shapes += 'f';
     for (const std::int64_t vertex : corners_)
       fmt::format_to(std::back_inserter(text_.shapes), " {}", vertex);
@@ -102,6 +125,44 @@ class TakingApart {
     return vertex;
   }
 
+  /// Which `vt` and `vn` a corner asks for, or 0: they may come later.
+  void addLooks(std::string_view word) {
+    const auto take = [&] {
+      const std::size_t slash = word.find('/');
+      word.remove_prefix(slash == word.npos ? word.size() : slash + 1);
+      return word.substr(0, word.find('/'));
+    };
+    const auto add = [&](std::vector<std::int64_t>& numbers, std::string_view number, std::size_t so_far) {
+      std::int64_t asked = 0;
+      if (!number.empty()) {
+        const auto [end, error] = std::from_chars(number.data(), number.data() + number.size(), asked);
+        if (error != std::errc() || end != number.data() + number.size() || asked == 0) asked = kNowhere;
+      }
+      if (asked < 0 && asked != kNowhere)
+        asked = std::max(asked + static_cast<std::int64_t>(so_far) + 1, kNowhere);
+      if (asked == 0 && numbers.empty()) return;
+      numbers.resize(all_corners_, 0);
+      numbers.push_back(asked);
+    };
+    add(uv_of_, take(), uvs_.size());
+    add(normal_of_, take(), normals_.size());
+    ++all_corners_;
+  }
+
+  template <class T>
+  std::vector<T> pick(std::vector<std::int64_t>& numbers, const std::vector<T>& values) {
+    if (numbers.empty()) return {};
+    numbers.resize(all_corners_, 0);
+    std::vector<T> picked;
+    picked.reserve(numbers.size());
+    for (const std::int64_t number : numbers) {
+      const bool there = number > 0 && number <= static_cast<std::int64_t>(values.size());
+      picked.push_back(there ? values[static_cast<std::size_t>(number - 1)] : T(0.0f));
+      text_.odd_corners += number != 0 && !there ? 1 : 0;
+    }
+    return picked;
+  }
+
   static ObjText::Named named(const ObjStatements& statement) {
     return {std::string(statement.rest()), statement.line(), statement.column()};
   }
@@ -114,7 +175,13 @@ class TakingApart {
   ObjText text_;
   ObjText::Stretch now_;
   std::set<std::string> known_libraries_;
+  static constexpr std::int64_t kNowhere = -1;
   std::vector<std::int64_t> corners_;
+  std::vector<std::string_view> words_;
+  std::vector<glm::vec2> uvs_;
+  std::vector<sim::Vec3f> normals_;
+  std::vector<std::int64_t> uv_of_, normal_of_;  // of each corner
+  std::size_t all_corners_ = 0;
   std::int64_t vertices_ = 0, highest_ = 0;
   int highest_line_ = 0, line_ = 0;
 };

@@ -1,5 +1,5 @@
 #pragma once
-// Internal to the wing.
+// Internal to the wing, and heavy: it brings tinygltf along.
 #include <tiny_gltf.h>
 
 #include <array>

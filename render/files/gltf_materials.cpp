@@ -1,7 +1,9 @@
 #include "render/files/gltf_materials.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
-#include <vector>
+#include <charconv>
 
 #include "sim/base/hasher.h"
 
@@ -23,8 +25,12 @@ const char* nameOf(sim::Material::Alpha mode) {
   return mode == sim::Material::Alpha::mask ? "MASK" : "BLEND";
 }
 
+/// 0 to 1, as the shortest number that is this float.
 double factorOf(float value) {
-  return static_cast<double>(std::clamp(value, 0.0f, 1.0f));
+  const std::string text = fmt::format("{}", std::clamp(value, 0.0f, 1.0f));
+  double number = 0.0;
+  std::from_chars(text.data(), text.data() + text.size(), number);
+  return number;
 }
 
 }  // namespace

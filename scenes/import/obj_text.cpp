@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <charconv>
+#include <limits>
 #include <set>
 
 #include "scenes/import/obj_statements.h"
@@ -138,8 +139,10 @@ class TakingApart {
         const auto [end, error] = std::from_chars(number.data(), number.data() + number.size(), asked);
         if (error != std::errc() || end != number.data() + number.size() || asked == 0) asked = kNowhere;
       }
-      if (asked < 0 && asked != kNowhere)
-        asked = std::max(asked + static_cast<std::int64_t>(so_far) + 1, kNowhere);
+      if (asked < 0 && asked != kNowhere) {  // backwards from the last one so far
+        asked += static_cast<std::int64_t>(so_far) + 1;
+        if (asked < 1) asked = kNowhere;
+      }
       if (asked == 0 && numbers.empty()) return;
       numbers.resize(all_corners_, 0);
       numbers.push_back(asked);
@@ -175,7 +178,7 @@ class TakingApart {
   ObjText text_;
   ObjText::Stretch now_;
   std::set<std::string> known_libraries_;
-  static constexpr std::int64_t kNowhere = -1;
+  static constexpr std::int64_t kNowhere = std::numeric_limits<std::int64_t>::min();
   std::vector<std::int64_t> corners_;
   std::vector<std::string_view> words_;
   std::vector<glm::vec2> uvs_;

@@ -150,7 +150,7 @@ std::string looksBuffer() {
   for (int corner = 0; corner < 3; ++corner) {
     for (const float c : {0.6f, 0.0f, 0.8f}) tests::append(bytes, c);
   }
-  for (const std::uint16_t c : {0, 65535, 65535, 65535, 0, 0}) tests::append(bytes, c);
+  for (const int c : {0, 65535, 65535, 65535, 0, 0}) tests::append(bytes, static_cast<std::uint16_t>(c));
   return bytes + kPng;
 }
 
@@ -217,7 +217,8 @@ TEST_F(MeshLooks, QuantizedPlacesAreRead) {
   document["bufferViews"].push_back({{"buffer", 2}, {"byteLength", 24}, {"byteStride", 8}});
   document["buffers"].push_back({{"byteLength", 24}, {"uri", "places.bin"}});
   std::string places;
-  for (const std::int16_t c : {0, 0, 0, 0, 300, 0, 0, 0, 0, -200, 0, 0}) tests::append(places, c);
+  for (const int c : {0, 0, 0, 0, 300, 0, 0, 0, 0, -200, 0, 0})
+    tests::append(places, static_cast<std::int16_t>(c));
   write("places.bin", places);
   write("house.glb", tests::glb(document, tests::gltfBuffer()));
   EXPECT_THROW(import("house.glb"), sim::InputError);

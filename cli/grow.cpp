@@ -19,7 +19,7 @@ struct GrowArguments {
   std::optional<int> iterations;
   scenes::Keeping keeping;
   bool no_state = false;
-  int coarser = 0;
+  scenes::ModelsWanted models;
 };
 
 }  // namespace
@@ -48,8 +48,14 @@ void addGrow(CLI::App& app, int& exit_status) {
   levels.limits = {0.0, render::kLevels - 1.0};
   addWhole(
       *command, "--lods", levels,
-      [arguments](std::int64_t number) { arguments->coarser = static_cast<int>(number); },
+      [arguments](std::int64_t number) { arguments->models.coarser = static_cast<int>(number); },
       "Write so many coarser models too, plant_lod1.glb and so on: each with an error three times as large");
+  command->add_flag(
+      "--instances", arguments->models.instances,
+      "Write each kind of leaf into .glb files once, with the places where it stands: smaller files "
+      "for programs that read EXT_mesh_gpu_instancing, which Blender 3.4 does not");
+  command->add_flag("--obj", arguments->models.obj,
+                    "Write plant.obj too, with plant.mtl and the pictures of its materials");
   command->add_flag("--resume", arguments->keeping.resume,
                     "Go on from the state in the output folder, or begin if there is none");
   command->add_flag("--no-state", arguments->no_state, "Leave no state of growth behind at the end");
@@ -62,7 +68,7 @@ void addGrow(CLI::App& app, int& exit_status) {
         scene.iterations = *arguments->iterations;
       }
       scenes::RunOptions options = run;
-      options.coarser_models = arguments->coarser;
+      options.models = arguments->models;
       const scenes::Report report = scenes::runScene(scene, options, arguments->keeping);
       return JobOutcome{scenes::toJson(report), scenes::summary(report, run.folder)};
     });

@@ -12,7 +12,8 @@ using sim::Vec3;
 namespace {
 
 constexpr double kThin = 0.15;   // errors: a radius that hardly shows
-constexpr double kRound = 0.03;  // radii that a ring's sides may be off: what shows in no picture
+constexpr double kFlat = 0.85;   // errors that a ring's sides may be off ..
+constexpr double kRound = 0.04;  // .. or radii: what shows in no picture
 
 NearLine onStretch(const Limb& limb, std::size_t stretch, Vec3 p) {
   const TubeStation &a = limb.line[stretch], &b = limb.line[stretch + 1];
@@ -45,8 +46,7 @@ double arcOf(const Limb& limb, const NearLine& place) {
 int sidesFor(double radius_m, double error_m) {
   // A prism of three or four sides is far wider in one view than in another.
   const int least = radius_m < kThin * error_m ? 3 : 5;
-  // Sides tell sooner than bends: by the tube's ends and its shading.
-  error_m = std::max(0.5 * error_m, kRound * radius_m);
+  error_m = std::max(kFlat * error_m, kRound * radius_m);
   if (!(error_m < 0.5 * radius_m)) return least;
   return std::clamp(static_cast<int>(std::ceil(kPi / std::acos(1.0 - error_m / radius_m) - 0.05)), least, 48);
 }

@@ -21,6 +21,8 @@ struct Limb {
   std::vector<double> arcs_m;  ///< of each station, along the line
   std::vector<double> params;  ///< of each station, on the stem's curve; -1 below a seed
   int sides = 0;
+  double off_m = 0.0;      ///< so far from what it stands for may the line be
+  std::uint8_t order = 0;  ///< of branching, as StemCurve's
   std::int32_t host = -1;  ///< the limb that it stands on; -1 for one that grew from a seed
   Foot foot;               ///< where there is a host
 
@@ -50,7 +52,7 @@ struct NearLine {
 NearLine nearestOn(const Limb& limb, std::size_t stretch, sim::Vec3 p_m);
 double arcOf(const Limb& limb, const NearLine& place);
 
-/// Sides of a ring: its circle is at most half of `error_m` away from them, or a thirtieth of its radius.
+/// Sides of a ring: its circle is hardly more than `error_m` away from them, or a twenty-fifth of its radius.
 /// Five at least, or three of what hardly shows.
 int sidesFor(double radius_m, double error_m);
 

@@ -27,6 +27,26 @@ std::pair<double, double> endsOf(const Foot& foot, double length) {
   return {middle - half, middle + half};
 }
 
+/// Leaves out stations' rings that are of no use beside those of feet.
+void leaveOut(std::vector<double>& arcs, const Limb& limb, std::span<const Foot> standing) {
+  constexpr double kThinner = 0.1;  // of the radius
+  if (standing.empty()) return;
+  std::size_t kept = 0;
+  Section before = sectionAt(limb, arcs[0]);
+  for (std::size_t i = 1; i + 1 < arcs.size(); ++i) {
+    const Section here = sectionAt(limb, arcs[i]), next = sectionAt(limb, arcs[i + 1]);
+    const double share = (arcs[i] - arcs[kept]) / (arcs[i + 1] - arcs[kept]);
+    const bool a_station = std::binary_search(limb.arcs_m.begin(), limb.arcs_m.end(), arcs[i]);
+    const double off = glm::distance(here.centre_m, glm::mix(before.centre_m, next.centre_m, share));
+    const double thinner = std::abs(here.radius_m - glm::mix(before.radius_m, next.radius_m, share));
+    if (a_station && off < 0.5 * limb.off_m && thinner < kThinner * here.radius_m) continue;
+    arcs[++kept] = arcs[i];
+    before = here;
+  }
+  arcs[++kept] = arcs.back();
+  arcs.resize(kept + 1);
+}
+
 /// Rings at both ends of each foot, and at the stations between feet; in the middle of those feet that are
 /// worth it.
 std::vector<double> ringArcs(const Limb& limb, std::span<const Foot> standing, double error_m) {
@@ -37,7 +57,7 @@ std::vector<double> ringArcs(const Limb& limb, std::span<const Foot> standing, d
     const Vec3 from = sectionAt(limb, low).centre_m, step = sectionAt(limb, high).centre_m - from;
     const auto straight = [&, first = low, last = high](double arc) {
       const Vec3 wanted = from + (arc - first) / (last - first) * step;
-      return glm::distance(sectionAt(limb, arc).centre_m, wanted) < 0.5 * error_m;
+      return glm::distance(sectionAt(limb, arc).centre_m, wanted) < 0.5 * limb.off_m;
     };
     const auto inner = std::upper_bound(arcs.begin() + 1, arcs.end() - 1, low);
     const auto outer = std::lower_bound(inner, arcs.end() - 1, high);
@@ -56,6 +76,7 @@ std::vector<double> ringArcs(const Limb& limb, std::span<const Foot> standing, d
     insert(high, kSameRing * half);
     if (half > kMiddle * error_m) insert(low + half, 0.7 * half);
   }
+  leaveOut(arcs, limb, standing);
   return arcs;
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 
 #include "sim/base/parallel.h"
 #include "sim/base/random.h"
@@ -16,17 +17,36 @@ constexpr int kMostStations = 8;        // in a segment
 constexpr double kRootDepth = 1.0;      // voxel widths that a seed's stem reaches back into the ground ..
 constexpr double kRootRadii = 0.5;      // .. and radii beside
 constexpr double kLeastStep = 0.05;     // radii between two stations
-constexpr double kTipRadius = 0.5;      // of the last segment's
+constexpr double kTipRadius = 0.7;      // of the last segment's
 constexpr double kFootRadii = 1.25;     // how much wider than its limb a foot is
 constexpr double kWidest = 0.45 * kPi;  // half of the angle of the widest foot
-constexpr double kBent = 0.06;          // radii that a centre line may be off ..
-constexpr double kThinner = 0.05;       // and of their radii
-constexpr double kOff = 0.5;            // of what is allowed that is left to stations that are left out
-constexpr double kLongest = 2.5;        // radii from where a line leaves its host to its first ring
-constexpr double kClear = 0.1;          // radii between the first ring and the host's surface
+constexpr double kBeside = 0.8;   // radii of the thinnest twig that a centre line may be off, or the error:
+                                  // a tube beside its place looks right, a thin or edged one does not
+constexpr double kBent = 0.1;     // radii that a centre line may be off ..
+constexpr double kThinner = 0.2;  // and of their radii
+constexpr double kOff = 0.9;      // of what is allowed that is left to stations that are left out
+constexpr double kTurned = 0.98;  // cosine of the angle between a chord and what it stands for
+constexpr double kLongest = 2.5;  // radii from where a line leaves its host to its first ring
+constexpr double kClear = 0.1;    // radii between the first ring and the host's surface
 
 double widening(int sides) {
   return kPi / (sides * std::sin(kPi / sides));
+}
+
+/// The radius of the thinnest twig, voxel widths.
+double thinnest(const LimbData& data) {
+  return data.radii_vx.empty() ? 0.0 : *std::min_element(data.radii_vx.begin(), data.radii_vx.end());
+}
+
+/// Half way between a limb's radius at its foot, which is seen best, and what it has on the mean.
+double typicalRadius(std::span<const TubeStation> line) {
+  double length = 0.0, sum = 0.0;
+  for (std::size_t i = 1; i < line.size(); ++i) {
+    const double step = glm::distance(line[i].centre_m, line[i - 1].centre_m);
+    length += step;
+    sum += step * 0.5 * (line[i].radius_m + line[i - 1].radius_m);
+  }
+  return 0.5 * (line.front().radius_m + (length > 0.0 ? sum / length : line.front().radius_m));
 }
 
 /// Piecewise linear, at x among rising xs.
@@ -58,7 +78,12 @@ Vec3 turned(Vec3 v, Vec3 from, Vec3 to) {
 class Builder {
  public:
   Builder(const StemCurves& curves, const LimbData& data, const sim::Frame& frame, double error_m)
-      : curves_(curves), data_(data), frame_(frame), error_m_(error_m), limbs_(curves.stems.size()) {}
+      : curves_(curves),
+        data_(data),
+        frame_(frame),
+        error_m_(error_m),
+        along_m_(std::max(error_m, kBeside * thinnest(data) * frame.voxel_m)),
+        limbs_(curves.stems.size()) {}
 
   void build(std::size_t s);
   std::vector<Limb> take() { return std::move(limbs_); }
@@ -83,7 +108,7 @@ class Builder {
   const StemCurves& curves_;
   const LimbData& data_;
   const sim::Frame& frame_;
-  double error_m_;
+  double error_m_, along_m_;
   std::vector<Limb> limbs_;
 };
 
@@ -116,7 +141,7 @@ int Builder::piecesIn(std::size_t s, std::size_t segment) const {
   const auto off = [](Vec3 p, Vec3 from, Vec3 to) { return glm::distance(p, 0.5 * (from + to)); };
   const double sagitta =
       std::max({off(middle, a, b), 4.0 * off(before, a, middle), 4.0 * off(after, middle, b)});
-  const double error_m = std::max(error_m_, kBent * radiusAt(s, t + 0.5));
+  const double error_m = (1.0 - kOff) * std::max(along_m_, kBent * radiusAt(s, t + 0.5));
   const double pieces = std::sqrt(sagitta * frame_.voxel_m / error_m);
   return std::clamp(static_cast<int>(std::ceil(pieces)), 1, kMostStations);
 }
@@ -196,25 +221,25 @@ void Builder::leaveOutStraight(Limb& limb) const {
     const TubeStation &p = limb.line[a], &q = limb.line[b];
     const Vec3 step = q.centre_m - p.centre_m;
     const double length2 = glm::dot(step, step);
+    for (std::size_t i = a; i < b; ++i) {
+      const Vec3 way = limb.line[i + 1].centre_m - limb.line[i].centre_m;
+      if (glm::dot(way, step) < kTurned * glm::length(way) * std::sqrt(length2)) return false;
+    }
     for (std::size_t i = a + 1; i < b; ++i) {
       const TubeStation& station = limb.line[i];
       const double share = length2 > 0.0 ? glm::dot(station.centre_m - p.centre_m, step) / length2 : 0.5;
       if (!(share > 0.0 && share < 1.0)) return false;
       const double off = glm::distance(station.centre_m, p.centre_m + share * step);
       const double thinner = std::abs(station.radius_m - glm::mix(p.radius_m, q.radius_m, share));
-      if (off > kOff * std::max(error_m_, kBent * station.radius_m)) return false;
+      if (off > kOff * std::max(along_m_, kBent * station.radius_m)) return false;
       if (thinner > kThinner * station.radius_m) return false;
     }
     return true;
   };
-  // The last piece before a tip is short, as it tapers.
-  const std::size_t last = limb.line.size() - 1;
-  const std::size_t end = tapers(limb) ? last - 1 : last;
-  for (std::size_t i = 2; i <= end; ++i) {
+  for (std::size_t i = 2; i < limb.line.size(); ++i) {
     if (i - kept.back() > kFarthest || !between(kept.back(), i)) kept.push_back(i - 1);
   }
-  if (end > kept.back()) kept.push_back(end);
-  if (last > kept.back()) kept.push_back(last);
+  kept.push_back(limb.line.size() - 1);
   for (std::size_t k = 0; k < kept.size(); ++k) {
     limb.line[k] = limb.line[kept[k]];
     limb.params[k] = limb.params[kept[k]];
@@ -265,7 +290,6 @@ void Builder::standOnHost(Limb& limb, std::size_t s) const {
   const Limb& on = limbs_[host];
   limb.host = static_cast<std::int32_t>(host);
   Leaving way = leaving(s, on, interpolated(on.params, on.arcs_m, param));
-  limb.sides = sidesFor(radiusAt(s, way.clear), error_m_);
   if (way.leaves) addStations(limb, s, way.clear);
   if (limb.line.size() < 2) {  // a bud
     const TubeStation tip = stationAt(s, stem(s).curve.last());
@@ -287,6 +311,7 @@ void Builder::standOnHost(Limb& limb, std::size_t s) const {
 /// Widens the rings, and fills in what follows from the stations.
 void Builder::finish(Limb& limb, Vec3 across) const {
   if (limb.line.size() > 2) leaveOutStraight(limb);
+  limb.sides = sidesFor(typicalRadius(limb.line), error_m_);
   if (tapers(limb)) limb.line.back().radius_m *= kTipRadius;
   std::vector<bool> left_out(limb.line.size(), false);
   keepRingsApart(limb.line, [&](std::size_t i) { left_out[i] = true; });
@@ -305,11 +330,12 @@ void Builder::finish(Limb& limb, Vec3 across) const {
 
 void Builder::build(std::size_t s) {
   Limb& limb = limbs_[s];
+  limb.order = stem(s).order;
+  limb.off_m = along_m_;
   if (!stem(s).from_seed) return standOnHost(limb, s);
   const Vec3 start = stem(s).curve.derivative(0.0);
   const Vec3 way = glm::length(start) > 0.0 ? glm::normalize(start) : Vec3(0, 1, 0);
   TubeStation root = stationAt(s, 0.0);
-  limb.sides = sidesFor(root.radius_m, error_m_);
   root.centre_m -= (kRootDepth * frame_.voxel_m + kRootRadii * root.radius_m) * way;
   limb.line.push_back(root);
   limb.params.push_back(-1.0);

@@ -25,6 +25,7 @@ struct ModelMesh {
   std::vector<sim::Colour> tints;     ///< by what the colour is multiplied; empty: by nothing
   std::vector<float> exposures;       ///< 0..1, as the plant sensed it where it grew
   std::vector<float> youths;          ///< 0 for what the first iteration placed .. 1 for the last
+  std::vector<std::uint8_t> orders;   ///< of branching: 0 trunks, 1 what leaves them, .. 255 and above
   std::vector<std::uint32_t> pieces;  ///< number of the stem axis or of the placed element
   /// The point of the surface at each vertex: those of one point differ in their UVs alone. Empty: each is a
   /// point of its own.

@@ -72,6 +72,15 @@ void appendStalk(ModelMesh& mesh, const sim::Plant& plant, const sim::PlacedElem
   appendTube(mesh, line, kStalkSides, piece);
 }
 
+void putAsInstances(PlantModel& model, const sim::Plant& plant, const sim::Frame& frame) {
+  model.instances.push_back(stalksAsInstances(model.stalks, kStalkSides));
+  for (std::size_t shape = 0; shape < model.elements.size(); ++shape)
+    model.instances.push_back(bladesAsInstances(model.elements[shape], plant, shape, frame));
+  std::erase_if(model.instances, [](const Instances& one) { return one.places.empty(); });
+  model.stalks = {};
+  model.elements.clear();
+}
+
 }  // namespace
 
 PlantModel modelPlant(const sim::Plant& plant, const sim::Frame& frame, const ModelOptions& options) {
@@ -124,6 +133,16 @@ PlantModel modelPlant(const sim::Plant& plant, const sim::Frame& frame, const Mo
       appendStalk(model.stalks, plant, element, curves, static_cast<double>(at(radii, element.node)), frame,
                   young, piece);
   }
+  const auto orderOf = [&](const sim::PlacedElement& element) {
+    const bool on_plant = element.node >= 0 && element.node < plant.skeleton.size();
+    return on_plant ? curves.orderAt(element.node) : std::uint8_t{0};
+  };
+  const auto addOrders = [&](ModelMesh& mesh) {
+    for (const std::uint32_t piece : mesh.pieces) mesh.orders.push_back(orderOf(plant.elements[piece]));
+  };
+  addOrders(model.stalks);
+  for (ModelMesh& mesh : model.elements) addOrders(mesh);
+  if (options.instances) putAsInstances(model, plant, frame);
   return model;
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 #include <vector>
 
+#include "render/model/instances.h"
 #include "render/model/model_mesh.h"
 #include "sim/base/bits.h"
 #include "sim/base/frame.h"
@@ -19,15 +20,17 @@ struct ModelOptions {
   /// How far surfaces of stems may be from what they stand for, in radii of the thinnest twig.
   double error = errorOfLevel(0);
   const sim::BitVolume* walls = nullptr;  ///< voxels that centre lines keep out of where the skeleton does
+  bool instances = false;  ///< blades and stalks as instances of a shape each, in place of meshes
 };
 
 /// A plant's surfaces. Meshes may be empty: a lone seed has no stems.
 struct PlantModel {
   std::string name;
   ModelMesh stems;
-  std::size_t meeting_limbs = 0;    ///< pairs of limbs that run into each other where none leaves the other
-  ModelMesh stalks;                 ///< from stems to blades that do not begin on them
-  std::vector<ModelMesh> elements;  ///< one for each of the plant's shapes: blades
+  std::size_t meeting_limbs = 0;     ///< pairs of limbs that run into each other where none leaves the other
+  ModelMesh stalks;                  ///< from stems to blades that do not begin on them
+  std::vector<ModelMesh> elements;   ///< one for each of the plant's shapes: blades
+  std::vector<Instances> instances;  ///< in place of stalks and elements, where they are asked for
 };
 
 /// Models a plant: every stem a tube swept along a C2 curve through its nodes, thick as the pipe model says,

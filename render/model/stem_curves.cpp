@@ -73,6 +73,15 @@ NodeId continuing(const sim::Skeleton& skeleton, std::span<const float> radii,
   });
 }
 
+std::uint8_t orderOf(const sim::Skeleton& skeleton, NodeId first, std::size_t generation) {
+  constexpr std::size_t kMost = 255;
+  const std::vector<float>* const counted = sim::find(skeleton, "order");
+  if (counted == nullptr) return static_cast<std::uint8_t>(std::min(generation, kMost));
+  const float order = (*counted)[static_cast<std::size_t>(first)];
+  return order > 0.0f ? static_cast<std::uint8_t>(std::min(order, static_cast<float>(kMost)))
+                      : std::uint8_t{0};
+}
+
 /// A stem leaves its parent half along the parent, as young shoots do, rather than with a kink; the less, the
 /// thicker the parent is: from a trunk a twig goes straight out.
 std::optional<Vec3> leavingDerivative(const StemCurves& curves, std::span<const float> radii,
@@ -138,7 +147,8 @@ StemCurves stemCurves(const sim::Skeleton& skeleton, std::span<const float> radi
       fork(at, main);
       at = main;
     }
-    curves.stems.push_back({std::move(nodes), {}, s < seeds});
+    curves.stems.push_back(
+        {std::move(nodes), {}, s < seeds, orderOf(skeleton, start.first, curves.generations.size() - 1)});
   }
   if (!starts.empty()) curves.generations.push_back(starts.size());
   for (std::size_t n = 0; n < places.size(); ++n) {
@@ -161,6 +171,11 @@ StemCurves stemCurves(const sim::Skeleton& skeleton, std::span<const float> radi
     });
   }
   return curves;
+}
+
+std::uint8_t StemCurves::orderAt(NodeId node) const {
+  const std::int32_t stem = stem_of[static_cast<std::size_t>(node)];
+  return stem < 0 ? std::uint8_t{0} : stems[static_cast<std::size_t>(stem)].order;
 }
 
 Vec3 StemCurves::onStem(const sim::Skeleton& skeleton, NodeId node, Vec3 on_segment_vx) const {

@@ -14,6 +14,9 @@ struct StemCurve {
   std::vector<sim::NodeId> nodes;  ///< from the fork or seed outwards, at least two in different places
   StemLine curve;                  ///< through the nodes, voxel space; node i at parameter i
   bool from_seed = false;          ///< the thickest stem of a seed; its others fork from that one
+  /// Of branching, 0 to 255: as the process counts it (the column "order" at its first node); else 0 for one
+  /// from a seed and one more at each fork.
+  std::uint8_t order = 0;
 };
 
 struct StemCurves {
@@ -24,6 +27,8 @@ struct StemCurves {
   std::vector<std::int32_t> stem_of;  ///< per node: the stem that its own segment lies on, -1 for a lone seed
   std::vector<double> parameter_of;   ///< per node: where on that stem
 
+  /// That of the stem that a node's own segment lies on; 0 for a lone seed.
+  std::uint8_t orderAt(sim::NodeId node) const;
   /// The point on the smooth stem that belongs to a point of the straight segment between a node and its
   /// parent.
   sim::Vec3 onStem(const sim::Skeleton& skeleton, sim::NodeId node, sim::Vec3 on_segment_vx) const;

@@ -104,6 +104,7 @@ struct Sewing::Part {
     mesh.uvs[vertex] = {static_cast<float>(u), static_cast<float>(along)};
     mesh.exposures[vertex] = section.exposure;
     mesh.youths[vertex] = section.youth;
+    mesh.orders[vertex] = limb.order;
     mesh.pieces[vertex] = piece;
     return static_cast<std::uint32_t>(vertex++);
   }
@@ -305,11 +306,12 @@ void addRims(const std::vector<Skin>& skins, const Skin& skin, std::vector<sim::
 }
 
 void resize(ModelMesh& mesh, const Counts& size) {
-  const std::array<std::function<void()>, 8> arrays{
-      [&] { mesh.points.resize(size.vertex); },    [&] { mesh.positions_m.resize(size.vertex); },
-      [&] { mesh.normals.resize(size.vertex); },   [&] { mesh.uvs.resize(size.vertex); },
-      [&] { mesh.exposures.resize(size.vertex); }, [&] { mesh.youths.resize(size.vertex); },
-      [&] { mesh.pieces.resize(size.vertex); },    [&] { mesh.triangles.resize(size.triangle); }};
+  const std::array<std::function<void()>, 9> arrays{
+      [&] { mesh.points.resize(size.vertex); },     [&] { mesh.positions_m.resize(size.vertex); },
+      [&] { mesh.normals.resize(size.vertex); },    [&] { mesh.uvs.resize(size.vertex); },
+      [&] { mesh.exposures.resize(size.vertex); },  [&] { mesh.youths.resize(size.vertex); },
+      [&] { mesh.orders.resize(size.vertex); },     [&] { mesh.pieces.resize(size.vertex); },
+      [&] { mesh.triangles.resize(size.triangle); }};
   sim::parallelForEach(arrays.size(), [&](std::size_t i) { arrays[i](); });
 }
 

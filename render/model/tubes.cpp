@@ -170,46 +170,32 @@ void keepRingsApart(std::vector<TubeStation>& line, const std::function<void(std
 void appendTube(ModelMesh& mesh, std::span<const TubeStation> line, int sides, std::uint32_t piece) {
   if (line.size() < 2) return;
   const std::vector<TubeFrame> frames = rotationMinimizingFrames(line);
-  std::vector<glm::vec2> circle;
-  for (int s = 0; s < sides; ++s) {
-    const float angle = 2.0f * std::numbers::pi_v<float> * static_cast<float>(s) / static_cast<float>(sides);
-    circle.emplace_back(std::cos(angle), std::sin(angle));
-  }
   const auto count = static_cast<std::uint32_t>(sides);
-  const auto outward = [&](std::size_t i, std::uint32_t s) {
-    const glm::vec2 c = circle[s % count];
-    return static_cast<double>(c.x) * frames[i].across + static_cast<double>(c.y) * frames[i].up;
-  };
-  const auto ring = [&](std::size_t i, double v,
-                        bool cap) {  // caps have no seam, walls repeat the first corner
-    const auto first = static_cast<std::uint32_t>(mesh.positions_m.size());
-    for (std::uint32_t s = 0; s < count + (cap ? 0u : 1u); ++s) {
-      const Vec3 out = outward(i, s);
-      appendVertex(mesh, line[i].centre_m + line[i].radius_m * out, cap ? -frames[i].along : out,
-                   static_cast<float>(s) / static_cast<float>(count), v, line[i], piece);
-    }
-    return first;
-  };
-
-  const std::uint32_t base = ring(0, 0.0, true);
-  for (std::uint32_t s = 1; s + 1 < count; ++s) mesh.triangles.push_back({base, base + s + 1, base + s});
-
-  double v = 0.0;
-  std::uint32_t lower = ring(0, v, false);
-  for (std::size_t i = 1; i < line.size(); ++i) {
-    v += glm::distance(line[i].centre_m, line[i - 1].centre_m);
-    const std::uint32_t upper = ring(i, v, false);
-    for (std::uint32_t s = 0; s < count; ++s) {
-      mesh.triangles.push_back({lower + s, lower + s + 1, upper + s + 1});
-      mesh.triangles.push_back({lower + s, upper + s + 1, upper + s});
-    }
-    lower = upper;
-  }
+  const auto first = static_cast<std::uint32_t>(mesh.positions_m.size());
   const std::size_t last = line.size() - 1;
-  const auto point = static_cast<std::uint32_t>(mesh.positions_m.size());
-  appendVertex(mesh, line[last].centre_m + line[last].radius_m * frames[last].along, frames[last].along, 0.5f,
-               v + line[last].radius_m, line[last], piece);
-  for (std::uint32_t s = 0; s < count; ++s) mesh.triangles.push_back({lower + s, lower + s + 1, point});
+  double v = 0.0;
+  for (std::size_t i = 0; i < last; ++i) {
+    for (std::uint32_t s = 0; s < count; ++s) {
+      const float u = static_cast<float>(s) / static_cast<float>(count);
+      const float angle = 2.0f * std::numbers::pi_v<float> * u;
+      const Vec3 out = static_cast<double>(std::cos(angle)) * frames[i].across +
+                       static_cast<double>(std::sin(angle)) * frames[i].up;
+      appendVertex(mesh, line[i].centre_m + line[i].radius_m * out, out, u, v, line[i], piece);
+    }
+    v += glm::distance(line[i + 1].centre_m, line[i].centre_m);
+  }
+  appendVertex(mesh, line[last].centre_m, frames[last].along, 0.5f, v, line[last], piece);
+  for (std::uint32_t i = 0; i + 1 < last; ++i) {
+    const std::uint32_t lower = first + i * count, upper = lower + count;
+    for (std::uint32_t s = 0; s < count; ++s) {
+      const std::uint32_t next = (s + 1) % count;
+      mesh.triangles.push_back({lower + s, lower + next, upper + next});
+      mesh.triangles.push_back({lower + s, upper + next, upper + s});
+    }
+  }
+  const std::uint32_t point = first + static_cast<std::uint32_t>(last) * count;
+  for (std::uint32_t s = 0; s < count; ++s)
+    mesh.triangles.push_back({point - count + s, point - count + (s + 1) % count, point});
 }
 
 }  // namespace espalier::render

@@ -45,7 +45,8 @@ std::vector<sim::Vec3> chordsOverThickness(std::span<const TubeStation> line);
 /// of its number among those that stood.
 void keepRingsApart(std::vector<TubeStation>& line, const std::function<void(std::size_t)>& dropped = {});
 
-/// Appends a closed tube of `sides` faces: a flat cap at the start, a pointed one at the end. UVs: u once
+/// Appends a tube of `sides` faces, as few as it takes: open where it begins, for there it stands in
+/// something, and coming to a point in its last station, whatever the radius there. UVs without a seam: u
 /// around, v in metres along. Fewer than two stations append nothing.
 void appendTube(ModelMesh& mesh, std::span<const TubeStation> line, int sides, std::uint32_t piece);
 

@@ -44,7 +44,7 @@ const render::Camera* cameraNamed(const std::vector<NamedCamera>& cameras, const
 
 /// Triangles that plants are modelled with: limbs stitched to each other, and polygons on stalks.
 double trianglesOf(const Grown& grown, const std::vector<sim::Planting>& plantings) {
-  constexpr double kASegment = 52.0, kAStalk = 14.0;
+  constexpr double kASegment = 33.0, kAStalk = 3.0;
   std::size_t most = 0;
   for (const sim::Planting& planting : plantings) {
     for (const sim::ElementShape& shape : planting.process->seedling().shapes) {

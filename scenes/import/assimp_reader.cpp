@@ -132,11 +132,11 @@ const aiScene& readScene(Assimp::Importer& importer, const MeshFolderIo& io, con
 using ReadScene = std::function<const aiScene&(const std::string& name)>;
 
 sim::Mesh readGltf(MeshFolderIo& io, const std::string& name, RegionsFrom regions_from,
-                   const std::string& stem, const ReadScene& read_scene) {
+                   const std::string& stem, const ReadScene& read_scene, std::vector<Problem>& warnings) {
   constexpr const char* kShown = "checked.gltf";
   const std::string* const file = io.read(name);
   if (file == nullptr) throw sim::InputError("cannot be read");
-  const gltf::Checked checked = gltf::check(*file, [&](const std::string& part) { return io.read(part); });
+  gltf::Checked checked = gltf::check(*file, [&](const std::string& part) { return io.read(part); });
   io.show(kShown, checked.json);
   for (std::size_t i = 0; i < checked.buffers.count(); ++i)
     io.show(gltf::bufferName(i), checked.buffers.of(i));
@@ -148,7 +148,18 @@ sim::Mesh readGltf(MeshFolderIo& io, const std::string& name, RegionsFrom region
       triangles += std::max(instance.mesh->mFaces[f].mNumIndices, 2U) - 2;
   }
   requireAll(checked.triangles, triangles, "triangles");
-  return meshOf(instances, materialsOf(scene, stem, true), regions_from, stem);
+  warnings.insert(warnings.end(), checked.warnings.begin(), checked.warnings.end());
+  for (sim::Material& material : checked.materials) {
+    material.name = givenName(material.name);
+    if (material.name.empty()) material.name = stem;
+  }
+  checked.materials.push_back({.name = stem});  // for primitives that have none
+  return meshOf(instances, checked.materials, regions_from, stem);
+}
+
+/// Materials of formats that have none.
+std::vector<sim::Material> unnamed(const aiScene& scene, const std::string& stem) {
+  return std::vector<sim::Material>(scene.mNumMaterials, sim::Material{.name = stem});
 }
 
 sim::Mesh readPly(const std::filesystem::path& file, RegionsFrom regions_from, const std::string& stem,
@@ -163,13 +174,13 @@ sim::Mesh readPly(const std::filesystem::path& file, RegionsFrom regions_from, c
   }
   requireAll(declared.vertices, vertices, "vertices");
   requireAll(declared.faces, faces, "faces");
-  return meshOf(instances, materialsOf(scene, stem, false), regions_from, stem);
+  return meshOf(instances, unnamed(scene, stem), regions_from, stem);
 }
 
 sim::Mesh readStl(const std::filesystem::path& file, RegionsFrom regions_from, const std::string& stem,
                   const ReadScene& read_scene) {
   const aiScene& scene = read_scene(file.filename().string());
-  return meshOf(instancesOf(scene), materialsOf(scene, stem, false), regions_from, stem);
+  return meshOf(instancesOf(scene), unnamed(scene, stem), regions_from, stem);
 }
 
 }  // namespace
@@ -194,7 +205,7 @@ sim::Mesh readWithAssimp(const std::filesystem::path& file, RegionsFrom regions_
       case Format::obj:
         return readObj(*io, name, regions_from, stem, read_scene, sources.warnings);
       case Format::gltf:
-        return readGltf(*io, name, regions_from, stem, read_scene);
+        return readGltf(*io, name, regions_from, stem, read_scene, sources.warnings);
       case Format::ply:
         return readPly(real, regions_from, stem, read_scene);
       case Format::stl:

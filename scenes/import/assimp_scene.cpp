@@ -23,30 +23,8 @@ bool isMadeUp(std::string_view name) {
          name.starts_with("meshes[") || (name.front() == '<' && name.back() == '>');
 }
 
-/// The name, or nothing where Assimp made it up.
 std::string nameIn(const aiString& raw) {
-  const auto name = cleanText({raw.data, std::min<std::size_t>(raw.length, MAXLEN - 1)});
-  return name.empty() || isMadeUp(name) ? std::string() : name;
-}
-
-sim::Material materialOf(const aiMaterial& from, const std::string& stem) {
-  sim::Material material;
-  material.name = stem;
-  aiString name;
-  if (from.Get(AI_MATKEY_NAME, name) == AI_SUCCESS) {
-    const std::string given = nameIn(name);
-    if (!given.empty()) material.name = given;
-  }
-  aiColor4D found;
-  if (from.Get(AI_MATKEY_BASE_COLOR, found) != AI_SUCCESS) return material;
-  for (int c = 0; c < 3; ++c) {
-    const float value = found[static_cast<unsigned>(c)];
-    if (!std::isfinite(value)) {
-      throw sim::InputError(fmt::format("the colour of material '{}' is not a finite number", material.name));
-    }
-    material.colour[c] = std::clamp(value, 0.0f, 1.0f);
-  }
-  return material;
+  return givenName({raw.data, std::min<std::size_t>(raw.length, MAXLEN - 1)});
 }
 
 glm::dmat4 matrixOf(const aiMatrix4x4& m) {
@@ -74,6 +52,7 @@ class MeshBuilder {
       const auto& p = from.mVertices[v];
       mesh_.vertices_m.emplace_back(instance.world_from_mesh * glm::dvec4(p.x, p.y, p.z, 1.0));
     }
+    addLooks(instance, base);
     std::vector<sim::Vec3> corners;
     std::optional<std::uint32_t> region_of_all, material_of_all;  // those of triangles alone get a number
     for (unsigned f = instance.first_face; f < instance.end_face; ++f) {
@@ -98,6 +77,38 @@ class MeshBuilder {
   sim::Mesh take() { return std::move(mesh_); }
 
  private:
+  /// UVs and normals of the vertices that were just added; zero where the file has none.
+  void addLooks(const MeshInstance& instance, std::uint32_t base) {
+    const aiMesh& from = *instance.mesh;
+    const std::size_t end = mesh_.vertices_m.size();
+    if (instance.uvs != nullptr || from.HasTextureCoords(0)) {
+      mesh_.uvs.resize(end, glm::vec2(0.0f));
+      for (unsigned v = instance.first_vertex; v < instance.end_vertex; ++v)
+        mesh_.uvs[base + v] = finite(instance.uvs != nullptr ? (*instance.uvs)[v] : uvOf(from, v));
+    } else if (!mesh_.uvs.empty()) {
+      mesh_.uvs.resize(end, glm::vec2(0.0f));
+    }
+    if (instance.normals != nullptr || from.HasNormals()) {
+      mesh_.normals.resize(end, sim::Vec3f(0.0f));
+      const glm::dmat3 turn = glm::transpose(glm::inverse(glm::dmat3(instance.world_from_mesh)));
+      for (unsigned v = instance.first_vertex; v < instance.end_vertex; ++v) {
+        const sim::Vec3f normal = instance.normals != nullptr ? (*instance.normals)[v] : normalOf(from, v);
+        mesh_.normals[base + v] = sim::unitOrNone(turn * sim::Vec3(normal));
+      }
+    } else if (!mesh_.normals.empty()) {
+      mesh_.normals.resize(end, sim::Vec3f(0.0f));
+    }
+  }
+  static glm::vec2 uvOf(const aiMesh& mesh, unsigned v) {
+    return {mesh.mTextureCoords[0][v].x, mesh.mTextureCoords[0][v].y};
+  }
+  static sim::Vec3f normalOf(const aiMesh& mesh, unsigned v) {
+    return {mesh.mNormals[v].x, mesh.mNormals[v].y, mesh.mNormals[v].z};
+  }
+  static glm::vec2 finite(glm::vec2 uv) {
+    return std::isfinite(uv.x) && std::isfinite(uv.y) ? uv : glm::vec2(0.0f);
+  }
+
   std::uint32_t regionIndex(const std::string& name) {
     const auto [at, is_new] =
         region_index_.try_emplace(name, static_cast<std::uint32_t>(mesh_.regions.size()));
@@ -117,6 +128,11 @@ class MeshBuilder {
 };
 
 }  // namespace
+
+std::string givenName(std::string_view raw) {
+  const std::string name = cleanText(raw);
+  return name.empty() || isMadeUp(name) ? std::string() : name;
+}
 
 std::vector<MeshInstance> instancesOf(const aiScene& scene) {
   struct Open {
@@ -144,14 +160,6 @@ std::vector<MeshInstance> instancesOf(const aiScene& scene) {
       open.push_back({next.node->mChildren[i], world_from_mesh});
   }
   return instances;
-}
-
-std::vector<sim::Material> materialsOf(const aiScene& scene, const std::string& stem, bool colours) {
-  std::vector<sim::Material> materials(scene.mNumMaterials, sim::Material{.name = stem});
-  // Behind a glTF file's own materials Assimp puts one more, for primitives that have none.
-  for (unsigned i = 0; colours && i + 1 < scene.mNumMaterials; ++i)
-    materials[i] = materialOf(*scene.mMaterials[i], stem);
-  return materials;
 }
 
 sim::Mesh meshOf(const std::vector<MeshInstance>& instances, const std::vector<sim::Material>& materials,

@@ -2,6 +2,7 @@
 #include <cstddef>
 #include <glm/mat4x4.hpp>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "scenes/scene.h"
@@ -23,16 +24,18 @@ struct MeshInstance {
   unsigned first_vertex = 0, end_vertex = 0;  ///< that the faces ask for
   std::string group;                          ///< empty where the file gives no name
   std::size_t material = 0;                   ///< its number among the file's
+  /// By the mesh's vertices, in place of Assimp's own; null: those.
+  const std::vector<glm::vec2>* uvs = nullptr;
+  const std::vector<sim::Vec3f>* normals = nullptr;
 };
 
 /// The scene's nodes, flattened, in the file's order. Throws sim::InputError above kMostTriangles.
 std::vector<MeshInstance> instancesOf(const aiScene& scene);
 
-/// The scene's materials; those without a name get `stem`. With `colours`, as of a glTF file, what they say
-/// of their base colours, which is linear light.
-std::vector<sim::Material> materialsOf(const aiScene& scene, const std::string& stem, bool colours);
+/// A name as it is shown; nothing where Assimp made it up.
+std::string givenName(std::string_view raw);
 
-/// The instances' triangles as one mesh, named `stem`, with regions.
+/// The instances' triangles as one mesh, named `stem`, with regions, and what UVs and normals there are.
 sim::Mesh meshOf(const std::vector<MeshInstance>& instances, const std::vector<sim::Material>& materials,
                  RegionsFrom regions_from, const std::string& stem);
 

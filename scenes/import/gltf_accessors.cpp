@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <array>
+#include <cstdint>
 #include <cstring>
+#include <limits>
 #include <utility>
 
 #include "scenes/problem.h"
@@ -30,12 +32,12 @@ std::uint64_t sizeOfComponent(std::uint64_t component) {
   }
 }
 
-/// Columns of matrices begin at whole words.
-std::uint64_t sizeOfElement(const std::string& type, std::uint64_t component) {
-  struct Shape {
-    const char* type;
-    std::uint64_t columns, rows;
-  };
+struct Shape {
+  const char* type;
+  std::uint64_t columns, rows;
+};
+
+const Shape& shapeOf(const std::string& type) {
   static constexpr std::array<Shape, 7> kShapes{{{"SCALAR", 1, 1},
                                                  {"VEC2", 1, 2},
                                                  {"VEC3", 1, 3},
@@ -48,15 +50,55 @@ std::uint64_t sizeOfElement(const std::string& type, std::uint64_t component) {
   if (shape == kShapes.end())
     throw sim::InputError(
         fmt::format("type is {}; expected SCALAR, VEC2, VEC3, VEC4, MAT2, MAT3 or MAT4", inQuotes(type)));
-  const std::uint64_t column = shape->rows * sizeOfComponent(component);
-  return shape->columns == 1 ? column : shape->columns * ((column + 3) / 4 * 4);
+  return *shape;
+}
+
+/// Columns of matrices begin at whole words.
+std::uint64_t sizeOfElement(const std::string& type, std::uint64_t component) {
+  const Shape& shape = shapeOf(type);
+  const std::uint64_t column = shape.rows * sizeOfComponent(component);
+  return shape.columns == 1 ? column : shape.columns * ((column + 3) / 4 * 4);
+}
+
+template <class Number>
+Number valueAt(const char* at) {
+  Number number;
+  std::memcpy(&number, at, sizeof number);
+  return number;
 }
 
 template <class Number>
 std::uint64_t numberAt(const char* at) {
-  Number number;
-  std::memcpy(&number, at, sizeof number);
-  return number;
+  return valueAt<Number>(at);
+}
+
+std::uint64_t wholeAt(const char* at, std::uint64_t component) {
+  if (component == kUnsignedByte) return numberAt<std::uint8_t>(at);
+  if (component == kUnsignedShort) return numberAt<std::uint16_t>(at);
+  return numberAt<std::uint32_t>(at);
+}
+
+template <class Number>
+float floatOf(const char* at, bool normalized) {
+  const auto value = static_cast<float>(valueAt<Number>(at));
+  return normalized ? std::max(value / static_cast<float>(std::numeric_limits<Number>::max()), -1.0f) : value;
+}
+
+float componentAt(const char* at, std::uint64_t component, bool normalized) {
+  switch (component) {
+    case kByte:
+      return floatOf<std::int8_t>(at, normalized);
+    case kUnsignedByte:
+      return floatOf<std::uint8_t>(at, normalized);
+    case kShort:
+      return floatOf<std::int16_t>(at, normalized);
+    case kUnsignedShort:
+      return floatOf<std::uint16_t>(at, normalized);
+    case kUnsignedInt:
+      return floatOf<std::uint32_t>(at, normalized);
+    default:
+      return valueAt<float>(at);
+  }
 }
 
 }  // namespace
@@ -89,7 +131,9 @@ Accessors::Known Accessors::accessorOf(const Json& json, const Json& document) c
   if (count == 0) throw sim::InputError("count is 0; expected 1 or more");
   const auto view = indexIn(json, "bufferView", document, "bufferViews");
   const bool is_sparse = json.contains("sparse");
-  Known known{{type, component, count, view || is_sparse}, {}, {}, {}, {}};
+  const auto normalized = json.find("normalized");
+  const bool is_normalized = normalized != json.end() && normalized->is_boolean() && normalized->get<bool>();
+  Known known{{type, component, is_normalized, count, view || is_sparse}, {}, {}, {}, {}};
   if (view) known.dense = elementsIn(json, *view, count, component, size, false);
   if (!is_sparse) return known;
   const Json& sparse = requiredObject(json, "sparse");
@@ -142,6 +186,24 @@ std::uint64_t Accessors::highestOf(const Elements& elements) {
   if (elements.component == kUnsignedByte) return highest(numberAt<std::uint8_t>);
   if (elements.component == kUnsignedShort) return highest(numberAt<std::uint16_t>);
   return highest(numberAt<std::uint32_t>);
+}
+
+std::vector<float> Accessors::floatsOf(std::size_t accessor) const {
+  const Known& known = accessors_[accessor];
+  const Accessor& about = known.about;
+  const Shape& shape = shapeOf(about.type);
+  const std::uint64_t each = shape.columns * shape.rows, bytes = sizeOfComponent(about.component);
+  std::vector<float> values(static_cast<std::size_t>(about.count * each), 0.0f);
+  const auto put = [&](const char* element, std::uint64_t place) {
+    for (std::uint64_t k = 0; k < each; ++k) {
+      values[static_cast<std::size_t>(place * each + k)] =
+          componentAt(element + k * bytes, about.component, about.normalized);
+    }
+  };
+  for (std::uint64_t i = 0; known.dense && i < about.count; ++i) put(known.dense->at(i), i);
+  for (std::uint64_t i = 0; known.sparse_values && i < known.sparse_values->count; ++i)
+    put(known.sparse_values->at(i), wholeAt(known.sparse_indices->at(i), known.sparse_indices->component));
+  return values;
 }
 
 std::uint64_t Accessors::highest(std::size_t accessor) {

@@ -16,11 +16,14 @@ class Accessors {
   struct Accessor {
     std::string type;         ///< SCALAR, VEC3 ...
     std::uint64_t component;  ///< OpenGL's number of the components' type
+    bool normalized;          ///< whole numbers stand for -1 or 0 to 1
     std::uint64_t count;      ///< of elements
     bool has_data;            ///< else all are zero, or come from an extension
   };
   const Accessor& of(std::size_t accessor) const { return accessors_[accessor].about; }
 
+  /// An accessor's components, one after the other.
+  std::vector<float> floatsOf(std::size_t accessor) const;
   /// The greatest of an accessor's whole numbers; found once.
   std::uint64_t highest(std::size_t accessor);
 
@@ -33,6 +36,7 @@ class Accessors {
   struct Elements {
     const char* first = nullptr;
     std::uint64_t count = 0, stride = 0, component = 0;
+    const char* at(std::uint64_t element) const { return first + element * stride; }
   };
   struct Known {
     Accessor about;

@@ -34,8 +34,9 @@ Chunk chunkAt(std::string_view glb, std::size_t at) {
   return {rest.substr(4, 4), rest.substr(kChunkHeader, length)};
 }
 
-/// What stands behind the comma of a data URI.
-std::vector<unsigned char> decoded(const std::string& uri) {
+}  // namespace
+
+std::vector<unsigned char> decodedUri(const std::string& uri) {
   const std::size_t comma = uri.find(',');
   if (comma == std::string::npos || !std::string_view(uri).substr(0, comma).ends_with(";base64"))
     throw sim::InputError("its data URI is not base64");
@@ -45,8 +46,6 @@ std::vector<unsigned char> decoded(const std::string& uri) {
                           false);
   return bytes;
 }
-
-}  // namespace
 
 Container containerOf(std::string_view file) {
   if (!file.starts_with("glTF")) return {file, std::nullopt};
@@ -82,6 +81,12 @@ Buffers::Buffers(const Json& document, const Container& container, const FileBes
   }
 }
 
+std::size_t Buffers::add(std::vector<unsigned char> bytes) {
+  const auto& kept = decoded_.emplace_back(std::move(bytes));
+  bytes_.emplace_back(reinterpret_cast<const char*>(kept.data()), kept.size());
+  return bytes_.size() - 1;
+}
+
 std::string_view Buffers::find(const Json& buffer, std::size_t number, const Container& container,
                                const FileBeside& file_beside) {
   if (!buffer.contains("uri")) {
@@ -90,7 +95,7 @@ std::string_view Buffers::find(const Json& buffer, std::size_t number, const Con
   }
   const std::string& name = requiredText(buffer, "uri");
   if (name.starts_with("data:")) {
-    const auto& bytes = decoded_.emplace_back(decoded(name));
+    const auto& bytes = decoded_.emplace_back(decodedUri(name));
     return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
   }
   if (const std::string* const bytes = file_beside(name)) return *bytes;

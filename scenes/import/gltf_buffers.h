@@ -22,12 +22,18 @@ struct Container {
 /// Throws sim::InputError where lengths in a .glb's headers do not fit its own.
 Container containerOf(std::string_view file);
 
+/// What a data URI holds. Throws sim::InputError where it is not base64.
+std::vector<unsigned char> decodedUri(const std::string& uri);
+
 /// The bytes of the document's buffers, each as many as it says.
 class Buffers {
  public:
   /// Looks for all of them, and takes no room but that of base64 that is decoded. Throws sim::InputError,
   /// naming the buffer, for one that is not there or is shorter than it says.
   Buffers(const Json& document, const Container& container, const FileBeside& file_beside);
+
+  /// One more, of our own; its number.
+  std::size_t add(std::vector<unsigned char> bytes);
 
   std::string_view of(std::size_t buffer) const { return bytes_[buffer]; }
   std::size_t count() const { return bytes_.size(); }

@@ -6,13 +6,15 @@
 
 #include "scenes/import/assimp_scene.h"
 #include "scenes/import/gltf_accessors.h"
+#include "scenes/import/gltf_looks.h"
 #include "scenes/import/gltf_nodes.h"
+#include "scenes/import/gltf_vertices.h"
 #include "scenes/problem.h"
 
 namespace espalier::scenes::gltf {
 namespace {
 
-constexpr const char* kDraco = "KHR_draco_mesh_compression";
+constexpr const char *kDraco = "KHR_draco_mesh_compression", *kQuantized = "KHR_mesh_quantization";
 
 /// The members that are read, where they are there.
 Json only(const Json& object, std::initializer_list<const char*> keys) {
@@ -31,9 +33,9 @@ void keepName(const Json& from, Json& to) {
 
 /// What a file says that it cannot be read without. Most such extensions are about looks.
 void requireReadable(const Json& document) {
-  static constexpr std::array<std::string_view, 7> kHarmless{
+  static constexpr std::array<std::string_view, 8> kHarmless{
       "KHR_materials_", "KHR_texture_",   "EXT_texture_", "MSFT_texture_",
-      "KHR_lights_",    "KHR_animation_", kDraco};
+      "KHR_lights_",    "KHR_animation_", kDraco,         kQuantized};
   for (const Json& extension : listIn(document, "extensionsRequired")) {
     if (!extension.is_string())
       throw sim::InputError(fmt::format("extensionsRequired holds {}; expected names", shown(extension)));
@@ -46,7 +48,11 @@ void requireReadable(const Json& document) {
 /// Looks at meshes, and copies of them what is read.
 class Meshes {
  public:
-  Meshes(const Json& document, Accessors& accessors) : document_(document), accessors_(accessors) {}
+  Meshes(const Json& document, Accessors& accessors, Vertices& vertices, const std::vector<Looks>& looks)
+      : document_(document), accessors_(accessors), vertices_(vertices), looks_(looks) {
+    const Json& used = listIn(document, "extensionsUsed");
+    quantized_ = std::find(used.begin(), used.end(), kQuantized) != used.end();
+  }
 
   Json read(const Json& mesh) {
     Json some = Json::object();
@@ -68,11 +74,11 @@ class Meshes {
     const auto indices = indexIn(primitive, "indices", document_, "accessors");
     const std::uint64_t mode = wholeIn(primitive, "mode").value_or(4);
     if (mode > 6) throw sim::InputError(fmt::format("mode is {}; expected 0 to 6", mode));
-    indexIn(primitive, "material", document_, "materials");
+    const auto material = indexIn(primitive, "material", document_, "materials");
     Json some = only(primitive, {"indices", "material", "mode"});
     const bool packed = keepDraco(primitive, some);
     const Accessors::Accessor& places = accessors_.of(position);
-    if (places.type != "VEC3" || places.component != 5126) {
+    if (places.type != "VEC3" || (places.component != 5126 && !(quantized_ && places.component < 5124))) {
       throw sim::InputError(
           fmt::format("POSITION is accessor {} of {} and componentType {}; expected VEC3 and 5126", position,
                       places.type, places.component));
@@ -90,7 +96,8 @@ class Meshes {
           fmt::format("there are more than {} triangles; make the mesh simpler first", kMostTriangles));
     }
     if (mode >= 4) triangles_.back() += mode == 4 ? corners / 3 : std::max(corners, std::uint64_t{2}) - 2;
-    if (!packed) some["attributes"]["POSITION"] = position;
+    if (!packed)
+      some["attributes"] = vertices_.read(attributes, position, material ? &looks_[*material] : nullptr);
     return some;
   }
 
@@ -128,23 +135,12 @@ class Meshes {
 
   const Json& document_;
   Accessors& accessors_;
+  Vertices& vertices_;
+  const std::vector<Looks>& looks_;
+  bool quantized_ = false;
   std::vector<std::uint64_t> triangles_;
   std::uint64_t corners_ = 0;  // of all primitives: Assimp keeps each by itself
 };
-
-Json materialOf(const Json& material) {
-  Json some = Json::object();
-  keepName(material, some);
-  const auto looks = material.find("pbrMetallicRoughness");
-  if (looks == material.end() || !looks->contains("baseColorFactor")) return some;
-  const Json& colour = looks->at("baseColorFactor");
-  if (!colour.is_array() || colour.size() != 4 ||
-      !std::all_of(colour.begin(), colour.end(), [](const Json& v) { return v.is_number(); })) {
-    throw sim::InputError("baseColorFactor is not an array of 4 numbers");
-  }
-  some["pbrMetallicRoughness"]["baseColorFactor"] = colour;
-  return some;
-}
 
 Json accessorOf(const Json& accessor) {
   Json some = only(accessor, {"bufferView", "byteOffset", "componentType", "count", "type"});
@@ -169,13 +165,18 @@ Checked checkDocument(const Json& document, const Container& container, const Fi
   const std::string& version = requiredText(requiredObject(document, "asset"), "version");
   if (!version.starts_with("2.")) throw sim::InputError(fmt::format("glTF {} is not glTF 2", version));
   requireReadable(document);
-  Checked checked{{}, Buffers(document, container, file_beside), 0};
+  Checked checked{{}, Buffers(document, container, file_beside), {}, {}, 0};
   Accessors accessors(document, checked.buffers);
-  Meshes meshes(document, accessors);
+  TextureFiles textures;
+  const std::vector<Looks> looks = looksOf(document, checked.buffers, file_beside, textures);
+  for (const Looks& one : looks) checked.materials.push_back(one.material);
+  Vertices vertices(document, accessors, checked.buffers);
+  Meshes meshes(document, accessors, vertices, looks);
 
   Json some = {{"asset", {{"version", "2.0"}}}};
   some["meshes"] = each(document, "meshes", "mesh", [&](const Json& mesh) { return meshes.read(mesh); });
-  some["materials"] = each(document, "materials", "material", materialOf);
+  // Their numbers are all that Assimp is asked for.
+  some["materials"] = each(document, "materials", "material", [](const Json&) { return Json::object(); });
   checked.triangles = trianglesInScene(document, meshes.triangles());
   const std::size_t scene = indexIn(document, "scene", document, "scenes").value_or(0);
   some["scene"] = 0;
@@ -189,6 +190,11 @@ Checked checkDocument(const Json& document, const Container& container, const Fi
   some["bufferViews"] = each(document, "bufferViews", "bufferView", [](const Json& view) {
     return only(view, {"buffer", "byteOffset", "byteLength", "byteStride"});
   });
+  some["accessors"].insert(some["accessors"].end(), vertices.accessors().begin(), vertices.accessors().end());
+  some["bufferViews"].insert(some["bufferViews"].end(), vertices.views().begin(), vertices.views().end());
+  textures.warn(checked.warnings);
+  if (!vertices.leftOut().empty())
+    checked.warnings.push_back({{}, 0, 0, vertices.leftOut() + "; normals or UVs are left out"});
   for (std::size_t i = 0; i < checked.buffers.count(); ++i)
     some["buffers"].push_back({{"byteLength", checked.buffers.of(i).size()}, {"uri", bufferName(i)}});
   for (const char* key : {"extensionsUsed", "extensionsRequired"}) {

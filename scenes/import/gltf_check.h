@@ -2,16 +2,21 @@
 #include <cstdint>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "scenes/import/gltf_buffers.h"
+#include "scenes/problem.h"
+#include "sim/tile/mesh.h"
 
 namespace espalier::scenes::gltf {
 
-/// What Assimp is to read of a glTF file, and nothing that was not looked at: its scene, nodes, meshes,
-/// accessors, and the materials' names and colours.
+/// What is read of a glTF file, and nothing that was not looked at: its scene, nodes, meshes and accessors by
+/// Assimp, its materials by ourselves.
 struct Checked {
-  std::string json;        ///< a .gltf file, whose buffers are files by the names of bufferName()
-  Buffers buffers;         ///< those files
+  std::string json;  ///< a .gltf file, whose buffers are files by the names of bufferName()
+  Buffers buffers;   ///< those files
+  std::vector<sim::Material> materials;  ///< without names where the file gives none
+  std::vector<Problem> warnings;         ///< of pictures, normals and UVs that are left out
   std::uint64_t triangles; /**< that the nodes of its scene give; Assimp leaves out some, without a word,
                                 that it cannot make sense of */
 };

@@ -144,6 +144,7 @@ glm::dmat3 turnBy(const sim::Vec3& rotate_deg) {
 sim::Mesh placeMesh(sim::Mesh mesh, double scale, const sim::Vec3& rotate_deg, const sim::Vec3& translate_m) {
   const glm::dmat3 turn = turnBy(rotate_deg);
   for (auto& p : mesh.vertices_m) p = turn * (p * scale) + translate_m;
+  for (auto& normal : mesh.normals) normal = sim::unitOrNone(turn * sim::Vec3(normal));
   requireFinite(mesh);
   return mesh;
 }

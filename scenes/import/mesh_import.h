@@ -28,8 +28,13 @@ struct MeshSources {
 /// in the order of first use. Where groups are asked for and the file names none, its materials stand in;
 /// what has no name at all becomes a region named after the file. Materials carry base colours as linear RGB:
 /// glTF's are linear; Kd of an MTL file, of which its format says nothing, is taken as a display value
-/// (sRGB), as a colour picker shows it. Textures and vertex colours are not read. A material that no MTL file
-/// has, as where the file is missing, is grey, with a warning.
+/// (sRGB), as a colour picker shows it. A material that no MTL file has, as where the file is missing, is
+/// grey, with a warning.
+///
+/// What a model of the scene is to look like is handed on: UVs and normals where the file has them, base
+/// colour textures (PNG and JPEG files, undecoded, of 256 MB together at most; map_Kd of an MTL file), and
+/// what else a glTF material says of its surface. One warning tells of pictures that are left out. Vertex
+/// colours are not read.
 ///
 /// Triangles with two equal corners or a height below 1e-7 of their longest edge are dropped and counted, at
 /// any size.

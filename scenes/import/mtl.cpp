@@ -1,6 +1,7 @@
 #include "scenes/import/mtl.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <optional>
 
@@ -24,6 +25,58 @@ std::optional<sim::Colour> colourOf(ObjStatements& statement) {
   return colour;
 }
 
+std::string_view takePart(std::string_view& text) {
+  const std::size_t end = std::min(text.find_first_of(" \t"), text.size());
+  const std::string_view word = text.substr(0, end);
+  text.remove_prefix(std::min(text.find_first_not_of(" \t", end), text.size()));
+  return word;
+}
+
+/// Options, and behind them a file's name, which may have spaces.
+void readPicture(std::string_view rest, MtlMaterial& material) {
+  struct Option {
+    std::string_view name;
+    int words;  // behind it; of numbers at most three
+  };
+  static constexpr std::array<Option, 12> kOptions{{{"-blendu", 1},
+                                                    {"-blendv", 1},
+                                                    {"-boost", 1},
+                                                    {"-mm", 2},
+                                                    {"-o", 0},
+                                                    {"-s", 0},
+                                                    {"-t", 0},
+                                                    {"-texres", 1},
+                                                    {"-clamp", 1},
+                                                    {"-bm", 1},
+                                                    {"-imfchan", 1},
+                                                    {"-type", 1}}};
+  for (;;) {
+    std::string_view after = rest;
+    const std::string_view name = takePart(after);
+    const auto option =
+        std::find_if(kOptions.begin(), kOptions.end(), [&](const Option& o) { return o.name == name; });
+    if (option == kOptions.end()) break;
+    rest = after;
+    if (option->words > 0) {
+      for (int i = 0; i < option->words; ++i) {
+        const std::string_view word = takePart(rest);
+        if (name == "-clamp") material.clamps = word == "on";
+      }
+      continue;
+    }
+    for (int i = 0; i < 3; ++i) {
+      after = rest;
+      const auto number = numberOf(takePart(after));
+      if (!number) break;
+      rest = after;
+      if (i < 2 && name == "-s") material.scale[i] = *number;
+      if (i < 2 && name == "-o") material.offset[i] = *number;
+    }
+  }
+  material.picture = rest;
+  std::replace(material.picture.begin(), material.picture.end(), '\\', '/');
+}
+
 }  // namespace
 
 sim::Material unknownMaterial(const std::string& name) {
@@ -32,11 +85,12 @@ sim::Material unknownMaterial(const std::string& name) {
 
 int readMtl(std::string_view mtl, MtlMaterials& materials) {
   int wrong_line = 0;
-  sim::Material* material = nullptr;
+  MtlMaterial* material = nullptr;
   for (ObjStatements statement(mtl); statement.next();) {
     if (statement.keyword() == "newmtl") {
       const std::string name(statement.rest());
-      material = &materials.try_emplace(name, unknownMaterial(cleanText(name))).first->second;
+      material =
+          &materials.try_emplace(name, MtlMaterial{unknownMaterial(cleanText(name)), {}}).first->second;
     } else if ((statement.keyword() == "Kd" || statement.keyword() == "kd") && material != nullptr) {
       const auto colour = colourOf(statement);
       if (!colour) {
@@ -44,7 +98,9 @@ int readMtl(std::string_view mtl, MtlMaterials& materials) {
         continue;
       }
       for (int c = 0; c < 3; ++c)
-        material->colour[c] = sim::linearFromSrgb(std::clamp((*colour)[c], 0.0f, 1.0f));
+        material->material.colour[c] = sim::linearFromSrgb(std::clamp((*colour)[c], 0.0f, 1.0f));
+    } else if ((statement.keyword() == "map_Kd" || statement.keyword() == "map_kd") && material != nullptr) {
+      readPicture(statement.rest(), *material);
     }
   }
   return wrong_line;

@@ -4,13 +4,16 @@
 #include <fmt/format.h>
 
 #include <map>
+#include <memory>
 #include <set>
+#include <span>
 #include <sstream>
 #include <utility>
 
 #include "scenes/clean_text.h"
 #include "scenes/import/assimp_scene.h"
 #include "scenes/import/mtl.h"
+#include "scenes/import/texture_files.h"
 #include "sim/base/error.h"
 
 namespace espalier::scenes {
@@ -36,7 +39,22 @@ class MtlFiles {
   }
 
   bool allThere() const { return missing_.empty(); }
-  MtlMaterials takeMaterials() { return std::move(materials_); }
+  const MtlMaterials& materials() const { return materials_; }
+
+  /// The picture of one of the materials; null where it has none, or none is to be had.
+  std::shared_ptr<const sim::Texture> textureOf(const std::string& name, const MtlMaterial& material) {
+    if (material.picture.empty()) return nullptr;
+    const auto wrap = material.clamps ? sim::Texture::Wrap::clamp : sim::Texture::Wrap::repeat;
+    const std::size_t last = material.picture.rfind('/');
+    // Beside the MTL file; a path of the machine that it was made on is of no use here but for the file's
+    // name.
+    for (const std::string& file :
+         {folders_[name] + material.picture, folders_[name] + material.picture.substr(last + 1)}) {
+      if (const std::string* const bytes = io_.read(file)) return textures_.add(file, *bytes, {wrap, wrap});
+    }
+    textures_.miss(material.picture, "is not there as a regular file in the mesh's folder");
+    return nullptr;
+  }
 
   /// One warning for all that are not there, and one for the first line that is wrong: a file may name a
   /// million.
@@ -53,6 +71,7 @@ class MtlFiles {
                           what + " in the mesh's folder; materials that no other file has are grey"});
     }
     if (!wrong_.text.empty()) warnings.push_back(wrong_);
+    textures_.warn(warnings);
   }
 
  private:
@@ -65,6 +84,8 @@ class MtlFiles {
       return;
     }
     const int line = readMtl(*mtl, materials_);
+    const std::string folder = name.substr(0, name.rfind('/') + 1);
+    for (const auto& [material, about] : materials_) folders_.try_emplace(material, folder);
     if (line == 0 || !wrong_.text.empty()) return;
     wrong_ = {{},
               library.line,
@@ -75,6 +96,8 @@ class MtlFiles {
   MeshFolderIo& io_;
   std::set<std::string> known_;
   MtlMaterials materials_;
+  std::map<std::string, std::string> folders_;  // of the MTL files that have them
+  TextureFiles textures_;
   std::vector<std::string> missing_;
   ObjText::Named first_missing_;
   Problem wrong_;
@@ -83,7 +106,7 @@ class MtlFiles {
 /// The materials that the file's polygons have, by their numbers in the order of first use.
 class ObjMaterials {
  public:
-  ObjMaterials(MtlMaterials known, const std::string& stem) : stem_(stem), known_(std::move(known)) {}
+  ObjMaterials(MtlFiles& files, const std::string& stem) : stem_(stem), files_(files) {}
 
   std::size_t number(const ObjText::Named& material) {
     const auto [at, is_new] = numbers_.try_emplace(material.name, materials_.size());
@@ -91,6 +114,13 @@ class ObjMaterials {
     return at->second;
   }
   const std::vector<sim::Material>& materials() const { return materials_; }
+  /// Moves UVs as the material's picture wants it.
+  void move(const std::string& name, std::span<glm::vec2> uvs) const {
+    const auto known = files_.materials().find(name);
+    if (known == files_.materials().end()) return;
+    const MtlMaterial& material = known->second;
+    for (glm::vec2& uv : uvs) uv = uv * material.scale + material.offset;
+  }
 
   /// One warning for all that no file has.
   void warn(bool names_files, std::vector<Problem>& warnings) const {
@@ -108,9 +138,12 @@ class ObjMaterials {
  private:
   sim::Material find(const ObjText::Named& material) {
     if (material.name.empty()) return {.name = stem_};
-    const auto known = known_.find(material.name);
-    sim::Material found = known != known_.end() ? known->second : unknownMaterial(cleanText(material.name));
-    if (known == known_.end()) {
+    const auto known = files_.materials().find(material.name);
+    const bool is_known = known != files_.materials().end();
+    sim::Material found = is_known ? known->second.material : unknownMaterial(cleanText(material.name));
+    if (is_known) {
+      found.texture = files_.textureOf(material.name, known->second);
+    } else {
       if (unknown_.empty()) first_unknown_ = material;
       unknown_.push_back(found.name);
     }
@@ -119,7 +152,7 @@ class ObjMaterials {
   }
 
   std::string stem_;
-  MtlMaterials known_;
+  MtlFiles& files_;
   std::map<std::string, std::size_t> numbers_;
   std::vector<sim::Material> materials_;
   std::vector<std::string> unknown_;
@@ -127,7 +160,7 @@ class ObjMaterials {
 };
 
 /// Assimp gives the polygons of its one mesh in the file's order, each with corners of its own.
-std::vector<MeshInstance> instancesOf(const aiMesh& mesh, const ObjText& obj, ObjMaterials& materials) {
+std::vector<MeshInstance> instancesOf(const aiMesh& mesh, ObjText& obj, ObjMaterials& materials) {
   std::vector<MeshInstance> instances;
   unsigned vertex = 0;
   for (std::size_t s = 0; s < obj.stretches.size(); ++s) {
@@ -148,6 +181,12 @@ std::vector<MeshInstance> instancesOf(const aiMesh& mesh, const ObjText& obj, Ob
     instance.end_vertex = vertex;
     instance.group = cleanText(stretch.group);
     instance.material = materials.number(stretch.material);
+    if (!obj.uvs.empty()) {
+      instance.uvs = &obj.uvs;
+      materials.move(stretch.material.name,
+                     std::span(obj.uvs).subspan(instance.first_vertex, vertex - instance.first_vertex));
+    }
+    if (!obj.normals.empty()) instance.normals = &obj.normals;
     instances.push_back(std::move(instance));
   }
   return instances;
@@ -161,16 +200,24 @@ sim::Mesh readObj(MeshFolderIo& io, const std::string& name, RegionsFrom regions
                   std::vector<Problem>& warnings) {
   const std::string* const text = io.read(name);
   if (text == nullptr) throw sim::InputError("cannot be read");
-  const ObjText obj = takeApart(*text);
+  ObjText obj = takeApart(*text);
   if (obj.polygons == 0) throw sim::InputError("there are no triangles in the file");
   MtlFiles files(io, obj);
-  files.warn(warnings);
-  ObjMaterials materials(files.takeMaterials(), stem);
+  ObjMaterials materials(files, stem);
   io.show(kShown, obj.shapes);
   const aiScene& scene = read_scene(kShown);
   if (scene.mNumMeshes != 1 || scene.mMeshes[0]->mNumFaces != obj.polygons)
     throw sim::InputError("cannot be read: Assimp left out some of its polygons");
   const auto instances = instancesOf(*scene.mMeshes[0], obj, materials);
+  files.warn(warnings);
+  if (obj.odd_corners > 0) {
+    warnings.push_back({{},
+                        0,
+                        0,
+                        fmt::format("{} corners of its polygons ask for texture vertices or normals that are "
+                                    "not there, and have none",
+                                    obj.odd_corners)});
+  }
   if (files.allThere()) materials.warn(!obj.libraries.empty(), warnings);
   return meshOf(instances, materials.materials(), regions_from, stem);
 }

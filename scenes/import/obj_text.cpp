@@ -2,7 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
+#include <charconv>
+#include <limits>
 #include <set>
 
 #include "scenes/import/obj_statements.h"
@@ -21,6 +24,10 @@ class TakingApart {
       const std::string_view keyword = statement.keyword();
       if (keyword == "v") {
         addVertex(statement);
+      } else if (keyword == "vt") {
+        uvs_.push_back(glm::vec2(looksIn(statement)));
+      } else if (keyword == "vn") {
+        normals_.push_back(looksIn(statement));
       } else if (keyword == "f") {
         addPolygon(statement);
       } else if (keyword == "g" || keyword == "o") {
@@ -32,6 +39,8 @@ class TakingApart {
       }
     }
     vertices_.requireAll();
+    text_.uvs = pick(uv_of_, uvs_);
+    text_.normals = pick(normal_of_, normals_);
     return std::move(text_);
   }
 
@@ -59,11 +68,27 @@ class TakingApart {
     text_.shapes += word;
   }
 
+  /// Up to three numbers of a `vt` or `vn`; zero where it is none.
+  static sim::Vec3f looksIn(ObjStatements& statement) {
+    sim::Vec3f looks(0.0f);
+    for (int i = 0; i < 3; ++i) {
+      const std::string_view word = statement.takeNumber();
+      const auto number = word.empty() ? 0.0f : numberOf(word);
+      if (!number) return sim::Vec3f(0.0f);
+      looks[i] = *number;
+    }
+    return looks;
+  }
+
   void addPolygon(ObjStatements& statement) {
     corners_.clear();
-    for (std::string_view word = statement.takeNumber(); !word.empty(); word = statement.takeNumber())
+    words_.clear();
+    for (std::string_view word = statement.takeNumber(); !word.empty(); word = statement.takeNumber()) {
       corners_.push_back(vertices_.asked(word, line_, "a face"));
+      words_.push_back(word);
+    }
     if (corners_.size() < 3) return;
+    for (const std::string_view word : words_) addLooks(word);
     text_.shapes += 'f';
     for (const std::int64_t vertex : corners_)
       fmt::format_to(std::back_inserter(text_.shapes), " {}", vertex);
@@ -74,6 +99,46 @@ class TakingApart {
       text_.stretches.push_back(now_);
     }
     ++text_.polygons;
+  }
+
+  /// Which `vt` and `vn` a corner asks for, or 0: they may come later.
+  void addLooks(std::string_view word) {
+    const auto take = [&] {
+      const std::size_t slash = word.find('/');
+      word.remove_prefix(slash == word.npos ? word.size() : slash + 1);
+      return word.substr(0, word.find('/'));
+    };
+    const auto add = [&](std::vector<std::int64_t>& numbers, std::string_view number, std::size_t so_far) {
+      std::int64_t asked = 0;
+      if (!number.empty()) {
+        const auto [end, error] = std::from_chars(number.data(), number.data() + number.size(), asked);
+        if (error != std::errc() || end != number.data() + number.size() || asked == 0) asked = kNowhere;
+      }
+      if (asked < 0 && asked != kNowhere) {  // backwards from the last one so far
+        asked += static_cast<std::int64_t>(so_far) + 1;
+        if (asked < 1) asked = kNowhere;
+      }
+      if (asked == 0 && numbers.empty()) return;
+      numbers.resize(all_corners_, 0);
+      numbers.push_back(asked);
+    };
+    add(uv_of_, take(), uvs_.size());
+    add(normal_of_, take(), normals_.size());
+    ++all_corners_;
+  }
+
+  template <class T>
+  std::vector<T> pick(std::vector<std::int64_t>& numbers, const std::vector<T>& values) {
+    if (numbers.empty()) return {};
+    numbers.resize(all_corners_, 0);
+    std::vector<T> picked;
+    picked.reserve(numbers.size());
+    for (const std::int64_t number : numbers) {
+      const bool there = number > 0 && number <= static_cast<std::int64_t>(values.size());
+      picked.push_back(there ? values[static_cast<std::size_t>(number - 1)] : T(0.0f));
+      text_.odd_corners += number != 0 && !there ? 1 : 0;
+    }
+    return picked;
   }
 
   static ObjText::Named named(const ObjStatements& statement) {
@@ -88,7 +153,13 @@ class TakingApart {
   ObjText text_;
   ObjText::Stretch now_;
   std::set<std::string> known_libraries_;
+  static constexpr std::int64_t kNowhere = std::numeric_limits<std::int64_t>::min();
   std::vector<std::int64_t> corners_;
+  std::vector<std::string_view> words_;
+  std::vector<glm::vec2> uvs_;
+  std::vector<sim::Vec3f> normals_;
+  std::vector<std::int64_t> uv_of_, normal_of_;  // of each corner
+  std::size_t all_corners_ = 0;
   ObjVertices vertices_;
   int line_ = 0;
 };

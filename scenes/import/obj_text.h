@@ -1,8 +1,12 @@
 #pragma once
+#include <cstddef>
 #include <cstdint>
+#include <glm/vec2.hpp>
 #include <string>
 #include <string_view>
 #include <vector>
+
+#include "sim/base/vec.h"
 
 namespace espalier::scenes {
 
@@ -29,6 +33,10 @@ struct ObjText {
   std::string shapes;  ///< `v` and `f` statements, one a line, that ask for vertices that are there
   std::uint64_t polygons = 0;
   std::vector<Stretch> stretches;
+  /// Of each corner of the polygons, one after the other; empty: the file has none. Zero: a corner has none.
+  std::vector<glm::vec2> uvs;
+  std::vector<sim::Vec3f> normals;
+  std::size_t odd_corners = 0;   ///< that ask for UVs or normals that are not there, and have none
   std::vector<Named> libraries;  ///< what stands behind `mtllib`: a file, or several; each once
 };
 

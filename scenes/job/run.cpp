@@ -35,7 +35,7 @@
 namespace espalier::scenes {
 namespace {
 
-constexpr const char *kModelFile = "plant.glb", *kSkeletonFile = "skeleton.json", *kWorldFile = "world.vdb";
+constexpr const char *kSkeletonFile = "skeleton.json", *kWorldFile = "world.vdb";
 
 /// The free voxels of the boundary layers, which lie around the scene.
 sim::VoxelSet openLayers(const sim::BitVolume& scene, const sim::World& grown) {
@@ -179,8 +179,8 @@ sim::Growth growOn(const Scene& scene, Prepared& prepared, std::optional<sim::Gr
 
 Report runScene(const Scene& scene, const RunOptions& options, const Keeping& keeping) {
   if (options.pictures) requirePicturesFit(scene, picturesOf(scene));
-  std::vector<std::string> names = {kModelFile, kSkeletonFile, kWorldFile, kReportFile};
-  for (int level = 1; level <= options.coarser_models; ++level) names.push_back(levelFile(level));
+  std::vector<std::string> names = modelFileNames(options.models);
+  names.insert(names.end(), {kSkeletonFile, kWorldFile, kReportFile});
   if (keeping.keep || keeping.every > 0) names.emplace_back(kStateFile);
   if (options.pictures) {
     for (std::string& name : fileNames(scene.images)) names.push_back(std::move(name));
@@ -224,23 +224,10 @@ Report runScene(const Scene& scene, const RunOptions& options, const Keeping& ke
   const GuideVolumes guides = inScene(scene, [&] { return guideVolumes(growth, usedFields(scene), world); });
   for (const render::VdbField& field : guides.fields)
     report.growth->fields.push_back({field.name, guides.near->count()});
-  std::vector<OutputFile> files;
-  const render::PlantModels in_memory = [&](const std::function<void(const render::PlantModel&)>& take) {
-    for (const auto& model : models) take(model);
-  };
-  files.push_back({kModelFile, [&](std::ostream& out) {
-                     const auto plants = modelsOf(world.frame(), growth.plants, bare, 0);
-                     writeGlb(out, site, models.empty() ? plants : in_memory, report.made_by,
-                              [&](std::size_t plant, std::size_t limbs) {
-                                report.growth->plants[plant].meeting_limbs = limbs;
-                              });
-                   }});
-  for (int level = 1; level <= options.coarser_models; ++level) {
-    files.push_back({levelFile(level), [&, level](std::ostream& out) {
-                       writeGlb(out, site, modelsOf(world.frame(), growth.plants, bare, level),
-                                report.made_by, [](std::size_t, std::size_t) {});
-                     }});
-  }
+  const ModelSources sources{site, growth.plants, bare, models, report.made_by};
+  std::vector<OutputFile> files = modelFiles(
+      options.models, sources,
+      [&](std::size_t plant, std::size_t limbs) { report.growth->plants[plant].meeting_limbs = limbs; });
   files.push_back({kSkeletonFile, [&](std::ostream& out) {
                      render::writeSkeletons(out, growth.plants, world.frame(), report.made_by);
                    }});

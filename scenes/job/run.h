@@ -4,6 +4,7 @@
 #include <stop_token>
 #include <string>
 
+#include "scenes/job/model_files.h"
 #include "scenes/job/report.h"
 #include "scenes/scene.h"
 
@@ -12,7 +13,7 @@ namespace espalier::scenes {
 struct RunOptions {
   std::filesystem::path folder{};  ///< made if it is not there
   bool pictures = true;            ///< draw the scene's images
-  int coarser_models = 0;          ///< 0 to 3: plant_lod1.glb and so on, each of a coarser level
+  ModelsWanted models{};           ///< beside plant.glb
   bool strict = false;  ///< warnings are errors; of one that comes after growth once all is written
   std::stop_token stop;
   std::function<void(const Foretold&)> on_foretold;        ///< once, in the first stage that it tells of

@@ -76,11 +76,17 @@ Meshes readMeshes(const Scene& scene, MeshFiles& files, std::vector<Problem>& wa
     }
     mesh.name = spec.name;
     if (spec.colour) {
-      for (sim::Material& material : mesh.materials) material.colour = *spec.colour;
+      for (sim::Material& material : mesh.materials) {
+        material.colour = *spec.colour;
+        material.texture.reset();
+      }
     }
     if (spec.tiled) {
       meshes.tiled.push_back({std::move(mesh), spec.solid});
     } else {
+      mesh.uvs = {};  // nobody sees it
+      mesh.normals = {};
+      for (sim::Material& material : mesh.materials) material.texture.reset();
       meshes.shapes.push_back(std::move(mesh));
     }
   }

@@ -1,8 +1,15 @@
 #include "sim/tile/mesh.h"
 
+#include <cmath>
+
 #include "sim/base/hasher.h"
 
 namespace espalier::sim {
+
+Vec3f unitOrNone(const Vec3& normal) {
+  const double length = glm::length(normal);
+  return std::isfinite(length) && length > 1e-30 ? Vec3f(normal / length) : Vec3f(0.0f);
+}
 
 std::uint64_t contentHash(const Mesh& mesh) {
   Hasher hash;

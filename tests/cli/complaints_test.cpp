@@ -81,7 +81,8 @@ TEST_F(Plot, AStemThatHasNoEffectIsAWarningWithItsPlace) {
 
 TEST_F(Plot, KeysOfAFrontThatHaveNoEffectAreWarnings) {
   scratch_.write("vine.yaml",
-                 "espalier: rules\npropagate: colonization\ncolonization:\n  crown: {sphere: 20 cm, trunk: 5 cm, count: 9}\n"
+                 "espalier: rules\npropagate: colonization\ncolonization:\n  crown: {sphere: 20 cm, trunk: 5 "
+                 "cm, count: 9}\n"
                  "branches: {colonization: {onto: true, step: 2, trials: 9}}\n"
                  "regions: {wall: {colonization: {step: 3, avoid: 20}}}\n");
   const auto ran = grow("--no-pictures", "told");

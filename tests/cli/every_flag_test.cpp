@@ -113,6 +113,18 @@ TEST_F(EveryFlag, OfGrowChangesWhatComesOut) {
          grown("", "b");
          return Seen{names(scratch_.path("a")), names(scratch_.path("b"))};
        }},
+      {"instances",
+       [&] {
+         grown("", "a");
+         grown("--instances", "b");
+         return Seen{bytes("a/plant.glb"), bytes("b/plant.glb")};
+       }},
+      {"obj",
+       [&] {
+         grown("", "a");
+         grown("--obj", "b");
+         return Seen{names(scratch_.path("a")), names(scratch_.path("b"))};
+       }},
       {"lods",
        [&] {
          grown("", "a");

@@ -9,6 +9,7 @@
 #include <string>
 #include <tuple>
 
+#include "scenes/import/mesh_import.h"
 #include "sim/base/hasher.h"
 #include "sim/base/provenance.h"
 #include "tests/cli/plot.h"
@@ -195,6 +196,29 @@ TEST_F(Plot, CoarserModelsAreWrittenWhereAskedFor) {
   EXPECT_EQ(tests::fileText(scratch_.path("one") / "plant.glb"),
             tests::fileText(scratch_.path("all") / "plant.glb"));
   EXPECT_EQ(grow("--no-pictures --lods 4", "four").status, 2);
+}
+
+/// Assimp reads both back.
+TEST_F(Plot, TheObjModelHasTheTrianglesOfTheGlbModel) {
+  ASSERT_EQ(grow("--no-pictures --obj", "both").status, 0);
+  const auto trianglesIn = [&](const char* file) {
+    const sim::Mesh mesh = scenes::importMesh(scratch_.path("both") / file, scenes::RegionsFrom::group);
+    return mesh.triangles.size() + mesh.degenerate_dropped;
+  };
+  EXPECT_GT(trianglesIn("plant.glb"), 100u);
+  EXPECT_EQ(trianglesIn("plant.obj"), trianglesIn("plant.glb"));
+  EXPECT_TRUE(fs::exists(scratch_.path("both") / "plant.mtl"));
+  ASSERT_EQ(grow("--no-pictures", "one").status, 0);
+  EXPECT_FALSE(fs::exists(scratch_.path("one") / "plant.obj"));
+  EXPECT_EQ(tests::fileText(scratch_.path("one") / "plant.glb"),
+            tests::fileText(scratch_.path("both") / "plant.glb"));
+}
+
+TEST_F(Plot, InstancesMakeASmallerModel) {
+  ASSERT_EQ(grow("--no-pictures --instances", "with").status, 0);
+  ASSERT_EQ(grow("--no-pictures", "without").status, 0);
+  EXPECT_LT(fs::file_size(scratch_.path("with") / "plant.glb"),
+            fs::file_size(scratch_.path("without") / "plant.glb"));
 }
 
 TEST_F(Plot, TheSeedOfTheCommandLineWins) {

@@ -65,9 +65,9 @@ TEST(PlantModel, IsLight) {
   const sim::Plant plant = tests::smallVine();
   const auto model = modelPlant(plant, tests::kVineFrame);
   const auto segments = static_cast<std::size_t>(plant.skeleton.size());
-  EXPECT_LT(model.stems.triangles.size(), 45 * segments);
+  EXPECT_LT(model.stems.triangles.size(), 30 * segments);
   EXPECT_EQ(model.elements[0].triangles.size(), 6 * plant.elements.size());
-  EXPECT_EQ(model.stalks.triangles.size(), 10 * plant.elements.size());
+  EXPECT_EQ(model.stalks.triangles.size(), 3 * plant.elements.size());
 }
 
 TEST(PlantModel, ExposureComesFromTheNodes) {
@@ -84,6 +84,38 @@ TEST(PlantModel, ExposureComesFromTheNodes) {
       EXPECT_EQ(model.stems.youths[i], 1.0f);
     }
   }
+}
+
+TEST(PlantModel, OrdersAreThoseOfBranching) {
+  sim::Plant plant;
+  for (const Vec3 p : {Vec3(0, 0, 0), Vec3(0, 3, 0), Vec3(0, 6, 0), Vec3(0, 9, 0)})
+    tests::addNode(plant.skeleton, plant.skeleton.size() - 1, p);
+  tests::addNode(plant.skeleton, 1, {3, 4, 0});  // a branch, and a twig on it
+  tests::addNode(plant.skeleton, 4, {6, 5, 0});
+  tests::addNode(plant.skeleton, 5, {9, 5, 0});
+  tests::addNode(plant.skeleton, 4, {4, 7, 0});
+  for (const double x : {0.0, -3.0, 3.0}) tests::addNode(plant.skeleton, 3, {x, 12, 0});  // a thick trunk
+  plant.shapes = {tests::keeledLeaf()};
+  for (const sim::NodeId node : {0, 2, 5, 7})
+    plant.elements.push_back(
+        {.node = node, .position_vx = plant.skeleton.position_vx[static_cast<std::size_t>(node)]});
+  const auto ordersOf = [](const std::vector<std::uint8_t>& orders,
+                           const std::vector<std::uint32_t>& pieces) {
+    EXPECT_EQ(orders.size(), pieces.size());
+    std::map<std::uint32_t, std::set<int>> found;
+    for (std::size_t i = 0; i < orders.size(); ++i) found[pieces[i]].insert(orders[i]);
+    return found;
+  };
+  using Found = std::map<std::uint32_t, std::set<int>>;
+  auto model = modelPlant(plant, kUnit);
+  EXPECT_EQ(ordersOf(model.stems.orders, model.stems.pieces),
+            (Found{{0, {0}}, {1, {1}}, {2, {1}}, {3, {1}}, {4, {2}}}));
+  EXPECT_EQ(ordersOf(model.elements[0].orders, model.elements[0].pieces),
+            (Found{{0, {0}}, {1, {0}}, {2, {1}}, {3, {2}}}));
+  plant.skeleton.columns["order"] = {0, 0, 0, 0, 7, 7, 7, 300, 0, 7, 7};  // as the process counts
+  model = modelPlant(plant, kUnit);
+  EXPECT_EQ(ordersOf(model.stems.orders, model.stems.pieces),
+            (Found{{0, {0}}, {1, {7}}, {2, {7}}, {3, {7}}, {4, {255}}}));
 }
 
 TEST(PlantModel, DegeneratePlants) {
@@ -175,10 +207,12 @@ TEST(Leaves, StalksReachFromTheStemToTheBlade) {
   element.z = {0, -1, 0};
   element.scale = 4.0;
   plant.elements = {element};
-  const auto with_stalk = modelPlant(plant, kUnit).stalks;
+  const auto with_stalk = modelPlant(plant, kUnit);
   const Vec3 base = sim::placed(element, render::bladeBase(plant.shapes[0]));
-  EXPECT_LT(distanceTo(with_stalk, {5, 3, 5}), 0.1);
-  EXPECT_LT(distanceTo(with_stalk, base), 1e-5);
+  expectSound(with_stalk.stalks);
+  EXPECT_LT(distanceTo(with_stalk.stalks, {5, 3, 5}), 0.1);
+  EXPECT_LT(distanceTo(with_stalk.stalks, base), 1e-5);
+  EXPECT_LT(distanceTo(with_stalk.elements[0], base), 1e-5);
   plant.shapes[0].polygons = {{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}}};  // begins on the stem
   EXPECT_EQ(modelPlant(plant, kUnit).elements[0].triangles.size(), 1u);
   EXPECT_TRUE(modelPlant(plant, kUnit).stalks.empty());
@@ -193,6 +227,7 @@ TEST(Leaves, WhereThereIsNoStemThereIsNoStalk) {
   element.position_vx = {25, 0, 5};
   paving.elements = {element};
   EXPECT_EQ(modelPlant(paving, kUnit).elements[0].triangles.size(), 1u);
+  EXPECT_TRUE(modelPlant(paving, kUnit).stalks.empty());
 }
 
 }  // namespace

@@ -1,0 +1,158 @@
+#include "render/files/glb_file.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <limits>
+#include <nlohmann/json.hpp>
+#include <ostream>
+#include <sstream>
+#include <vector>
+
+#include "render/files/glb_words.h"
+#include "sim/base/error.h"
+
+namespace espalier::render {
+namespace {
+
+tinygltf::Value extras(const sim::Provenance& made_by) {
+  tinygltf::Value::Array inputs;
+  for (const sim::InputFile& input : made_by.inputs) {
+    inputs.emplace_back(tinygltf::Value::Object{{"file", tinygltf::Value(validUtf8(input.name))},
+                                                {"kind", tinygltf::Value(input.kind)},
+                                                {"xxh3", tinygltf::Value(sim::hexOf(input.hash))}});
+  }
+  // As text: of JSON's numbers tinygltf writes 32 bits or a real one.
+  return tinygltf::Value(tinygltf::Value::Object{{"seed", tinygltf::Value(std::to_string(made_by.seed))},
+                                                 {"inputs", tinygltf::Value(std::move(inputs))}});
+}
+
+}  // namespace
+
+std::string validUtf8(const std::string& name) {
+  using nlohmann::json;
+  return json::parse(json(name).dump(-1, ' ', false, json::error_handler_t::replace)).get<std::string>();
+}
+
+GlbFile::GlbFile(const sim::Provenance& made_by, std::ostream* buffer) : buffer_(buffer) {
+  model_.asset.version = "2.0";
+  model_.asset.generator = made_by.software.empty() ? "Espalier" : validUtf8(made_by.software);
+  if (!made_by.software.empty()) model_.asset.extras = extras(made_by);
+  model_.scenes.resize(1);
+  model_.defaultScene = 0;
+}
+
+void GlbFile::align() {
+  for (; bytes_ % kGlbWord != 0; ++bytes_) {
+    if (buffer_ != nullptr) buffer_->put('\0');
+  }
+}
+
+int GlbFile::view(const void* data, std::size_t bytes, int target) {
+  align();  // glTF aligns every accessor to its component's size
+  tinygltf::BufferView view;
+  view.buffer = 0;
+  view.byteOffset = bytes_;
+  view.byteLength = bytes;
+  view.target = target;
+  if (buffer_ != nullptr)
+    buffer_->write(static_cast<const char*>(data), static_cast<std::streamsize>(view.byteLength));
+  bytes_ += view.byteLength;
+  model_.bufferViews.push_back(std::move(view));
+  return sizeOf(model_.bufferViews) - 1;
+}
+
+int GlbFile::accessor(const void* data, std::size_t bytes, std::size_t count, int component_type, int type,
+                      int target, bool normalized) {
+  tinygltf::Accessor result;
+  result.bufferView = view(data, bytes, target);
+  result.componentType = component_type;
+  result.type = type;
+  result.count = count;
+  result.normalized = normalized;
+  model_.accessors.push_back(std::move(result));
+  return sizeOf(model_.accessors) - 1;
+}
+
+int GlbFile::positions(std::span<const sim::Vec3f> data) {
+  const int index = vertices(data, TINYGLTF_COMPONENT_TYPE_FLOAT, TINYGLTF_TYPE_VEC3);
+  sim::Vec3f low = data[0], high = data[0];
+  for (const sim::Vec3f p : data) {
+    low = glm::min(low, p);
+    high = glm::max(high, p);
+  }
+  model_.accessors.back().minValues = {low.x, low.y, low.z};
+  model_.accessors.back().maxValues = {high.x, high.y, high.z};
+  return index;
+}
+
+int GlbFile::uvs(std::span<const glm::vec2> data, bool coarse) {
+  const auto inside = [](glm::vec2 uv) {
+    return uv.x >= 0.0f && uv.x <= 1.0f && uv.y >= 0.0f && uv.y <= 1.0f;
+  };
+  if (coarse && std::all_of(data.begin(), data.end(), inside)) {
+    using Shorts = std::array<std::uint16_t, 2>;
+    const auto shortOf = [](float share) {
+      return static_cast<std::uint16_t>(std::lround(share * 65535.0f));
+    };
+    std::vector<Shorts> shorts;
+    shorts.reserve(data.size());
+    for (const glm::vec2 uv : data) shorts.push_back({shortOf(uv.x), shortOf(1.0f - uv.y)});
+    return vertices<Shorts>(shorts, TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT, TINYGLTF_TYPE_VEC2, true);
+  }
+  std::vector<glm::vec2> turned;
+  turned.reserve(data.size());
+  for (const glm::vec2 uv : data) turned.emplace_back(uv.x, 1.0f - uv.y);
+  return vertices<glm::vec2>(turned, TINYGLTF_COMPONENT_TYPE_FLOAT, TINYGLTF_TYPE_VEC2);
+}
+
+int GlbFile::indices(std::span<const std::array<std::uint32_t, 3>> triangles, std::size_t vertices) {
+  const std::size_t count = 3 * triangles.size();
+  // The greatest number of each kind is not an index: it restarts strips.
+  if (vertices > std::numeric_limits<std::uint16_t>::max()) {
+    return accessor(triangles.data(), triangles.size_bytes(), count, TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT,
+                    TINYGLTF_TYPE_SCALAR, TINYGLTF_TARGET_ELEMENT_ARRAY_BUFFER, false);
+  }
+  std::vector<std::uint16_t> corners;
+  corners.reserve(count);
+  for (const auto& triangle : triangles) {
+    for (const std::uint32_t corner : triangle) corners.push_back(static_cast<std::uint16_t>(corner));
+  }
+  return accessor(corners.data(), 2 * count, count, TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT,
+                  TINYGLTF_TYPE_SCALAR, TINYGLTF_TARGET_ELEMENT_ARRAY_BUFFER, false);
+}
+
+int GlbFile::bytes(std::string_view data) {
+  return view(data.data(), data.size(), 0);
+}
+
+int GlbFile::node(const std::string& name, int mesh) {
+  tinygltf::Node node;
+  node.name = validUtf8(name);
+  node.mesh = mesh;
+  model_.nodes.push_back(std::move(node));
+  return sizeOf(model_.nodes) - 1;
+}
+
+/// As tinygltf writes it, with our buffer for one of its own.
+std::string GlbFile::json() const {
+  tinygltf::Model model = model_;
+  if (model.nodes.empty()) {  // glTF forbids empty buffers and scenes of nothing
+    model.scenes.clear();
+    model.defaultScene = -1;
+  } else {
+    model.buffers.resize(1);
+    model.buffers[0].data.resize(kGlbWord);
+  }
+  std::ostringstream out;
+  if (!tinygltf::TinyGLTF().WriteGltfSceneToStream(&model, out, false, true))
+    throw sim::InputError("the glTF writer failed");
+  const std::string file = std::move(out).str();
+  std::uint32_t length = 0;
+  std::memcpy(&length, file.data() + kGlbHeader, sizeof length);
+  auto json = nlohmann::json::parse(std::string_view(file).substr(kGlbHeader + kGlbChunkHeader, length));
+  if (!model.buffers.empty()) json["buffers"][0]["byteLength"] = bytes_;
+  return json.dump();
+}
+
+}  // namespace espalier::render

@@ -1,0 +1,81 @@
+#pragma once
+// Internal to the wing, and heavy: it brings tinygltf along.
+#include <tiny_gltf.h>
+
+#include <array>
+#include <cstdint>
+#include <glm/vec2.hpp>
+#include <iosfwd>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "sim/base/provenance.h"
+#include "sim/base/vec.h"
+
+namespace espalier::render {
+
+/// A .glb file while it is made: its buffer, and what its JSON says of that. Without a stream it measures
+/// alone: the sizes stand before the data in the file.
+class GlbFile {
+ public:
+  GlbFile(const sim::Provenance& made_by, std::ostream* buffer);
+
+  /// Adds an accessor of the data, tightly packed. Elements of vertices have multiples of 4 bytes, as glTF
+  /// wants them.
+  template <class T>
+  int vertices(std::span<const T> data, int component_type, int type, bool normalized = false) {
+    static_assert(sizeof(T) % 4 == 0);
+    return accessor(data.data(), data.size_bytes(), data.size(), component_type, type,
+                    TINYGLTF_TARGET_ARRAY_BUFFER, normalized);
+  }
+  /// A VEC3 of places, whose box glTF wants to know.
+  int positions(std::span<const sim::Vec3f> data);
+  /// A number each.
+  int numbers(std::span<const float> data) {
+    return vertices(data, TINYGLTF_COMPONENT_TYPE_FLOAT, TINYGLTF_TYPE_SCALAR);
+  }
+  /// Unit ones.
+  int normals(std::span<const sim::Vec3f> data) {
+    return vertices(data, TINYGLTF_COMPONENT_TYPE_FLOAT, TINYGLTF_TYPE_VEC3);
+  }
+  /// Those of ours count v upwards, those of glTF from the top. In 16 bits each where all lie within 0..1 and
+  /// that is said to do.
+  int uvs(std::span<const glm::vec2> data, bool coarse = false);
+  /// One for each instance of a mesh.
+  template <class T>
+  int instances(std::span<const T> data, int component_type, int type, bool normalized = false) {
+    return accessor(data.data(), data.size_bytes(), data.size(), component_type, type, 0, normalized);
+  }
+  /// In 16 bits each where there are no more than 65535 vertices.
+  int indices(std::span<const std::array<std::uint32_t, 3>> triangles, std::size_t vertices);
+  /// Adds a buffer view of bytes as they are.
+  int bytes(std::string_view data);
+  /// Adds a node; without a mesh: -1.
+  int node(const std::string& name, int mesh);
+
+  tinygltf::Model& model() { return model_; }
+  /// Fills the buffer up to whole words.
+  void finish() { align(); }
+  std::size_t bufferBytes() const { return bytes_; }
+  std::string json() const;
+
+ private:
+  void align();
+  int view(const void* data, std::size_t bytes, int target);
+  int accessor(const void* data, std::size_t bytes, std::size_t count, int component_type, int type,
+               int target, bool normalized);
+
+  std::ostream* buffer_;
+  std::size_t bytes_ = 0;  // of the buffer
+  tinygltf::Model model_;
+};
+
+inline int sizeOf(const auto& container) {
+  return static_cast<int>(container.size());
+}
+
+/// Names come from other people's files; JSON takes valid UTF-8 only.
+std::string validUtf8(const std::string& name);
+
+}  // namespace espalier::render

@@ -1,0 +1,35 @@
+#pragma once
+// Internal to the wing.
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "render/files/gltf_materials.h"
+#include "render/files/surfaces.h"
+
+namespace espalier::render {
+
+using Bytes4 = std::array<std::uint8_t, 4>;
+
+/// 0 to 1 as a normalized byte.
+std::uint8_t byteOf(float share);
+
+/// By what tints are divided to fit into 0..1, where `brightest` is the most of them: in few steps, so that
+/// plants share materials, into which the same factor goes.
+float tintScale(float brightest);
+
+/// A tint as bytes, which glTF takes for linear light.
+Bytes4 bytesOf(sim::Colour tint, float scale);
+
+/// The material of a plant's mesh; `scale`: of its tints, 1 where it has none.
+int plantMaterial(GltfMaterials& materials, const ModelMesh& mesh, const std::string& name, SurfaceKind kind,
+                  float scale);
+
+/// Places, normals where there are some, UVs and triangles.
+tinygltf::Primitive shapeOf(GlbFile& file, const ModelMesh& mesh, SurfaceKind kind);
+
+/// Adds a mesh of one primitive; its number.
+int addMesh(GlbFile& file, const std::string& name, tinygltf::Primitive primitive);
+
+}  // namespace espalier::render

@@ -27,12 +27,15 @@ int plantMaterial(GltfMaterials& materials, const ModelMesh& mesh, const std::st
   material.roughness = kind == SurfaceKind::blades ? kLeafRoughness : kStemRoughness;
   material.double_sided = kind == SurfaceKind::blades;
   if (mesh.picture == nullptr) return materials.of(material, -1);
-  material.alpha_mode = sim::Material::Alpha::mask;
-  material.alpha_cutoff = kCutout;
-  material.double_sided = true;
-  using Wrap = sim::Texture::Wrap;
-  return materials.of(material, materials.textureOf(mesh.picture->name, mesh.picture->png, "image/png",
-                                                    {Wrap::clamp, Wrap::clamp}));
+  const bool tiles = mesh.picture->tiles;
+  if (!tiles) {
+    material.alpha_mode = sim::Material::Alpha::mask;
+    material.alpha_cutoff = kCutout;
+    material.double_sided = true;
+  }
+  const auto wrap = tiles ? sim::Texture::Wrap::repeat : sim::Texture::Wrap::clamp;
+  return materials.of(material,
+                      materials.textureOf(mesh.picture->name, mesh.picture->png, "image/png", {wrap, wrap}));
 }
 
 tinygltf::Primitive shapeOf(GlbFile& file, const ModelMesh& mesh, SurfaceKind kind) {

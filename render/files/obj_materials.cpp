@@ -30,7 +30,7 @@ const std::string& ObjMaterials::nameOf(const sim::Material& material) {
 
 const std::string& ObjMaterials::nameOf(const std::string& kind, const ModelMesh& mesh) {
   if (mesh.picture == nullptr) return nameOf(kind, Look{mesh.base_colour, 1.0f, false, {}, {}});
-  return nameOf(kind, Look{sim::Colour(1.0f), 1.0f, true, mesh.picture->png, "image/png"});
+  return nameOf(kind, Look{sim::Colour(1.0f), 1.0f, !mesh.picture->tiles, mesh.picture->png, "image/png"});
 }
 
 const std::string& ObjMaterials::nameOf(const std::string& wish, const Look& look) {

@@ -48,7 +48,7 @@ std::vector<T> ofEach(const std::vector<Placement>& places, Value value) {
 }  // namespace
 
 int GltfInstances::node(const Instances& instances, const std::string& kind) {
-  const SurfaceKind surface = instances.stalks ? SurfaceKind::stalks : SurfaceKind::blades;
+  const PlantSurface surface = instances.stalks ? PlantSurface::stalks : PlantSurface::blades;
   const float scale = scaleOfTints(instances);
   const int material = plantMaterial(materials_, instances.shape, kind, surface, scale);
   const auto [mesh, is_new] = shapes_.try_emplace({hashOfPlaces(instances.shape), kind, material}, 0);

@@ -8,8 +8,8 @@
 
 namespace espalier::render {
 
-int GltfPlants::surfaceNode(const ModelMesh& drawn, const std::string& material, SurfaceKind kind) {
-  const ModelMesh flat = kind == SurfaceKind::blades ? withoutFlatNormals(drawn) : ModelMesh();
+int GltfPlants::surfaceNode(const ModelMesh& drawn, const std::string& material, PlantSurface kind) {
+  const ModelMesh flat = kind == PlantSurface::blades ? withoutFlatNormals(drawn) : ModelMesh();
   const ModelMesh& mesh = flat.empty() ? drawn : flat;
   tinygltf::Primitive primitive = shapeOf(file_, mesh, kind);
   float scale = 1.0f;
@@ -33,7 +33,7 @@ int GltfPlants::surfaceNode(const ModelMesh& drawn, const std::string& material,
 
 void GltfPlants::add(const PlantModel& plant) {
   std::vector<int> children;
-  forEachSurface(plant, [&](const ModelMesh& mesh, const std::string& kind, SurfaceKind surface) {
+  forEachSurface(plant, [&](const ModelMesh& mesh, const std::string& kind, PlantSurface surface) {
     children.push_back(surfaceNode(mesh, kind, surface));
   });
   for (const Instances& instances : plant.instances)

@@ -17,7 +17,7 @@ class GltfPlants {
   void add(const PlantModel& plant);
 
  private:
-  int surfaceNode(const ModelMesh& drawn, const std::string& material, SurfaceKind kind);
+  int surfaceNode(const ModelMesh& drawn, const std::string& material, PlantSurface kind);
 
   GlbFile& file_;
   GltfMaterials& materials_;

@@ -18,14 +18,14 @@ Bytes4 bytesOf(sim::Colour tint, float scale) {
   return {byteOf(tint.r / scale), byteOf(tint.g / scale), byteOf(tint.b / scale), 255};
 }
 
-int plantMaterial(GltfMaterials& materials, const ModelMesh& mesh, const std::string& name, SurfaceKind kind,
+int plantMaterial(GltfMaterials& materials, const ModelMesh& mesh, const std::string& name, PlantSurface kind,
                   float scale) {
   constexpr float kStemRoughness = 0.9f, kLeafRoughness = 0.6f;
   sim::Material material;
   material.name = name;
   material.colour = scale * (mesh.picture == nullptr ? mesh.base_colour : sim::Colour(1.0f));
-  material.roughness = kind == SurfaceKind::blades ? kLeafRoughness : kStemRoughness;
-  material.double_sided = kind == SurfaceKind::blades;
+  material.roughness = kind == PlantSurface::blades ? kLeafRoughness : kStemRoughness;
+  material.double_sided = kind == PlantSurface::blades;
   if (mesh.picture == nullptr) return materials.of(material, -1);
   const bool tiles = mesh.picture->tiles;
   if (!tiles) {
@@ -38,13 +38,13 @@ int plantMaterial(GltfMaterials& materials, const ModelMesh& mesh, const std::st
                       materials.textureOf(mesh.picture->name, mesh.picture->png, "image/png", {wrap, wrap}));
 }
 
-tinygltf::Primitive shapeOf(GlbFile& file, const ModelMesh& mesh, SurfaceKind kind) {
+tinygltf::Primitive shapeOf(GlbFile& file, const ModelMesh& mesh, PlantSurface kind) {
   tinygltf::Primitive primitive;
   primitive.mode = TINYGLTF_MODE_TRIANGLES;
   primitive.attributes["POSITION"] = file.positions(mesh.positions_m);
   if (!mesh.normals.empty()) primitive.attributes["NORMAL"] = file.normals(mesh.normals);
-  if (kind != SurfaceKind::stalks)  // nothing is laid on those
-    primitive.attributes["TEXCOORD_0"] = file.uvs(mesh.uvs, kind == SurfaceKind::blades);
+  if (kind != PlantSurface::stalks)  // nothing is laid on those
+    primitive.attributes["TEXCOORD_0"] = file.uvs(mesh.uvs, kind == PlantSurface::blades);
   primitive.indices = file.indices(mesh.triangles, mesh.positions_m.size());
   return primitive;
 }

@@ -23,11 +23,11 @@ float tintScale(float brightest);
 Bytes4 bytesOf(sim::Colour tint, float scale);
 
 /// The material of a plant's mesh; `scale`: of its tints, 1 where it has none.
-int plantMaterial(GltfMaterials& materials, const ModelMesh& mesh, const std::string& name, SurfaceKind kind,
+int plantMaterial(GltfMaterials& materials, const ModelMesh& mesh, const std::string& name, PlantSurface kind,
                   float scale);
 
 /// Places, normals where there are some, UVs and triangles.
-tinygltf::Primitive shapeOf(GlbFile& file, const ModelMesh& mesh, SurfaceKind kind);
+tinygltf::Primitive shapeOf(GlbFile& file, const ModelMesh& mesh, PlantSurface kind);
 
 /// Adds a mesh of one primitive; its number.
 int addMesh(GlbFile& file, const std::string& name, tinygltf::Primitive primitive);

@@ -80,7 +80,7 @@ void writeMesh(ObjWriter& writer, ObjMaterials& materials, const sim::Mesh& mesh
 
 void writePlant(ObjWriter& writer, ObjMaterials& materials, const PlantModel& plant) {
   writer.begin("o", plant.name);
-  forEachSurface(plant, [&](const ModelMesh& mesh, const std::string& kind, SurfaceKind) {
+  forEachSurface(plant, [&](const ModelMesh& mesh, const std::string& kind, PlantSurface) {
     writer.begin("g", mesh.name);
     writer.add(materials.nameOf(kind, mesh), mesh.positions_m, mesh.uvs, mesh.normals, mesh.triangles);
   });
@@ -97,7 +97,7 @@ ObjLibrary objLibrary(const std::vector<const sim::Mesh*>& meshes, const PlantMo
   }
   plants([&](const PlantModel& plant) {
     sim::throwIfStopped();
-    forEachSurface(plant, [&](const ModelMesh& mesh, const std::string& kind, SurfaceKind) {
+    forEachSurface(plant, [&](const ModelMesh& mesh, const std::string& kind, PlantSurface) {
       materials.nameOf(kind, mesh);
     });
   });

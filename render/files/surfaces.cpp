@@ -66,11 +66,11 @@ std::string kindOf(const PlantModel& plant, const ModelMesh& mesh) {
 
 void forEachSurface(
     const PlantModel& plant,
-    const std::function<void(const ModelMesh& mesh, const std::string& kind, SurfaceKind surface)>& visit) {
-  if (!plant.stems.empty()) visit(plant.stems, "stems", SurfaceKind::stems);
-  if (!plant.stalks.empty()) visit(plant.stalks, "stalks", SurfaceKind::stalks);
+    const std::function<void(const ModelMesh& mesh, const std::string& kind, PlantSurface surface)>& visit) {
+  if (!plant.stems.empty()) visit(plant.stems, "stems", PlantSurface::stems);
+  if (!plant.stalks.empty()) visit(plant.stalks, "stalks", PlantSurface::stalks);
   for (const ModelMesh& element : plant.elements)
-    if (!element.empty()) visit(element, kindOf(plant, element), SurfaceKind::blades);
+    if (!element.empty()) visit(element, kindOf(plant, element), PlantSurface::blades);
 }
 
 }  // namespace espalier::render

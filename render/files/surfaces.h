@@ -22,7 +22,7 @@ struct MaterialSurface {
 /// By materials, those that are in use alone. Throws InputError when an index is out of range.
 std::vector<MaterialSurface> surfacesOf(const sim::Mesh& mesh);
 
-enum class SurfaceKind { stems, stalks, blades };
+enum class PlantSurface { stems, stalks, blades };
 
 /// What plants share their materials by: the mesh's name without the plant's.
 std::string kindOf(const PlantModel& plant, const ModelMesh& mesh);
@@ -30,6 +30,6 @@ std::string kindOf(const PlantModel& plant, const ModelMesh& mesh);
 /// The meshes of a plant that have triangles, and their kinds.
 void forEachSurface(
     const PlantModel& plant,
-    const std::function<void(const ModelMesh& mesh, const std::string& kind, SurfaceKind surface)>& visit);
+    const std::function<void(const ModelMesh& mesh, const std::string& kind, PlantSurface surface)>& visit);
 
 }  // namespace espalier::render

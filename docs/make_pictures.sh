@@ -53,7 +53,7 @@ small $work/kept_growth.png kept_growth 1040
 
 grow scenes/library/w_dome.yaml
 small $work/w_dome/steps.png colonization_steps 1600
-small $work/w_dome/vines.png broadleaf 960
+small $work/w_dome/vines.png w_dome 960
 grow scenes/library/four_crowns.yaml
 small $work/four_crowns/vines.png four_crowns 1100
 grow scenes/library/tree_and_wall.yaml
@@ -71,9 +71,10 @@ small $work/whorls/fields.png fields 1100
 grow scenes/library/whorls_volume.yaml
 small $work/whorls_volume/graph.png whorls_volume 1000
 
-for tree in simple_tree fir cypress pachira animal_tree figure_18; do grow scenes/library/$tree.yaml; done
+for tree in broadleaf simple_tree fir cypress pachira animal_tree figure_18; do grow scenes/library/$tree.yaml; done
 oiiotool $work/simple_tree/vines.png --resize 0x1120 $work/fir/vines.png $work/cypress/vines.png --mosaic:pad=8 3x1 -o $work/three_trees.png
 small $work/three_trees.png three_trees 1100
+small $work/broadleaf/vines.png broadleaf 760
 small $work/pachira/vines.png pachira 560
 small $work/animal_tree/vines.png animal_tree 760
 small $work/figure_18/vines.png figure_18 1100

@@ -92,6 +92,49 @@ TEST(Colonies, InVolumesWindMoreAndMore) {
   EXPECT_GT(aside[2], aside[1] + 4.0);
 }
 
+/// By how many degrees a plant's trunk, the way to its highest node, goes round the upright axis through the
+/// middle of the scene below a height.
+double turnOf(const Colony& colony, std::size_t plant, double below_m) {
+  const Nodes& nodes = colony.nodes_m[plant];
+  auto at = static_cast<std::size_t>(
+      std::max_element(nodes.begin(), nodes.end(), [](Vec3 a, Vec3 b) { return a.y < b.y; }) - nodes.begin());
+  double turn = 0.0;
+  for (; at != 0; at = static_cast<std::size_t>(colony.parent[plant][at])) {
+    const Vec3 to = nodes[at], from = nodes[static_cast<std::size_t>(colony.parent[plant][at])];
+    if (to.y < below_m) turn += std::atan2(to.x * from.z - to.z * from.x, to.x * from.x + to.z * from.z);
+  }
+  return turn * 180.0 / std::numbers::pi;
+}
+
+/// Figure 19 (b): all stems of the pachira wind about its axis, the same way round, and carry a crown.
+TEST(Colonies, APachirasStemsWindAboutEachOther) {
+  const Colony colony = grown("pachira");
+  ASSERT_EQ(colony.nodes_m.size(), 4u);
+  for (std::size_t stem = 0; stem < 4; ++stem) {
+    const double turn = turnOf(colony, stem, 1.4);
+    fmt::print("round by {:.0f} degrees\n", turn);
+    EXPECT_GT(std::abs(turn), 200.0);
+    EXPECT_GT(turn * turnOf(colony, 0, 1.4), 0.0);
+    EXPECT_GT(colony.nodes_m[stem].size(), 100u);
+  }
+}
+
+/// Figure 18 (d): the tree stands in its mesh's shape, wherever that is thick: beak, head and tail.
+TEST(Colonies, ATreeTakesTheShapeOfAWren) {
+  const Colony colony = grown("animal_tree");
+  const Nodes& tree = colony.nodes_m.at(0);
+  Vec3 low(1e9), high(-1e9);
+  for (const Vec3 node : tree) {
+    if (node.y < 1.4) continue;  // the trunk
+    low = glm::min(low, node);
+    high = glm::max(high, node);
+  }
+  // The wren is 4.4 times 1.24 m long, 0.75 m high and 0.55 m wide.
+  EXPECT_NEAR(high.x - low.x, 5.47, 0.6);
+  EXPECT_NEAR(high.y, 4.48, 0.25);
+  EXPECT_NEAR(high.z - low.z, 2.41, 0.35);
+}
+
 /// It starts under a roof whose eaves are at z = 1.06, between 2.1 and 2.8 m of height.
 TEST(Colonies, ATreeGoesAroundTheEavesToTheLight) {
   const Colony colony = grown("tree_and_wall");

@@ -10,7 +10,7 @@
 namespace espalier::scenes {
 namespace {
 
-constexpr double kFarthest = 1e9;  // in the file's unit
+constexpr double kFarthestPlace = 1e9;  // in the file's unit
 
 /// Children of each node, in the file's order.
 struct ChildLists {
@@ -93,17 +93,17 @@ std::vector<FileTree> treesOf(const Forest& forest, const NodeWords& words) {
 
 void requirePlace(sim::Vec3 place, const Words& node) {
   for (int axis = 0; axis < 3; ++axis) {
-    if (!(std::abs(place[axis]) <= kFarthest))
+    if (!(std::abs(place[axis]) <= kFarthestPlace))
       throw sim::InputError(fmt::format("{} stands at [{}, {}, {}]; expected numbers from {:g} to {:g}",
-                                        node(), place.x, place.y, place.z, -kFarthest, kFarthest));
+                                        node(), place.x, place.y, place.z, -kFarthestPlace, kFarthestPlace));
   }
 }
 
 float soundRadius(double radius, const Words& node) {
   const auto single = static_cast<float>(radius);
-  if (!(radius <= kFarthest && single > 0.0f))
-    throw sim::InputError(
-        fmt::format("{} has the radius {}; expected more than 0, at most {:g}", node(), radius, kFarthest));
+  if (!(radius <= kFarthestPlace && single > 0.0f))
+    throw sim::InputError(fmt::format("{} has the radius {}; expected more than 0, at most {:g}", node(),
+                                      radius, kFarthestPlace));
   return single;
 }
 

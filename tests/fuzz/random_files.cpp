@@ -178,7 +178,8 @@ void RandomFiles::knowSpecials() {
   text("plants[].type", [this] { return fmt::format("{}", numbers_.whole(0, 2)); });
   // Scaled about the world's origin it mostly stays in the world.
   text("plants[].skeleton.file", [this] { return writeSkeleton(); });
-  text("plants[].skeleton.scale", [this] { return fmt::format("{}", numbers_.uniform(0.5, 1.2)); });
+  text("plants[].skeleton.scale", [this] { return fmt::format("{}", numbers_.uniform(0.9, 1.05)); });
+  text("plants[].skeleton.rotate", [] { return std::string("[0, 5, 0]"); });
   text("plants[].skeleton.translate", [this] {
     const sim::Vec3 by = numbers_.uniform(-0.1, 0.1) * world_.extent_m();
     return ValueDrawer::point(by.x, by.y, by.z);

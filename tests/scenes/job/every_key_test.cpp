@@ -15,6 +15,7 @@
 #include "scenes/read/read_table.h"
 #include "scenes/read/registry.h"
 #include "sim/base/error.h"
+#include "tests/scenes/job/changed_scene.h"
 #include "tests/support/scratch.h"
 #include "tests/support/volumes.h"
 
@@ -22,58 +23,6 @@
 /// what. (Those of rule files: tests/rules/growth/every_key_test.cpp.)
 namespace espalier::scenes {
 namespace {
-
-constexpr const char* kMesh = R"(mtllib paint.mtl
-g floor
-usemtl stone
-v -1 0 -1
-v 1 0 -1
-v 1 0 1
-v -1 0 1
-f 1 4 3 2
-g wall
-usemtl brick
-v -1 0 0
-v 1 0 0
-v 1 1 0
-v -1 1 0
-f 5 6 7 8
-g block
-usemtl brick
-v 0.3 0.1 0.3
-v 0.8 0.1 0.3
-v 0.8 0.1 0.8
-v 0.3 0.1 0.8
-v 0.3 0.6 0.3
-v 0.8 0.6 0.3
-v 0.8 0.6 0.8
-v 0.3 0.6 0.8
-f 9 10 11 12
-f 13 16 15 14
-f 9 13 14 10
-f 10 14 15 11
-f 11 15 16 12
-f 12 16 13 9
-)";
-
-constexpr const char* kScene = R"(espalier: scene
-name: plot
-meshes:
-  - {file: plot.obj, name: plot, regions: group}
-world: {voxel: 10 cm, bounds: {min: [-1.1, -0.1, -1.1], max: [1.1, 1.3, 1.1]}}
-sky: {directions: 24}
-sun: {tilt: 20, samples: 12}
-plants:
-  - {name: vine, rules: vine.yaml, seeds: [[-0.4, 0.25, 0.25], {at: [-0.7, 0.25, 0.25], key: one}]}
-iterations: 6
-seed: 5
-image: {width: 40, height: 30}
-cameras:
-  main: {eye: [2.2, 1.6, 3.2], target: [0, 0.5, 0], fov: 40}
-  other: {eye: [-2.2, 1.6, 3.2], target: [0, 0.5, 0]}
-images:
-  - {kind: vines, name: a, camera: main}
-)";
 
 struct Edit {
   std::string from, to;
@@ -116,11 +65,11 @@ Change crown(const std::string& solid, const std::string& from, const std::strin
 }
 
 /// A skeleton that somebody else made.
-Change given(const std::string& skeleton, const std::string& from, const std::string& to) {
-  return {
-      "state_hash",
-      {{"seeds: [[-0.4, 0.25, 0.25], {at: [-0.7, 0.25, 0.25], key: one}]", "skeleton: {" + skeleton + "}"}},
-      {from, to}};
+Change given(const std::string& from, const std::string& to) {
+  return {"state_hash",
+          {{"seeds: [[-0.4, 0.25, 0.25], {at: [-0.7, 0.25, 0.25], key: one}]",
+            "skeleton: {file: sticks.obj, scale: 0.5, rotate: [0, 0, 0], translate: [0, 0, 0]}"}},
+          {from, to}};
 }
 
 /// A guide field.
@@ -200,12 +149,10 @@ const std::map<std::string, Change>& changes() {
        {"state_hash",
         {{"{name: vine,", "{name: vine, points: typed.csv, type: 1,"}},
         {"type: 1", "type: 2"}}},
-      {"plants[].skeleton.file", given("file: sticks.obj", "sticks.obj", "others.obj")},
-      {"plants[].skeleton.scale", given("file: sticks.obj, scale: 0.5", "scale: 0.5", "scale: 0.6")},
-      {"plants[].skeleton.rotate",
-       given("file: sticks.obj, rotate: [0, 0, 0]", "rotate: [0, 0, 0]", "rotate: [0, 90, 0]")},
-      {"plants[].skeleton.translate",
-       given("file: sticks.obj, translate: [0, 0, 0]", "translate: [0, 0, 0]", "translate: [0, 5 cm, 0]")},
+      {"plants[].skeleton.file", given("sticks.obj", "others.obj")},
+      {"plants[].skeleton.scale", given("scale: 0.5", "scale: 0.6")},
+      {"plants[].skeleton.rotate", given("rotate: [0, 0", "rotate: [0, 90")},
+      {"plants[].skeleton.translate", given("translate: [0, 0", "translate: [0, 5 cm")},
       {"plants[].scatter.region",
        {"state_hash",
         {{"rules: vine.yaml", "rules: vine.yaml, scatter: {region: floor, count: 2}"}},
@@ -313,9 +260,11 @@ std::string edited(std::string text, const Edit& edit) {
 class EverySceneKey : public testing::TestWithParam<std::string> {
  protected:
   void SetUp() override {
-    scratch_.write("plot.obj", kMesh);
-    scratch_.write("flat.obj", std::string(kMesh).substr(0, std::string(kMesh).find("g block")));
-    std::string block(kMesh);
+    scratch_.write("plot.obj", tests::kChangedMesh);
+    scratch_.write(
+        "flat.obj",
+        std::string(tests::kChangedMesh).substr(0, std::string(tests::kChangedMesh).find("g block")));
+    std::string block(tests::kChangedMesh);
     block = block.substr(block.find("v 0.3"));
     for (int i = 0; i < 8; ++i) block = "v 0 0 0\n" + block;  // before those that it counts from
     scratch_.write("block.obj", block);
@@ -377,7 +326,7 @@ TEST_P(EverySceneKey, ChangesWhatComesOut) {
   const auto at = changes().find(GetParam());
   ASSERT_NE(at, changes().end()) << GetParam() << " is new: say what it changes";
   const Change& change = at->second;
-  std::string text = kScene;
+  std::string text = tests::kChangedScene;
   for (const Edit& edit : change.before) text = edited(text, edit);
   const std::string without = outputOf(text, change.output),
                     with = outputOf(edited(text, change.change), change.output);

@@ -74,11 +74,20 @@ class Reader {
     material.alpha_cutoff = share(numberIn(json, "alphaCutoff", 0.5));
     const auto sides = json.find("doubleSided");
     material.double_sided = sides != json.end() && sides->is_boolean() && sides->get<bool>();
-    if (surface.contains("baseColorTexture")) readTexture(requiredObject(surface, "baseColorTexture"), looks);
+    if (surface.contains("baseColorTexture")) tryTexture(surface, looks);
     return looks;
   }
 
  private:
+  /// A material is as good as it was without a texture that is broken.
+  void tryTexture(const Json& surface, Looks& looks) {
+    try {
+      readTexture(requiredObject(surface, "baseColorTexture"), looks);
+    } catch (const sim::InputError& error) {
+      textures_.miss("baseColorTexture", fmt::format("cannot be read ({})", error.what()));
+    }
+  }
+
   void readTexture(const Json& info, Looks& looks) {
     looks.uv_set = static_cast<std::size_t>(wholeIn(info, "texCoord").value_or(0));
     const Json& transform = memberOf(memberOf(info, "extensions"), "KHR_texture_transform");

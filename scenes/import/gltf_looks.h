@@ -18,8 +18,8 @@ struct Looks {
 };
 
 /// The document's materials: glTF's metallic-roughness model with its base colour's texture; no other
-/// textures. Throws sim::InputError, naming the material, for numbers that are none and indices of what is
-/// not there. A picture that is not to be had becomes a warning in `textures`.
+/// textures. Throws sim::InputError, naming the material, for numbers that are none. A texture that is not to
+/// be had becomes a warning in `textures`.
 std::vector<Looks> looksOf(const Json& document, const Buffers& buffers, const FileBeside& file_beside,
                            TextureFiles& textures);
 

@@ -17,16 +17,22 @@ Vertices::Vertices(const Json& document, const Accessors& accessors, Buffers& bu
 Json Vertices::read(const Json& attributes, std::size_t position, const Looks* looks) {
   Json some = {{"POSITION", floats(position)}};
   const std::uint64_t count = accessors_.of(position).count;
-  const auto find = [&](const std::string& key, const char* type) -> std::optional<std::size_t> {
-    const auto accessor = indexIn(attributes, key.c_str(), document_, "accessors");
-    if (!accessor) return std::nullopt;
+  const auto leaveOut = [&](const std::string& why) {
+    if (left_out_.empty()) left_out_ = why;
+    return std::optional<std::size_t>();
+  };
+  const auto find = [&](const std::string& key, const char* type) {
+    std::optional<std::size_t> accessor;
+    try {
+      accessor = indexIn(attributes, key.c_str(), document_, "accessors");
+    } catch (const sim::InputError& error) {
+      return leaveOut(error.what());
+    }
+    if (!accessor) return accessor;
     const Accessors::Accessor& about = accessors_.of(*accessor);
     if (about.type == type && about.count == count && about.has_data) return accessor;
-    if (left_out_.empty()) {
-      left_out_ = fmt::format("{} is accessor {} of {} {}; expected {} {} with data", key, *accessor,
-                              about.count, about.type, count, type);
-    }
-    return std::nullopt;
+    return leaveOut(fmt::format("{} is accessor {} of {} {}; expected {} {} with data", key, *accessor,
+                                about.count, about.type, count, type));
   };
   if (const auto normal = find("NORMAL", "VEC3")) some["NORMAL"] = floats(*normal);
   const std::size_t set = looks != nullptr ? looks->uv_set : 0;

@@ -200,8 +200,8 @@ const std::vector<Mutation>& mutations() {
       {"scene with a node that is not there", [](json& d) { d["scenes"][0]["nodes"] = {9}; },
        "scene 0: node is 9, but the file has 3 nodes"},
       {"list that is none", [](json& d) { d["accessors"] = 5; }, "accessors is 5; expected an array"},
-      {"packed places", [](json& d) { d["extensionsRequired"] = {"KHR_mesh_quantization"}; },
-       "it needs the glTF extension 'KHR_mesh_quantization', which is not read"},
+      {"packed places", [](json& d) { d["extensionsRequired"] = {"EXT_meshopt_compression"}; },
+       "it needs the glTF extension 'EXT_meshopt_compression', which is not read"},
   };
   return all;
 }
@@ -348,7 +348,7 @@ TEST_F(GltfCheck, WhatIsSoundIsRead) {
       {"count", 1},
       {"indices", {{"bufferView", 1}, {"byteOffset", 4}, {"componentType", 5123}}},
       {"values", {{"bufferView", 2}}}};
-  // Textures, animations and what extensions say of looks are not read, and not asked for.
+  // Broken textures and normals are left out; animations and what extensions say of looks are not read.
   document["images"] = {{{"uri", "missing.png"}}, {{"bufferView", 99}, {"mimeType", "image/png"}}};
   document["textures"] = {{{"source", 0}}};
   document["materials"][0]["pbrMetallicRoughness"]["baseColorTexture"] = {{"index", 7}};
@@ -357,7 +357,14 @@ TEST_F(GltfCheck, WhatIsSoundIsRead) {
   document["extensionsRequired"] = {"KHR_texture_transform", "KHR_materials_unlit"};
   primitive(document)["attributes"]["NORMAL"] = 55;
   primitive(document)["targets"] = {{{"POSITION", 44}}};
-  const auto mesh = importMesh(write("t.gltf", document.dump()), RegionsFrom::group);
+  MeshSources sources;
+  const auto mesh = importMesh(write("t.gltf", document.dump()), RegionsFrom::group, std::nullopt, &sources);
+  ASSERT_EQ(sources.warnings.size(), 2u);
+  EXPECT_EQ(sources.warnings[0].text,
+            "the picture 'baseColorTexture' of its materials cannot be read (index is 7, but the file has 1 "
+            "textures); such materials have their colour alone");
+  EXPECT_EQ(sources.warnings[1].text,
+            "NORMAL is 55, but the file has 2 accessors; normals or UVs are left out");
   EXPECT_EQ(mesh.regions, (std::vector<std::string>{"turned", "leaf"}));
   ASSERT_EQ(mesh.triangles.size(), 2u);
   EXPECT_EQ(mesh.vertices_m[2], sim::Vec3(0, 10, 5));  // as the sparse accessor says

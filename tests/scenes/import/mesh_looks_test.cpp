@@ -238,16 +238,21 @@ TEST_F(MeshLooks, NumbersOfMaterialsAreLookedAt) {
     return import("house.glb");
   };
   using Change = std::function<void(json&)>;
-  for (const Change& change :
-       {Change([](json& m) { m["pbrMetallicRoughness"]["baseColorTexture"]["index"] = 1; }),
-        Change([](json& m) { m["pbrMetallicRoughness"]["baseColorTexture"] = 3; }), Change([](json& m) {
-          m["emissiveFactor"] = {1, 2};
-        }),
-        Change([](json& m) { m["alphaMode"] = 7; }),
-        Change([](json& m) { m["pbrMetallicRoughness"]["roughnessFactor"] = "rough"; })})
+  for (const Change& change : {Change([](json& m) {
+                                 m["emissiveFactor"] = {1, 2};
+                               }),
+                               Change([](json& m) { m["alphaMode"] = 7; }), Change([](json& m) {
+                                 m["pbrMetallicRoughness"]["roughnessFactor"] = "rough";
+                               })})
     EXPECT_THROW(changed(change), sim::InputError);
   EXPECT_EQ(changed([](json& m) { m["pbrMetallicRoughness"]["roughnessFactor"] = 7; }).materials[0].roughness,
             1.0f);
+  for (const Change& change :
+       {Change([](json& m) { m["pbrMetallicRoughness"]["baseColorTexture"]["index"] = 1; }),
+        Change([](json& m) { m["pbrMetallicRoughness"]["baseColorTexture"] = 3; })}) {
+    EXPECT_EQ(changed(change).materials[0].texture, nullptr);
+    EXPECT_NE(warning().find("'baseColorTexture' of its materials cannot be read"), std::string::npos);
+  }
   json document = texturedDocument();
   document["accessors"][2]["count"] = 2;  // fewer normals than vertices
   write("house.glb", tests::glb(document, tests::gltfBuffer()));

@@ -62,7 +62,8 @@ Texels readPng(const std::string& bytes, int most_pixels, int most_side) {
   in->set_ioproxy(&memory);
   OIIO::ImageSpec spec;
   if (!in->open("memory.png", spec, wanted))
-    throw sim::InputError(fmt::format("the file is damaged or cut: {}", in->geterror()));
+    throw sim::InputError(
+        fmt::format("the file is damaged or cut; expected a whole PNG ({})", in->geterror()));
   if (spec.width < 1 || spec.height < 1 || spec.width > most_side || spec.height > most_side ||
       spec.width > most_pixels / spec.height)
     throw sim::InputError(fmt::format("it has {} x {} pixels; expected at most {} on a side and {} in all",
@@ -73,7 +74,8 @@ Texels readPng(const std::string& bytes, int most_pixels, int most_side) {
   const std::size_t pixels = static_cast<std::size_t>(spec.width) * static_cast<std::size_t>(spec.height);
   std::vector<std::uint8_t> read(pixels * channels);
   if (!in->read_image(0, 0, 0, spec.nchannels, OIIO::TypeDesc::UINT8, read.data()))
-    throw sim::InputError(fmt::format("the file is damaged or cut: {}", in->geterror()));
+    throw sim::InputError(
+        fmt::format("the file is damaged or cut; expected a whole PNG ({})", in->geterror()));
   Texels texels{spec.width, spec.height, {}};
   texels.rgba.reserve(pixels);
   for (std::size_t i = 0; i < pixels; ++i) {

@@ -251,6 +251,12 @@ Cards folded(const std::vector<vec2>& rim, double fold) {
   return {right, left};
 }
 
+/// Both halves of a flower about its middle, where it is attached, lifted a little at the sides.
+Cards cupped() {
+  return {{{0, 0, 0}, {0, -0.5, 0}, {0.5, -0.5, 0.1}, {0.5, 0.5, 0.1}, {0, 0.5, 0}},
+          {{0, 0, 0}, {0, 0.5, 0}, {-0.5, 0.5, 0.1}, {-0.5, -0.5, 0.1}, {0, -0.5, 0}}};
+}
+
 /// Two cards that cross in the middle.
 Cards crossed(double width) {
   const double h = 0.5 * width;
@@ -264,14 +270,14 @@ const std::map<std::string, Kind>& kinds() {
        {0.60f, 0.597, drawOvate,
         folded({{0, 0}, {0.13f, 0.05f}, {0.30f, 0.28f}, {0.30f, 0.55f}, {0.14f, 0.86f}, {0, 1}}, 0.22)}},
       {"ivy",
-       {1.04f, 0.456, drawIvy,
+       {1.04f, 0.434, drawIvy,
         folded({{0, 0}, {0.40f, 0.0f}, {0.52f, 0.50f}, {0.24f, 0.62f}, {0, 1}}, 0.16)}},
       {"palmate",
-       {1.04f, 0.4, drawPalmate,
-        folded({{0, 0}, {0.44f, 0.0f}, {0.52f, 0.62f}, {0.20f, 0.80f}, {0, 1}}, 0.14)}},
+       {1.04f, 0.388, drawPalmate,
+        folded({{0, 0}, {0.44f, 0.0f}, {0.52f, 0.62f}, {0.20f, 0.80f}, {0.11f, 0.96f}, {0, 1}}, 0.14)}},
       {"needles", {0.46f, 0.436, drawNeedles, crossed(0.46)}},
       {"branch", {0.56f, 0.496, drawBranch, crossed(0.56)}},
-      {"blossom", {1.0f, 0.644, drawBlossom, folded({{0, 0}, {0.5f, 0.0f}, {0.5f, 1.0f}, {0, 1}}, -0.2)}},
+      {"blossom", {1.0f, 0.644, drawBlossom, cupped()}},
   };
   return all;
 }

@@ -23,7 +23,8 @@ double bladeShareOf(const LeafPicture& picture);
 
 using Cards = std::vector<std::vector<sim::Vec3>>;
 /// Polygons that hold such a picture, 1 long (see sim::ElementShape): near its outline, so that not much is
-/// cut away; blades folded a little along the middle, sprays as two cards that cross.
+/// cut away; blades folded a little along the middle, sprays as two cards that cross, flowers about their
+/// middle.
 Cards cardsOf(const std::string& kind);
 /// For a picture of that size, in pixels: a card folded a little along the middle.
 Cards cardsOf(int width_px, int height_px);

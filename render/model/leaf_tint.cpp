@@ -16,12 +16,14 @@ float unitOf(std::uint32_t bits) {
 sim::Colour leafTint(std::uint32_t piece, float youth, float exposure, const sim::ColourVariation& varies) {
   using sim::Colour;
   const auto bits = r123::Philox4x32()({{piece, 0, 0, 0}}, {{kBladeKey, 0}});
-  const float value = 1.08f + varies.by_chance * (0.52f * unitOf(bits[0]) - 0.26f);
-  const float hue = varies.by_chance * (2.0f * unitOf(bits[1]) - 1.0f);  // towards blue .. towards yellow
+  const auto chance = static_cast<float>(varies.by_chance), age = static_cast<float>(varies.by_age),
+             lit = static_cast<float>(varies.by_light);
+  const float value = 1.08f + chance * (0.52f * unitOf(bits[0]) - 0.26f);
+  const float hue = chance * (2.0f * unitOf(bits[1]) - 1.0f);  // towards blue .. towards yellow
   Colour tint(value * (1.0f + 0.22f * hue), value * (1.0f + 0.04f * hue), value * (1.0f - 0.18f * hue));
-  tint *= glm::mix(Colour(1.0f), Colour(1.75f, 1.45f, 1.15f), 0.75f * varies.by_age * youth * youth * youth);
+  tint *= glm::mix(Colour(1.0f), Colour(1.75f, 1.45f, 1.15f), 0.75f * age * youth * youth * youth);
   const Colour light = glm::mix(Colour(0.80f, 0.90f, 1.05f), Colour(1.18f, 1.08f, 0.92f), exposure);
-  return glm::max(tint * glm::mix(Colour(1.0f), light, varies.by_light), Colour(0.0f));
+  return glm::max(tint * glm::mix(Colour(1.0f), light, lit), Colour(0.0f));
 }
 
 }  // namespace espalier::render

@@ -12,8 +12,7 @@ namespace {
 /// is.
 sim::Vec3 squareTo(sim::Vec3 unit, sim::Vec3 v) {
   const sim::Vec3 left = v - glm::dot(v, unit) * unit;
-  const double length = glm::length(left);
-  return length > 1e-6 ? left / length : sim::perpendicular(unit);
+  return glm::length(left) > 1e-6 ? glm::normalize(left) : sim::perpendicular(unit);
 }
 
 sim::Vec3 onSphere(sim::Slots& slots, ElementSlot turn, ElementSlot height) {

@@ -12,11 +12,12 @@ constexpr Limits kMostTrials{1.0, 10'000.0};  // as many as a random key tells a
 
 std::shared_ptr<const Table> phyllotaxisKeys() {
   return TableOf<Phyllotaxis>()
-      .number("angle", &Phyllotaxis::angle_deg,
-              {.unit = kTurn,
-               .limits = {0.0, 360.0},
-               .meaning = "About the stem, from one place to the next: 137.5 is the golden angle, 180 puts "
-                          "them in two rows, 90 with a whorl of 2 crosses pairs."})
+      .number(
+          "angle", &Phyllotaxis::angle_deg,
+          {.unit = kTurn,
+           .limits = {0.0, 360.0},
+           .meaning =
+               "About the stem, from one place to the next: 137.5 is the golden angle, 180 makes two rows."})
       .distance("spacing", &Phyllotaxis::spacing,
                 {.unit = kWidths,
                  .limits = {0.0, 1000.0, true},
@@ -133,12 +134,11 @@ std::shared_ptr<const Table> elementKeys() {
       .section("phyllotaxis", &Element::phyllotaxis, phyllotaxisKeys(),
                {.meaning = "They stand along their limb in an order, in place of per_segment by chance."})
       .file("texture", &Element::texture,
-            {.meaning = "What is painted on the polygons and cuts them out: a PNG file beside this one, or a "
-                        "picture that is drawn: ovate, ivy, palmate, needles, branch, blossom. Polygons that "
-                        "are not given are then cards that fit it, 1 long. A file has its own colours, a "
-                        "drawing those of `colour`."})
+            {.meaning = "Painted on the polygons, which it cuts out: a PNG file, or ovate, ivy, palmate, "
+                        "needles, branch, blossom."})
       .section("varies", &Element::varies, variationKeys(),
                {.meaning = "How far their colours differ: 0 not at all, 1 as leaves do."})
+      .oneOf({"polygons", "texture"})
       .shared();
 }
 

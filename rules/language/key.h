@@ -119,6 +119,7 @@ struct Key {
 /// A mapping's keys and the struct that they fill.
 struct Table {
   std::vector<Key> keys;
+  std::vector<std::string> one_of;  ///< keys of which at least one must be there; empty: none need be
   std::function<std::shared_ptr<void>()> make;  ///< a struct with every default
 };
 

@@ -142,6 +142,12 @@ class TableOf {
     return field<std::vector<std::string>>(n, Kind::names, a, s);
   }
 
+  /// At least one of these keys must be there.
+  TableOf& oneOf(std::vector<std::string> names) {
+    table_.one_of = std::move(names);
+    return *this;
+  }
+
   TableOf& wholeRange(std::string name, int T::*low, int T::*high, About about) {
     Key& key = added(std::move(name), Kind::whole_range, std::move(about));
     key.set = [=](void* t, const Datum& d) {

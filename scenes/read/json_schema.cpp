@@ -199,6 +199,7 @@ Json table(const Table& keys) {
   }
   Json schema{{"type", "object"}, {"additionalProperties", false}, {"properties", std::move(properties)}};
   if (!required.empty()) schema["required"] = std::move(required);
+  for (const std::string& name : keys.one_of) schema["anyOf"].push_back({{"required", {name}}});
   return schema;
 }
 

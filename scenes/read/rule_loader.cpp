@@ -211,12 +211,17 @@ std::shared_ptr<const sim::Picture> RuleLoader::picture(const YamlNode& asker, c
   const fs::path path = beside(asker, written);
   const auto [known, added] = pictures_.try_emplace(canonicalOf(path));
   if (!added) return known->second;
+  std::error_code error;
+  if (!fs::exists(path, error)) {
+    problems_.add(asker.place, fmt::format("{}: there is no such file; expected a PNG file", path.string()));
+    return nullptr;
+  }
   try {
     sim::InputFile read;
     known->second = readPicture(path, read);
     read_files_.push_back({path, fs::path(written).is_absolute(), read.hash, read.kind});
-  } catch (const sim::InputError& error) {
-    problems_.add(asker.place, error.what());
+  } catch (const sim::InputError& wrong) {
+    problems_.add(asker.place, wrong.what());
   }
   return known->second;
 }

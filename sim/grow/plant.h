@@ -43,9 +43,9 @@ inline const std::vector<float>* find(const Skeleton& skeleton, std::string_view
 
 /// How far the colours of a shape's elements differ, each 0 (not at all) or more; 1 as leaves mostly do.
 struct ColourVariation {
-  float by_chance = 1.0f;  ///< each its own shade and hue
-  float by_age = 1.0f;     ///< what is young is lighter
-  float by_light = 1.0f;   ///< what grew in the light is warmer and brighter
+  double by_chance = 1.0;  ///< each its own shade and hue
+  double by_age = 1.0;     ///< what is young is lighter
+  double by_light = 1.0;   ///< what grew in the light is warmer and brighter
 };
 
 /// A shape that is placed on a plant: a leaf, a flower. Local frame: the element is attached at the origin,

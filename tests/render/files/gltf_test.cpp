@@ -119,6 +119,7 @@ TEST_F(Glb, PicturesOfLeavesAreInItOnce) {
 
 TEST_F(Glb, TintsAreColoursTimesAFactor) {
   render::ModelMesh& leaf = vine_.elements[0];
+  leaf.tints.clear();
   for (std::size_t v = 0; v < leaf.positions_m.size(); ++v)
     leaf.tints.emplace_back(0.5f + 0.25f * static_cast<float>(v / 10 % 4), 0.75f, 0.1f);
   const auto model = readGlb(glbBytes({{}, {&vine_}}));

@@ -145,6 +145,7 @@ void forEachValue(const Table& table, void* object, const std::string& prefix,
 TEST(Draws, ARangeOfOneNumberIsThatNumber) {
   RuleSet plain = lively();
   plain.random_tree.branch_age_min = plain.random_tree.branch_age_max = 2;
+  plain.elements.at(0).phyllotaxis.emplace();
   const sim::Plant before = grown(plain).plants[0];
   ASSERT_GT(before.skeleton.size(), 10);
   int values = 0;

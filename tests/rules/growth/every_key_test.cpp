@@ -174,7 +174,8 @@ Result resultOf(const RuleSet& book, int iterations = 7) {
     for (const auto& shape : plant.shapes) {
       result.shapes.insert(result.shapes.end(), {shape.name, shape.drawn});
       colour(shape.colour);
-      colour({shape.varies.by_chance, shape.varies.by_age, shape.varies.by_light});
+      colour({static_cast<float>(shape.varies.by_chance), static_cast<float>(shape.varies.by_age),
+              static_cast<float>(shape.varies.by_light)});
     }
     result.segments += plant.skeleton.size() - 1;
     result.elements += plant.elements.size();

@@ -61,7 +61,7 @@ TEST_F(PictureReader, RefusesWhatIsNoPicture) {
   const std::string whole = pngOf(40, 40, 4, {0.1f, 0.9f, 0.3f, 1.0f, 0.5f, 0.4f, 0.7f, 0.9f});
   for (const double share : {0.2, 0.5, 0.9}) {
     const auto bytes = static_cast<std::size_t>(share * static_cast<double>(whole.size()));
-    expectRefused(scratch_.write("cut.png", whole.substr(0, bytes)), "damaged or cut");
+    expectRefused(scratch_.write("cut.png", whole.substr(0, bytes)), "damaged or cut; expected a whole PNG");
   }
   expectRefused(scratch_.write("clear.png", pngOf(4, 4, 4, {1.0f, 1.0f, 1.0f, 0.3f})),
                 "nothing of it is opaque");

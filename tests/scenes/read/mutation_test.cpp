@@ -36,8 +36,12 @@ TEST_P(Mutations, EndInSenseOrInClearProblems) {
   EXPECT_GT(refused, 100) << "the mutations are too tame to test anything";
 }
 
-INSTANTIATE_TEST_SUITE_P(Library, Mutations, testing::ValuesIn(tests::libraryFiles()),
-                         [](const auto& at) { return at.param.stem().string(); });
+INSTANTIATE_TEST_SUITE_P(
+    Library, Mutations, testing::ValuesIn(tests::libraryFiles()),
+    [](const auto& at) {  // A rule set and a scene may have one name: rules_library_fir, scenes_library_fir.
+      const auto folder = at.param.parent_path();
+      return folder.parent_path().filename().string() + "_" + at.param.stem().string();
+    });
 
 }  // namespace
 }  // namespace espalier::scenes

@@ -192,7 +192,7 @@ TEST(ReadRules, TellsWhereAPictureIsAskedForThatIsNone) {
                               "  - {name: b, texture: leaf.png}\n"))
           .problems();
   const std::string shown = scratch.shown(problems);
-  EXPECT_EQ(shown, "r.yaml:3:23: leaf.png: it is no PNG; expected one\n");
+  EXPECT_EQ(shown, "r.yaml:3:24: leaf.png: it is no PNG; expected one");
 }
 
 TEST(ReadRules, TakesANumberForATwistsAmount) {

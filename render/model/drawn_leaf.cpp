@@ -238,15 +238,15 @@ struct Kind {
 
 /// Both halves of a blade by the right rim of its hull, from its foot to its tip: x and y, folded down by
 /// `fold` of x.
-Cards folded(const std::vector<vec2>& rim, double fold) {
+Cards folded(const std::vector<glm::dvec2>& rim, double fold) {
   std::vector<sim::Vec3> right{{0, rim.front().y, 0}}, left{{0, rim.front().y, 0}};
-  for (const vec2 p : rim) {
-    if (p.x != 0.0f) right.emplace_back(p.x, p.y, -fold * static_cast<double>(p.x));
+  for (const glm::dvec2 p : rim) {
+    if (p.x != 0.0) right.emplace_back(p.x, p.y, -fold * p.x);
   }
   right.emplace_back(0, rim.back().y, 0);
   left.emplace_back(0, rim.back().y, 0);
   for (auto p = rim.rbegin(); p != rim.rend(); ++p) {
-    if (p->x != 0.0f) left.emplace_back(-p->x, p->y, -fold * static_cast<double>(p->x));
+    if (p->x != 0.0) left.emplace_back(-p->x, p->y, -fold * p->x);
   }
   return {right, left};
 }
@@ -268,13 +268,13 @@ const std::map<std::string, Kind>& kinds() {
   static const std::map<std::string, Kind> all = {
       {"ovate",
        {0.60f, 0.597, drawOvate,
-        folded({{0, 0}, {0.13f, 0.05f}, {0.30f, 0.28f}, {0.30f, 0.55f}, {0.14f, 0.86f}, {0, 1}}, 0.22)}},
+        folded({{0, 0}, {0.13, 0.05}, {0.30, 0.28}, {0.30, 0.55}, {0.14, 0.86}, {0, 1}}, 0.22)}},
       {"ivy",
        {1.04f, 0.434, drawIvy,
-        folded({{0, 0}, {0.40f, 0.0f}, {0.52f, 0.50f}, {0.24f, 0.62f}, {0, 1}}, 0.16)}},
+        folded({{0, 0}, {0.30, 0.0}, {0.42, 0.08}, {0.52, 0.56}, {0.27, 0.62}, {0, 1}}, 0.16)}},
       {"palmate",
        {1.04f, 0.388, drawPalmate,
-        folded({{0, 0}, {0.44f, 0.0f}, {0.52f, 0.62f}, {0.20f, 0.80f}, {0.11f, 0.96f}, {0, 1}}, 0.14)}},
+        folded({{0, 0}, {0.44, 0.0}, {0.52, 0.62}, {0.20, 0.80}, {0.11, 0.96}, {0, 1}}, 0.14)}},
       {"needles", {0.46f, 0.436, drawNeedles, crossed(0.46)}},
       {"branch", {0.56f, 0.496, drawBranch, crossed(0.56)}},
       {"blossom", {1.0f, 0.644, drawBlossom, cupped()}},
@@ -327,7 +327,7 @@ Cards cardsOf(const std::string& kind) {
 }
 
 Cards cardsOf(int width_px, int height_px) {
-  const float half = 0.5f * static_cast<float>(width_px) / static_cast<float>(height_px);
+  const double half = 0.5 * width_px / height_px;
   return folded({{0, 0}, {half, 0}, {half, 1}, {0, 1}}, 0.12);
 }
 

@@ -86,10 +86,16 @@ double mostVoxels(const Element& element, double scale) {
   return voxels;
 }
 
+/// As far as the rules say; skeletons that are given may have longer ones.
+double longestSegment(const RuleSet& rules) {
+  if (rules.propagate == Propagate::random_tree) return highest(rules.random_tree.length.value);
+  return rules.colonization.step ? rules.colonization.step->number : kLongestSegment;
+}
+
 /// Not counting what light adds.
-double mostOnASegment(const Element& element) {
+double mostOnASegment(const RuleSet& rules, const Element& element) {
   if (!element.phyllotaxis) return std::ceil(highest(element.per_segment));
-  return std::ceil(kLongestSegment / element.phyllotaxis->spacing.number) * element.phyllotaxis->whorl;
+  return std::ceil(longestSegment(rules) / element.phyllotaxis->spacing.number) * element.phyllotaxis->whorl;
 }
 
 /// What keeps elements from being tiled; empty if nothing does.
@@ -98,7 +104,7 @@ std::string tooManyVoxels(const RuleSet& rules, const std::string& at) {
   std::size_t largest = 0;
   for (std::size_t i = 0; i < rules.elements.size(); ++i) {
     const Element& element = rules.elements[i];
-    const double number = std::max(1.0, mostOnASegment(element) * mostVigour(rules));
+    const double number = std::max(1.0, mostOnASegment(rules, element) * mostVigour(rules));
     const double voxels = number * mostVoxels(element, highest(element.size) * mostVigour(rules));
     sum += voxels;
     if (voxels > most) largest = i;
@@ -136,13 +142,13 @@ std::string wrongWith(const RuleSet& rules, const std::string& at) {
         min, max, at);
   }
   for (std::size_t i = 0; i < rules.elements.size(); ++i) {
-    const double number = mostOnASegment(rules.elements[i]);
+    const double number = mostOnASegment(rules, rules.elements[i]);
     if (rules.elements[i].phyllotaxis && number > kMostOnASegment) {
       return fmt::format(
-          "elements[{}].phyllotaxis: up to {:.0f} elements would stand on a segment of {:.0f} voxel widths "
+          "elements[{}].phyllotaxis: up to {:.0f} elements would stand on a segment of {:.3g} voxel widths "
           "{}; "
           "expected at most {}, by a wider spacing or a smaller whorl",
-          i, number, kLongestSegment, at, kMostOnASegment);
+          i, number, longestSegment(rules), at, kMostOnASegment);
     }
     double farthest = 0.0;
     for (const auto& polygon : rules.elements[i].polygons) {

@@ -24,24 +24,26 @@ class DrawnLeaf : public testing::TestWithParam<std::string> {
   }
 };
 
+double distanceToEdge(glm::dvec2 p, glm::dvec2 a, glm::dvec2 b) {
+  const double t = std::clamp(glm::dot(p - a, b - a) / glm::dot(b - a, b - a), 0.0, 1.0);
+  return glm::distance(p, a + t * (b - a));
+}
+
 /// Whether a point lies in one of the polygons seen along z (or along x, for one that faces x), or at most
 /// `near` outside.
 bool inCards(const Cards& cards, double across, double up, double near) {
+  const glm::dvec2 p(across, up);
   return std::any_of(cards.begin(), cards.end(), [&](const auto& card) {
     const bool faces_x = std::all_of(card.begin(), card.end(), [](sim::Vec3 c) { return c.x == 0.0; });
-    const auto flat = [&](sim::Vec3 c) { return glm::dvec2(faces_x ? c.z : c.x, c.y); };
-    double sign = 0.0;  // twice the area
+    bool inside = false;
     for (std::size_t i = 0; i < card.size(); ++i) {
+      const auto flat = [&](sim::Vec3 c) { return glm::dvec2(faces_x ? c.z : c.x, c.y); };
       const glm::dvec2 a = flat(card[i]), b = flat(card[(i + 1) % card.size()]);
-      sign += a.x * b.y - a.y * b.x;
+      if (distanceToEdge(p, a, b) <= near) return true;
+      const bool crosses = (a.y > up) != (b.y > up) && across < a.x + (up - a.y) / (b.y - a.y) * (b.x - a.x);
+      inside = inside != crosses;
     }
-    for (std::size_t i = 0; i < card.size(); ++i) {
-      const glm::dvec2 a = flat(card[i]), edge = flat(card[(i + 1) % card.size()]) - a;
-      const glm::dvec2 to = glm::dvec2(across, up) - a;
-      const double out = (edge.x * to.y - edge.y * to.x) / glm::length(edge);
-      if ((sign > 0.0 ? out : -out) < -near) return false;
-    }
-    return true;
+    return inside;
   });
 }
 

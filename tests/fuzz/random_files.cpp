@@ -39,7 +39,7 @@ const std::map<std::string, rules::Limits> kUsual = {
     {"elements[].per_segment", {0.0, 3.0}},
     {"elements[].size", {0.05, 2.0}},
     {"elements[].petiole", {0.0, 3.0}},
-    {"elements[].phyllotaxis.spacing", {0.3, 5.0}},
+    {"elements[].phyllotaxis.spacing", {1.0, 8.0}},
     {"elements[].phyllotaxis.whorl", {1.0, 3.0}},
     {"world.layers", {0.0, 6.0}},
     {"sky.accuracy", {0.01, 0.5}},

@@ -116,10 +116,15 @@ inline std::vector<std::string> goodTexts(const rules::Key& key) {
   return {};
 }
 
+/// Whether a mapping needs a key: one that must be there, or the first of those of which one must.
+inline bool needed(const rules::Table& table, const rules::Key& key) {
+  return key.required || (!table.one_of.empty() && table.one_of.front() == key.name);
+}
+
 inline std::string goodMapping(const rules::Table& table) {
   std::string all;
   for (const auto& key : table.keys) {
-    if (key.required)
+    if (needed(table, key))
       all += fmt::format("{}{}: {}", all.empty() ? "" : ", ", key.name, goodTexts(key).front());
   }
   return fmt::format("{{{}}}", all);
@@ -227,7 +232,7 @@ inline void forEachKeyInPlace(
   for (const auto& key : table.keys) {
     std::string others;
     for (const auto& other : table.keys) {
-      if (other.required && other.name != key.name)
+      if (needed(table, other) && other.name != key.name)
         others += fmt::format(", {}: {}", other.name, goodTexts(other).front());
     }
     const auto here = [=](const std::string& value) {

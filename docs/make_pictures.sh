@@ -72,7 +72,13 @@ grow scenes/library/whorls_volume.yaml
 small $work/whorls_volume/graph.png whorls_volume 1000
 
 for tree in broadleaf simple_tree fir cypress pachira animal_tree figure_18; do grow scenes/library/$tree.yaml; done
-oiiotool $work/simple_tree/vines.png --resize 0x1120 $work/fir/vines.png $work/cypress/vines.png --mosaic:pad=8 3x1 -o $work/three_trees.png
+# Side by side, for mosaics are made of cells of one width: 1493, 960 and 960 pixels.
+oiiotool --pattern constant:color=1,1,1 3429x1120 3 -o $work/three_trees.png
+at=0
+for tree in simple_tree fir cypress; do
+  oiiotool $work/$tree/vines.png --resize 0x1120 $work/three_trees.png --paste +$at+0 -o $work/three_trees.png
+  at=$((at == 0 ? 1501 : 2469))
+done
 small $work/three_trees.png three_trees 1100
 small $work/broadleaf/vines.png broadleaf 760
 small $work/pachira/vines.png pachira 560

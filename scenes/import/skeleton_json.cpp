@@ -106,15 +106,16 @@ Forest plainForest(const Json& nodes, std::string_view pointer) {
     if (position == node.end()) failAt({pointer, i}, "the node has no position; expected one, [x, y, z]");
     forest.position.push_back(placeIn(*position, {pointer, i, "position"}));
     forest.parent.push_back(parent == node.end() ? -1 : parentIn(*parent, {pointer, i, "parent"}));
-    forest.radius.push_back(kNoRadius);
-    if (forest.parent.back() < 0) continue;
     const bool has = radius != node.end();
+    const float own = has ? radiusIn(*radius, {pointer, i, "radius"}) : kNoRadius;
+    forest.radius.push_back(kNoRadius);
+    if (forest.parent.back() < 0) continue;  // it ends no segment
     if (has != have_radii.value_or(has))
       failAt({pointer, i},
              fmt::format("the node has {} radius, unlike those before it; expected one for each, or none",
                          has ? "a" : "no"));
     have_radii = has;
-    if (has) forest.radius.back() = radiusIn(*radius, {pointer, i, "radius"});
+    forest.radius.back() = own;
   }
   if (!have_radii.value_or(false)) forest.radius.clear();
   return forest;
@@ -143,8 +144,10 @@ Forest plantForest(const Json& plant, const std::string& pointer) {
   if (!plant.contains("radius_m")) return forest;
   const Json& radii = listAt(plant, "radius_m", pointer);
   requireAsMany(radii, "radius_m");
-  for (std::size_t i = 0; i < radii.size(); ++i)
-    forest.radius.push_back(forest.parent[i] < 0 ? kNoRadius : radiusIn(radii[i], {radius_at, i}));
+  for (std::size_t i = 0; i < radii.size(); ++i) {
+    const float own = radiusIn(radii[i], {radius_at, i});
+    forest.radius.push_back(forest.parent[i] < 0 ? kNoRadius : own);
+  }
   return forest;
 }
 

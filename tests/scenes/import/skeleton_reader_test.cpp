@@ -142,6 +142,8 @@ TEST_F(Skeletons, OfBadJsonAreRefusedWithThePlace) {
   for (const char* const radius : {"0", "-1", "1e-60", "1e10"})
     bad(root + fmt::format(R"({{"parent": 0, "position": [0, 1, 0], "radius": {}}})", radius) + end,
         "/1/radius: the node has the radius ");
+  bad(R"({"nodes": [{"position": [0, 0, 0], "radius": 0}, {"parent": 0, "position": [0, 1, 0], "radius": 1}]})",
+      "/nodes/0/radius: the node has the radius 0; expected more than 0");
   bad(root + R"({"parent": 0, "position": [0, 1, 0], "radius": "thick"})" + end,
       "/1/radius: 'thick' is no number");
   bad(root + R"({"parent": 0, "position": [0, 1, 0], "radius": 1}, {"parent": 0, "position": [0, 2, 0]})" +

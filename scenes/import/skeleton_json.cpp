@@ -144,10 +144,8 @@ Forest plantForest(const Json& plant, const std::string& pointer) {
   if (!plant.contains("radius_m")) return forest;
   const Json& radii = listAt(plant, "radius_m", pointer);
   requireAsMany(radii, "radius_m");
-  for (std::size_t i = 0; i < radii.size(); ++i) {
-    const float own = radiusIn(radii[i], {radius_at, i});
-    forest.radius.push_back(forest.parent[i] < 0 ? kNoRadius : own);
-  }
+  for (std::size_t i = 0; i < radii.size(); ++i)
+    forest.radius.push_back(forest.parent[i] < 0 ? kNoRadius : radiusIn(radii[i], {radius_at, i}));
   return forest;
 }
 

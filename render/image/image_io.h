@@ -30,5 +30,7 @@ std::string encodeExr(const Image& measured, const std::vector<std::string>& cha
 /// Loads what draws and encodes pictures, which otherwise happens with the first of them: for jobs that would
 /// learn too late that it is missing.
 void makeReadyToDraw();
+/// About what of memory that will take: 0 when it was done.
+double bytesToBeReady();
 
 }  // namespace espalier::render

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "render/image/image_io.h"
 #include "scenes/show/picture_memory.h"
 
 // Seconds of one core of an Intel Xeon of 2023 in the cloud, and what the stages held beyond what they were
@@ -45,7 +46,8 @@ StageCost modellingCost(double triangles) {
 
 StageCost drawingCost(const PicturesWanted& wanted, const std::vector<Seen>& cameras, double triangles) {
   const double pixels = pixelsOf(wanted), vines = countOf(wanted, ImageKind::vines);
-  StageCost cost{"drawing", {}, 0.0, 15.0 * pixels * static_cast<double>(wanted.images.size())};
+  const double module = render::bytesToBeReady();
+  StageCost cost{"drawing", {}, module, module + 15.0 * pixels * static_cast<double>(wanted.images.size())};
   double panels_s = 0.0, fragments = 0.0;
   for (const Seen& seen : cameras) {
     panels_s += (0.3e-6 + 0.25e-6 * seen.panels + (seen.shadows ? 0.3e-6 : 0.0)) * seen.fragments;

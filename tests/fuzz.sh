@@ -23,6 +23,7 @@ declare -A sources=(
   [skeleton_json]="scenes/import/skeleton_json scenes/import/skeleton_forest"
   [skeleton_obj]="scenes/import/skeleton_obj scenes/import/skeleton_forest scenes/import/obj_statements"
   [skeleton_wire]="scenes/import/skeleton_reader"
+  [picture_png]="scenes/import/picture_reader" [picture_wire]="scenes/import/picture_reader"
   [ply]="$all_meshes scenes/import/ply_" [gltf]="$all_meshes scenes/import/gltf_"
 )
 for target in "${!sources[@]}"; do
@@ -30,7 +31,7 @@ for target in "${!sources[@]}"; do
     compgen -G "$path*" >/dev/null || { echo "fuzz.sh: there is no $path" >&2 && exit 2; }
   done
 done
-all=(yaml rules scenes states mesh_wire obj stl ply gltf skeleton_json skeleton_obj skeleton_wire)
+all=(yaml rules scenes states mesh_wire obj stl ply gltf skeleton_json skeleton_obj skeleton_wire picture_png picture_wire)
 
 seconds=60 files=500 targets=()
 while [ $# -gt 0 ]; do

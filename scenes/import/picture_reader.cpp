@@ -28,16 +28,9 @@ bool opaque(const std::array<std::uint8_t, 4>& texel) {
 /// The work of the child.
 std::string packedPicture(const std::filesystem::path& file) {
   std::ifstream in(file, std::ios::binary);
-  std::string bytes{std::istreambuf_iterator<char>(in), {}};
+  const std::string bytes{std::istreambuf_iterator<char>(in), {}};
   if (!in) throw sim::InputError("cannot be read");
-  const render::Texels decoded = render::oiio().read_png(bytes, kMostPicturePixels, kMostPictureSide);
-  Packer out;
-  out.put(sim::hashOf(bytes));
-  out.put(decoded.width);
-  out.put(decoded.height);
-  out.putArray(decoded.rgba.data(), decoded.rgba.size());
-  out.putText(bytes);
-  return out.take();
+  return packPicture(pictureIn(bytes), sim::hashOf(bytes));
 }
 
 void requirePicture(bool sound) {
@@ -45,6 +38,26 @@ void requirePicture(bool sound) {
 }
 
 }  // namespace
+
+sim::Picture pictureIn(const std::string& png) {
+  render::Texels decoded = render::oiio().read_png(png, kMostPicturePixels, kMostPictureSide);
+  sim::Picture picture;
+  picture.width = decoded.width;
+  picture.height = decoded.height;
+  picture.texels = std::move(decoded.rgba);
+  picture.png = png;
+  return picture;
+}
+
+std::string packPicture(const sim::Picture& picture, std::uint64_t hash) {
+  Packer out;
+  out.put(hash);
+  out.put(static_cast<std::int32_t>(picture.width));
+  out.put(static_cast<std::int32_t>(picture.height));
+  out.putArray(picture.texels.data(), picture.texels.size());
+  out.putText(picture.png);
+  return out.take();
+}
 
 sim::Picture pictureFromChild(std::string_view bytes, sim::InputFile& read) {
   Unpacker in(bytes);
@@ -86,7 +99,7 @@ std::shared_ptr<const sim::Picture> readPicture(const std::filesystem::path& fil
     picture->name = name;
     return picture;
   } catch (const sim::InputError& error) {
-    throw sim::InputError(fmt::format("{}: {}", file.string(), error.what()));
+    throw sim::InputError(fmt::format("{}: {}", file.string(), cleanText(error.what())));
   }
 }
 

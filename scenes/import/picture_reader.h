@@ -1,10 +1,13 @@
 #pragma once
+#include <cstdint>
 #include <filesystem>
 #include <memory>
+#include <string>
 #include <string_view>
 
 #include "sim/base/picture.h"
 #include "sim/base/provenance.h"
+#include "sim/base/vec.h"
 
 namespace espalier::scenes {
 
@@ -16,6 +19,10 @@ inline constexpr int kMostPicturePixels = 1 << 24, kMostPictureSide = 8192;
 /// PNG, damaged or cut, of more pixels than above (asked before any is read), or wholly transparent.
 std::shared_ptr<const sim::Picture> readPicture(const std::filesystem::path& file, sim::InputFile& read);
 
+/// A PNG's bytes: what the child does with a file's. Throws sim::InputError.
+sim::Picture pictureIn(const std::string& png);
+/// What the child sends.
+std::string packPicture(const sim::Picture& picture, std::uint64_t hash);
 /// What the reading child sent, unpacked and checked; the bytes are not trusted. Throws std::runtime_error.
 sim::Picture pictureFromChild(std::string_view bytes, sim::InputFile& read);
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "rules/growth/element_places.h"
 #include "rules/growth/elements.h"
 
 namespace espalier::rules {
@@ -26,8 +27,9 @@ Outcome tryToGrow(const sim::SiteView& view, const RuleSet& rules, const sim::Si
   if (!best) return Outcome::no_trial;
   proposal.elements = proposeElements(view, site, rules, around, senses, best->to_vx, best->passes,
                                       book.firstShape(rules), key);
-  proposal.segment = {best->to_vx, std::move(best->takes), best->passage,
-                      quantitiesOf(view, book, seen, senses.exposure, order, best->proximity_vx)};
+  proposal.segment = {
+      best->to_vx, std::move(best->takes), best->passage,
+      quantitiesOf(view, book, site, best->to_vx, seen, senses.exposure, order, best->proximity_vx)};
   return Outcome::grown;
 }
 
@@ -37,12 +39,19 @@ Exposure seenAt(const sim::SiteView& view) {
   return view.light != nullptr ? exposureOf(*view.light) : Exposure{1.0, 1.0};
 }
 
-std::vector<float> quantitiesOf(const sim::SiteView& view, const RuleBook& book, const Exposure& seen,
-                                double exposure, int order, double proximity_vx,
-                                std::optional<float> radius_vx) {
-  // exposure, order, proximity_vx, radius_vx, sky_exposure, sun_exposure: in the order of their names.
+std::vector<float> quantitiesOf(const sim::SiteView& view, const RuleBook& book, const sim::Site& site,
+                                sim::Vec3 to_vx, const Exposure& seen, double exposure, int order,
+                                double proximity_vx, std::optional<float> radius_vx) {
+  // exposure, limb_turn, limb_vx, order, proximity_vx, radius_vx, sky_exposure, sun_exposure: in the order of
+  // their names.
   std::vector<float> quantities;
   if (view.light != nullptr) quantities.push_back(static_cast<float>(exposure));
+  if (book.hasPhyllotaxis()) {
+    const double length_vx = glm::distance(to_vx, site.at_vx);
+    const sim::Vec3 way = glm::normalize(to_vx - site.at_vx);
+    const LimbQuantities end = atEnd(limbPlace(view.plant.skeleton, site.node, way), way, length_vx);
+    quantities.insert(quantities.end(), {end.turn, end.length_vx});
+  }
   if (book.hasOrders()) quantities.push_back(static_cast<float>(order));
   quantities.push_back(static_cast<float>(proximity_vx));
   if (radius_vx) quantities.push_back(*radius_vx);
@@ -103,6 +112,9 @@ sim::Plant seedlingOf(const RuleBook& book) {
   plant.girth = {stem.by, stem.radius.number, stem.exponent, stem.thickens.number, stem.thickest.number};
   plant.skeleton.columns["proximity_vx"];
   if (book.hasOrders()) plant.skeleton.columns["order"];
+  if (book.hasPhyllotaxis()) {
+    for (const char* name : {kLimbTurnColumn, kLimbLengthColumn}) plant.skeleton.columns[name];
+  }
   if (!wantsOf(book).light) return plant;
   for (const char* name : {"exposure", "sky_exposure", "sun_exposure"}) plant.skeleton.columns[name];
   return plant;

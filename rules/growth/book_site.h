@@ -23,10 +23,11 @@ sim::Proposal proposeByBook(const sim::SiteView& view, const sim::Site& site, co
                             const RuleBook& book, int order, const Step& step);
 
 /// A new node's quantities, one for each column of seedlingOf, in the order of their names. `exposure`: as
-/// its rule set blends what was `seen`; `radius_vx`: of plants that have that column too.
-std::vector<float> quantitiesOf(const sim::SiteView& view, const RuleBook& book, const Exposure& seen,
-                                double exposure, int order, double proximity_vx,
-                                std::optional<float> radius_vx = std::nullopt);
+/// its rule set blends what was `seen`; `radius_vx`: of plants that have that column too. The node stands at
+/// `to_vx`, at the end of a segment from the site.
+std::vector<float> quantitiesOf(const sim::SiteView& view, const RuleBook& book, const sim::Site& site,
+                                sim::Vec3 to_vx, const Exposure& seen, double exposure, int order,
+                                double proximity_vx, std::optional<float> radius_vx = std::nullopt);
 
 /// What a site sees; all there is where its plant's process wants no light.
 Exposure seenAt(const sim::SiteView& view);

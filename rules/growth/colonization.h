@@ -12,8 +12,8 @@ namespace espalier::rules {
 /// What the front pulls, a rule set's biases bend, and `require` judges; a way in which something stands is
 /// tried again farther and farther aside, up to `avoid`. A plant is no obstacle to itself. A node that goes
 /// straight for its nearest attractor, because it stalled, is not bent. One that finds no way even so lets go
-/// of its attractors: they wait for the next node that comes within reach. One on whose way aside nothing came
-/// nearer hands them over to the node that it sent there, which goes on along what stands in the way.
+/// of its attractors: they wait for the next node that comes within reach. One on whose way aside nothing
+/// came nearer hands them over to the node that it sent there, which goes on along what stands in the way.
 std::shared_ptr<const sim::Process> makeColonization(RuleBook book);
 
 }  // namespace espalier::rules

@@ -2,8 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
-
-#include <glm/trigonometric.hpp>
+#include <numbers>
 
 namespace espalier::rules {
 namespace {
@@ -26,36 +25,35 @@ sim::Vec3 byItsWeight(const Surroundings& around, sim::Vec3 stem, sim::Slots& sl
 
 }  // namespace
 
-LimbPath limbPath(const sim::Skeleton& skeleton, sim::NodeId node, sim::Vec3 heading) {
-  const auto parentOf = [&](sim::NodeId n) { return skeleton.parent[static_cast<std::size_t>(n)]; };
-  const auto at = [&](sim::NodeId n) { return skeleton.position_vx[static_cast<std::size_t>(n)]; };
-  std::vector<sim::Vec3> steps;  // from the node back to the seed
-  for (sim::NodeId n = node; parentOf(n) != sim::kNoNode; n = parentOf(n))
-    steps.push_back(at(n) - at(parentOf(n)));
-  LimbPath path;
-  auto carry = [&, first = true](sim::Vec3 unit) mutable {
-    path.across = first ? sim::perpendicular(unit) : squareTo(unit, path.across);
-    first = false;
-  };
-  for (auto step = steps.rbegin(); step != steps.rend(); ++step) {
-    const double length = glm::length(*step);
-    path.length_vx += length;
-    if (length > 0.0) carry(*step / length);
-  }
-  carry(heading);
-  return path;
+LimbPlace limbPlace(const sim::Skeleton& skeleton, sim::NodeId node, sim::Vec3 way) {
+  const auto n = static_cast<std::size_t>(node);
+  if (skeleton.parent[n] == sim::kNoNode) return {0.0, sim::perpendicular(way)};
+  const auto of = [&](const char* column) { return static_cast<double>((*sim::find(skeleton, column))[n]); };
+  const sim::Vec3 segment =
+      skeleton.position_vx[n] - skeleton.position_vx[static_cast<std::size_t>(skeleton.parent[n])];
+  const sim::Vec3 came = glm::length(segment) > 0.0 ? glm::normalize(segment) : way;
+  const sim::Vec3 zero = sim::perpendicular(came);
+  const glm::dvec2 turn = sim::unitCircle(of(kLimbTurnColumn));
+  return {of(kLimbLengthColumn), squareTo(way, turn.x * zero + turn.y * glm::cross(came, zero))};
 }
 
-std::vector<ElementPlace> placesInOrder(const Phyllotaxis& phyllotaxis, double begins_vx, double length_vx) {
+LimbQuantities atEnd(const LimbPlace& begins, sim::Vec3 way, double length_vx) {
+  const sim::Vec3 zero = sim::perpendicular(way);
+  // In single precision, whose library gives the same on every processor.
+  const float turn = atan2f(static_cast<float>(glm::dot(begins.across, glm::cross(way, zero))),
+                            static_cast<float>(glm::dot(begins.across, zero)));
+  return {turn / (2.0f * std::numbers::pi_v<float>), static_cast<float>(begins.length_vx + length_vx)};
+}
+
+std::vector<ElementPlace> placesInOrder(const Phyllotaxis& phyllotaxis, double begins_vx, double ends_vx) {
   std::vector<ElementPlace> places;
   const double spacing = phyllotaxis.spacing.number;
-  const double ends_vx = begins_vx + length_vx;
   for (double k = std::floor(begins_vx / spacing) + 1.0; k * spacing <= ends_vx; k += 1.0) {
     for (int i = 0; i < phyllotaxis.whorl; ++i) {
       if (places.size() == kMostOnASegment) return places;
       const double turn = k * phyllotaxis.angle_deg + 360.0 * i / phyllotaxis.whorl;
-      places.push_back(
-          {std::clamp((k * spacing - begins_vx) / length_vx, 0.0, 1.0), std::fmod(turn, 360.0), true});
+      places.push_back({std::clamp((k * spacing - begins_vx) / (ends_vx - begins_vx), 0.0, 1.0),
+                        std::fmod(turn, 360.0), true});
     }
   }
   return places;
@@ -71,13 +69,15 @@ void stand(sim::PlacedElement& element, const Element& rule, const ElementPlace&
   if (place.in_order) {
     // What has no room where it belongs leans aside, and more so with each trial.
     const double sway_deg = std::min(4.0 + 4.0 * trial, 60.0);
-    const double turn = glm::radians(place.turn_deg + sway_deg * (2.0 * slots.uniform(kSway) - 1.0));
-    const double pitch =
-        glm::radians(evaluate(rule.phyllotaxis->pitch_deg, senses.circumstance, slots.uniform(kPitch)) +
-                     sway_deg * (2.0 * slots.uniform(kTilt) - 1.0));
-    out = std::cos(turn) * across + std::sin(turn) * glm::cross(stem, across);
-    element.y = glm::normalize(std::cos(pitch) * stem + std::sin(pitch) * out);
-    const sim::Vec3 to_tip = squareTo(element.y, std::sin(pitch) * stem - std::cos(pitch) * out);
+    const auto swayed = [&](double degrees, ElementSlot slot) {
+      return sim::unitCircle((degrees + sway_deg * (2.0 * slots.uniform(slot) - 1.0)) / 360.0);
+    };
+    const glm::dvec2 turn = swayed(place.turn_deg, kSway);
+    const glm::dvec2 pitch =
+        swayed(evaluate(rule.phyllotaxis->pitch_deg, senses.circumstance, slots.uniform(kPitch)), kTilt);
+    out = turn.x * across + turn.y * glm::cross(stem, across);
+    element.y = glm::normalize(pitch.x * stem + pitch.y * out);
+    const sim::Vec3 to_tip = squareTo(element.y, pitch.y * stem - pitch.x * out);
     element.z = squareTo(element.y, glm::mix(to_tip, squareTo(element.y, open), face));
   } else {
     const sim::Vec3 facing = glm::mix(onSphere(slots, kChanceTurn, kChanceHeight), open, face);

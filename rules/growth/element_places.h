@@ -17,18 +17,29 @@ struct ElementPlace {
   bool in_order = false;  ///< it is phyllotaxis that says where; else chance does, trial by trial
 };
 
-/// How far a node is from its plant's seed along its limbs, and a unit vector across the stem that is carried
-/// from the seed to the node without turning about it.
-struct LimbPath {
+/// Where a limb is in the order of its elements: how far from its plant's seed along its limbs, and a unit
+/// vector across it that is carried from the seed on without turning about the limb.
+struct LimbPlace {
   double length_vx = 0.0;
   sim::Vec3 across{1, 0, 0};
 };
-/// `heading`: of the segment that leaves the node; `across` is square to it.
-LimbPath limbPath(const sim::Skeleton& skeleton, sim::NodeId node, sim::Vec3 heading);
 
-/// Places by phyllotaxis on a segment of that length that begins so far along its limb: in their order, at
-/// most kMostOnASegment.
-std::vector<ElementPlace> placesInOrder(const Phyllotaxis& phyllotaxis, double begins_vx, double length_vx);
+/// The columns that keep it of a plant's nodes, at the ends of their segments: the turn from
+/// sim::perpendicular of the segment's way to `across`, in full turns. So that nobody walks the way to the
+/// seed.
+inline constexpr const char *kLimbTurnColumn = "limb_turn", *kLimbLengthColumn = "limb_vx";
+struct LimbQuantities {
+  float turn = 0.0f, length_vx = 0.0f;
+};
+
+/// Of a node, for a segment of that way (unit) that leaves it; the plant must keep the columns.
+LimbPlace limbPlace(const sim::Skeleton& skeleton, sim::NodeId node, sim::Vec3 way);
+/// Of a segment's end, from its beginning's.
+LimbQuantities atEnd(const LimbPlace& begins, sim::Vec3 way, double length_vx);
+
+/// Places by phyllotaxis on a segment between two lengths along its limb: in their order, at most
+/// kMostOnASegment.
+std::vector<ElementPlace> placesInOrder(const Phyllotaxis& phyllotaxis, double begins_vx, double ends_vx);
 
 /// Random numbers of an element's trial, by their slots (sim::Slots).
 enum ElementSlot : unsigned {
@@ -46,7 +57,7 @@ enum ElementSlot : unsigned {
 };
 
 /// Which way an element's trial stands on its segment; the axes of `element` are set, and its position moved
-/// out by the petiole. `stem`: unit, the segment's way; `across`: of limbPath. By phyllotaxis it leaves the
+/// out by the petiole. `stem`: unit, the segment's way; `across`: of LimbPlace. By phyllotaxis it leaves the
 /// stem by the pitch, swaying the more the later the trial; else it points outwards and a little down, as its
 /// own weight and its stalk make it. Its face turns towards the open and the light, as a leaf's blade does.
 void stand(sim::PlacedElement& element, const Element& rule, const ElementPlace& place, sim::Vec3 stem,

@@ -55,15 +55,14 @@ sim::LatticeBox reachOf(const sim::SiteView& view, const RuleSet& rules, double 
           sim::latticePoint(glm::min(glm::max(from_vx, to_vx) + most, rim))};
 }
 
-/// Where elements of a shape go on a segment that leaves a node: as many places as there are to be elements.
-std::vector<ElementPlace> placesOn(const sim::SiteView& view, const sim::Site& site, const Element& rule,
-                                   const Senses& senses, sim::Vec3 segment_vx, unsigned shape,
-                                   const sim::RandomKey& key, LimbPath& path) {
+/// Where elements of a shape go on a segment that begins at a place of its limb: as many places as there are
+/// to be elements.
+std::vector<ElementPlace> placesOn(const Element& rule, const Senses& senses, const LimbPlace& begins,
+                                   sim::Vec3 stem, double length_vx, unsigned shape,
+                                   const sim::RandomKey& key) {
   if (rule.phyllotaxis) {
-    const double length = glm::length(segment_vx);
-    if (!(length > 0.0)) return {};
-    path = limbPath(view.plant.skeleton, site.node, segment_vx / length);
-    return placesInOrder(*rule.phyllotaxis, path.length_vx, length);
+    const LimbQuantities end = atEnd(begins, stem, length_vx);
+    return placesInOrder(*rule.phyllotaxis, begins.length_vx, static_cast<double>(end.length_vx));
   }
   sim::Slots counting(key, sim::Purpose::element_count, shape);
   const double expected =
@@ -106,9 +105,10 @@ std::vector<sim::ProposedElement> proposeElements(const sim::SiteView& view, con
     const auto number = first_shape + static_cast<std::int32_t>(shape);
     const sim::FacetShape& facet_shape =
         view.pieces.shapeOf(view.plant.element_parts[static_cast<std::size_t>(number)]);
-    LimbPath path;
-    const std::vector<ElementPlace> places =
-        placesOn(view, site, rule, senses, to_vx - around.at_vx, static_cast<unsigned>(shape), key, path);
+    LimbPlace begins;
+    if (rule.phyllotaxis) begins = limbPlace(view.plant.skeleton, site.node, stem);
+    const std::vector<ElementPlace> places = placesOn(
+        rule, senses, begins, stem, glm::distance(to_vx, around.at_vx), static_cast<unsigned>(shape), key);
     double area = 0.0;
     for (const auto& polygon : rule.polygons) area += rule.opacity * areaOf(polygon);
     for (unsigned i = 0; i < places.size(); ++i) {
@@ -123,7 +123,7 @@ std::vector<sim::ProposedElement> proposeElements(const sim::SiteView& view, con
         element.position_vx = glm::mix(around.at_vx, to_vx, along);
         element.exposure = static_cast<float>(senses.exposure);
         element.scale = evaluate(rule.size, senses.circumstance, slots.uniform(kSize)) * senses.vigour;
-        stand(element, rule, places[i], stem, path.across, around, senses, trial, slots);
+        stand(element, rule, places[i], stem, begins.across, around, senses, trial, slots);
         // The cheap questions first. The world is frozen: the element's own segment does not stand there yet.
         if (!sim::place(element, facet_shape, facets) || !sim::inside(view.world.frame().size, facets) ||
             (!rule.crosses && nearby.clash(facets, {sim::latticePoint(element.position_vx)})))

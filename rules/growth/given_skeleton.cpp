@@ -151,10 +151,10 @@ sim::Proposal GivenProcess::propose(const sim::SiteView& view, const sim::Site& 
     proposal.elements = proposeElements(view, site, *set, around, sense(view, around, light, *set), to_vx,
                                         passes, book_.firstShape(*set), key);
   }
-  proposal.segment = {
-      to_vx, std::move(takes), sim::Passage::through,
-      quantitiesOf(view, book_, seen, light.exposure, order, sim::meanProximity(view.world, passes),
-                   haveRadii() ? std::optional(tree.tree.radius_vx[node]) : std::nullopt)};
+  proposal.segment = {to_vx, std::move(takes), sim::Passage::through,
+                      quantitiesOf(view, book_, site, to_vx, seen, light.exposure, order,
+                                   sim::meanProximity(view.world, passes),
+                                   haveRadii() ? std::optional(tree.tree.radius_vx[node]) : std::nullopt)};
   return proposal;
 }
 

@@ -57,6 +57,8 @@ RuleBook::RuleBook(std::shared_ptr<const RuleSet> rules) : rules_(std::move(rule
   forEachSet(*rules_, [&](const RuleSet& set, const std::string&) {
     first_shape_[&set] = static_cast<std::int32_t>(shapes_.size());
     for (auto& shape : shapesOf(set)) shapes_.push_back(std::move(shape));
+    for (const Element& element : set.elements)
+      has_phyllotaxis_ = has_phyllotaxis_ || element.phyllotaxis.has_value();
   });
 }
 

@@ -32,6 +32,8 @@ class RuleBook {
   const RuleSet& ofOrder(int order) const;
   /// Whether limbs are told apart by their orders.
   bool hasOrders() const { return rules_->branches || rules_->twigs; }
+  /// Whether elements stand in an order along limbs.
+  bool hasPhyllotaxis() const { return has_phyllotaxis_; }
   /// The set that a site in this voxel tries first: of what has an order, the nearest region's, or that
   /// order's own where it says nothing of that one; null where nothing may grow.
   const RuleSet* first(const sim::World& world, sim::Voxel v, int order = 0) const;
@@ -48,6 +50,7 @@ class RuleBook {
   std::shared_ptr<const RuleSet> rules_;
   std::vector<sim::ElementShape> shapes_;
   std::map<const RuleSet*, std::int32_t> first_shape_;
+  bool has_phyllotaxis_ = false;
 };
 
 }  // namespace espalier::rules

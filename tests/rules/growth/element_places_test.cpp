@@ -30,7 +30,7 @@ sim::Skeleton lineOf(const std::vector<Vec3>& nodes) {
 }
 
 TEST(ElementPlaces, AreSpacedAlongTheLimbAndTurnAboutIt) {
-  const auto places = placesInOrder(spaced(0.5, 137.5), 1.2, 2.0);  // at 1.5, 2, 2.5 and 3
+  const auto places = placesInOrder(spaced(0.5, 137.5), 1.2, 3.2);  // at 1.5, 2, 2.5 and 3
   ASSERT_EQ(places.size(), 4u);
   for (std::size_t i = 0; i < places.size(); ++i) {
     const double k = 3.0 + static_cast<double>(i);
@@ -46,7 +46,7 @@ TEST(ElementPlaces, GoOnFromSegmentToSegment) {
   std::vector<std::pair<double, double>> parts;
   double begins = 0.0;
   for (const double length : {0.1, 0.95, 2.5, 0.05, 3.4}) {
-    for (const ElementPlace& place : placesInOrder(phyllotaxis, begins, length))
+    for (const ElementPlace& place : placesInOrder(phyllotaxis, begins, begins + length))
       parts.emplace_back(begins + length * place.along, place.turn_deg);
     begins += length;
   }
@@ -70,18 +70,57 @@ TEST(ElementPlaces, AreNeverMoreThanASegmentMayHave) {
   EXPECT_EQ(placesInOrder(spaced(1e-3, 90.0), 0.0, 1e3).size(), static_cast<std::size_t>(kMostOnASegment));
 }
 
-TEST(LimbPath, MeasuresTheWayFromTheSeedAndDoesNotTurn) {
-  const sim::Skeleton skeleton = lineOf({{0, 0, 0}, {0, 2, 0}, {0, 2, 3}, {4, 2, 3}});
-  const LimbPath path = limbPath(skeleton, 3, Vec3(1, 0, 0));
-  EXPECT_NEAR(path.length_vx, 9.0, 1e-12);
-  EXPECT_NEAR(glm::length(path.across), 1.0, 1e-12);
-  EXPECT_NEAR(glm::dot(path.across, Vec3(1, 0, 0)), 0.0, 1e-12);
-  // Along a straight limb it stays what it was at the seed, wherever it is asked.
-  const sim::Skeleton straight = lineOf({{0, 0, 0}, {1, 2, 3}, {2, 4, 6}, {5, 10, 15}});
+/// A limb whose nodes know their places.
+sim::Skeleton limbOf(const std::vector<Vec3>& nodes) {
+  sim::Skeleton skeleton = lineOf(nodes);
+  auto &turns = skeleton.columns[kLimbTurnColumn], &lengths = skeleton.columns[kLimbLengthColumn];
+  turns = lengths = {0.0f};
+  for (std::size_t n = 1; n < nodes.size(); ++n) {
+    const Vec3 way = glm::normalize(nodes[n] - nodes[n - 1]);
+    const LimbQuantities end = atEnd(limbPlace(skeleton, static_cast<sim::NodeId>(n) - 1, way), way,
+                                     glm::distance(nodes[n], nodes[n - 1]));
+    turns.push_back(end.turn);
+    lengths.push_back(end.length_vx);
+  }
+  return skeleton;
+}
+
+TEST(LimbPlace, MeasuresTheWayFromTheSeed) {
+  const LimbPlace place = limbPlace(limbOf({{0, 0, 0}, {0, 2, 0}, {0, 2, 3}, {4, 2, 3}}), 3, Vec3(1, 0, 0));
+  EXPECT_NEAR(place.length_vx, 9.0, 1e-6);
+  EXPECT_NEAR(glm::length(place.across), 1.0, 1e-12);
+  EXPECT_NEAR(glm::dot(place.across, Vec3(1, 0, 0)), 0.0, 1e-12);
+}
+
+TEST(LimbPlace, DoesNotTurnAboutTheLimb) {
+  const sim::Skeleton straight = limbOf({{0, 0, 0}, {1, 2, 3}, {2, 4, 6}, {5, 10, 15}});
   const Vec3 way = glm::normalize(Vec3(1, 2, 3));
   for (const sim::NodeId node : {1, 2, 3})
-    EXPECT_NEAR(glm::distance(limbPath(straight, node, way).across, limbPath(straight, 0, way).across), 0.0,
-                1e-9);
+    EXPECT_NEAR(glm::distance(limbPlace(straight, node, way).across, limbPlace(straight, 0, way).across), 0.0,
+                1e-6);
+  // Round a flat bend, what is square to its plane stays so, and what lies in it turns with it.
+  std::vector<Vec3> bend;
+  for (int i = 0; i <= 40; ++i) bend.emplace_back(10.0 * std::cos(0.1 * i), 10.0 * std::sin(0.1 * i), 0.0);
+  const sim::Skeleton arc = limbOf(bend);
+  const auto alongZ = [&](sim::NodeId node) {
+    const auto n = static_cast<std::size_t>(node);
+    return limbPlace(arc, node, glm::normalize(bend[n] - bend[n - 1])).across.z;
+  };
+  for (const sim::NodeId node : {1, 5, 17, 40}) EXPECT_NEAR(alongZ(node), alongZ(1), 1e-5) << node;
+}
+
+// Lengths are kept in single precision: what lies between two segments must be of one of them alone.
+TEST(ElementPlaces, NoneIsLostOrDoubledBetweenSegmentsOfALongLimb) {
+  const Phyllotaxis phyllotaxis = spaced(0.25, 90.0);
+  const Vec3 way = glm::normalize(Vec3(0.3, 1.0, 0.2));
+  LimbPlace begins{0.0, sim::perpendicular(way)};
+  std::size_t seen = 0;
+  for (int i = 0; i < 4000; ++i) {
+    const LimbQuantities end = atEnd(begins, way, 0.1 + 0.25 * (i % 7));
+    seen += placesInOrder(phyllotaxis, begins.length_vx, static_cast<double>(end.length_vx)).size();
+    begins.length_vx = static_cast<double>(end.length_vx);
+  }
+  EXPECT_EQ(seen, static_cast<std::size_t>(std::floor(begins.length_vx / 0.25)));
 }
 
 /// What stands by phyllotaxis on a stem that goes straight up.

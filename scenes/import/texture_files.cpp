@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "scenes/clean_text.h"
+#include "sim/base/hasher.h"
 
 namespace espalier::scenes {
 
@@ -14,7 +15,8 @@ std::string mimeTypeOf(std::string_view picture) {
 
 std::shared_ptr<const sim::Texture> TextureFiles::add(const std::string& name, std::string_view bytes,
                                                       const Wraps& wrap) {
-  const auto known = textures_.find({name, wrap});
+  const std::tuple key(sim::hashOf(bytes), bytes.size(), wrap);
+  const auto known = textures_.find(key);
   if (known != textures_.end()) return known->second;
   std::string mime_type = mimeTypeOf(bytes);
   if (mime_type.empty()) {
@@ -26,7 +28,7 @@ std::shared_ptr<const sim::Texture> TextureFiles::add(const std::string& name, s
     return nullptr;
   }
   bytes_ += bytes.size();
-  return textures_[{name, wrap}] = std::make_shared<sim::Texture>(
+  return textures_[key] = std::make_shared<sim::Texture>(
              sim::Texture{cleanText(name), std::move(mime_type), std::string(bytes), wrap});
 }
 

@@ -1,11 +1,13 @@
 #pragma once
+#include <array>
 #include <cstddef>
+#include <cstdint>
 #include <map>
 #include <memory>
 #include <set>
 #include <string>
 #include <string_view>
-#include <utility>
+#include <tuple>
 #include <vector>
 
 #include "scenes/problem.h"
@@ -24,8 +26,9 @@ class TextureFiles {
  public:
   using Wraps = std::array<sim::Texture::Wrap, 2>;
 
-  /// The picture with these bytes; the same one for the same name and wraps. Null, and remembered for a
-  /// warning, where it is no PNG or JPEG file, or too much with those before it.
+  /// The picture with these bytes; the same one for the same bytes and wraps, whatever it is called: in glTF
+  /// several may have one name. Null, and remembered for a warning, where it is no PNG or JPEG file, or too
+  /// much with those before it.
   std::shared_ptr<const sim::Texture> add(const std::string& name, std::string_view bytes, const Wraps& wrap);
   /// Remembers a picture that is not there, or cannot be asked for.
   void miss(const std::string& name, const std::string& why);
@@ -34,7 +37,8 @@ class TextureFiles {
   void warn(std::vector<Problem>& warnings) const;
 
  private:
-  std::map<std::pair<std::string, Wraps>, std::shared_ptr<const sim::Texture>> textures_;
+  std::map<std::tuple<std::uint64_t, std::size_t, Wraps>, std::shared_ptr<const sim::Texture>>
+      textures_;  // by the bytes' hash and number
   std::size_t bytes_ = 0;
   std::set<std::string> missing_;
   std::string first_, why_;

@@ -198,6 +198,29 @@ TEST_F(MeshLooks, GltfPicturesLieInUrisAndFilesToo) {
   EXPECT_NE(warning().find("'../wall.jpg'"), std::string::npos) << warning();
 }
 
+// In glTF names are for people: two pictures may have one.
+TEST_F(MeshLooks, GltfPicturesOfOneNameAreTwo) {
+  write("looks.bin", looksBuffer());
+  write("wall.jpg", kJpeg);
+  json document = texturedDocument();
+  document["images"].push_back({{"uri", "wall.jpg"}, {"name", "bricks"}});
+  document["textures"].push_back({{"source", 1}, {"sampler", 0}});
+  json other = document["materials"][0];
+  other["pbrMetallicRoughness"]["baseColorTexture"]["index"] = 1;
+  document["materials"].push_back(other);
+  json second = document["meshes"][0]["primitives"][0];
+  second["material"] = 1;
+  document["meshes"][0]["primitives"].push_back(second);
+  write("house.glb", tests::glb(document, tests::gltfBuffer()));
+  const sim::Mesh mesh = import("house.glb");
+  std::set<std::string> bytes;
+  for (const Material& material : mesh.materials) {
+    ASSERT_NE(material.texture, nullptr);
+    bytes.insert(material.texture->bytes);
+  }
+  EXPECT_EQ(bytes, (std::set<std::string>{kPng, kJpeg}));
+}
+
 TEST_F(MeshLooks, TextureTransformsMoveTheUvs) {
   write("looks.bin", looksBuffer());
   json document = texturedDocument();

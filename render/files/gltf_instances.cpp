@@ -1,6 +1,5 @@
 #include "render/files/gltf_instances.h"
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 #include <vector>
@@ -23,14 +22,6 @@ std::uint64_t hashOfPlaces(const ModelMesh& shape) {
   return hash.digest();
 }
 
-float scaleOfTints(const Instances& instances) {
-  if (!instances.tinted) return 1.0f;
-  float brightest = 0.0f;
-  for (const Placement& place : instances.places)
-    brightest = std::max({brightest, place.tint.r, place.tint.g, place.tint.b});
-  return tintScale(brightest);
-}
-
 Shorts4 shortsOf(const glm::quat& turn) {
   const auto shortOf = [](float share) { return static_cast<std::int16_t>(std::lround(share * 32767.0f)); };
   return {shortOf(turn.x), shortOf(turn.y), shortOf(turn.z), shortOf(turn.w)};
@@ -49,8 +40,7 @@ std::vector<T> ofEach(const std::vector<Placement>& places, Value value) {
 
 int GltfInstances::node(const Instances& instances, const std::string& kind) {
   const PlantSurface surface = instances.stalks ? PlantSurface::stalks : PlantSurface::blades;
-  const float scale = scaleOfTints(instances);
-  const int material = plantMaterial(materials_, instances.shape, kind, surface, scale);
+  const int material = plantMaterial(materials_, instances.shape, kind, surface, 1.0f);
   const auto [mesh, is_new] = shapes_.try_emplace({hashOfPlaces(instances.shape), kind, material}, 0);
   if (is_new) {
     tinygltf::Primitive primitive = shapeOf(file_, instances.shape, surface);
@@ -78,8 +68,9 @@ int GltfInstances::node(const Instances& instances, const std::string& kind) {
   add("_ORDER", ofEach<std::uint8_t>(places, [](const Placement& p) { return p.order; }), kByte,
       TINYGLTF_TYPE_SCALAR, false);
   if (instances.tinted) {
-    add("_TINT", ofEach<Bytes4>(places, [&](const Placement& p) { return bytesOf(p.tint, scale); }), kByte,
-        TINYGLTF_TYPE_VEC4, true);
+    // As they are: a program that does not know them shows the material's own colour.
+    add("_TINT", ofEach<sim::Colour>(places, [](const Placement& p) { return p.tint; }), kFloat,
+        TINYGLTF_TYPE_VEC3, false);
   }
   tinygltf::Value::Object extension{{"attributes", tinygltf::Value(std::move(attributes))}};
   file_.model().nodes[static_cast<std::size_t>(node)].extensions[kInstancing] =

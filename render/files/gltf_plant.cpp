@@ -16,7 +16,7 @@ int GltfPlants::surfaceNode(const ModelMesh& drawn, const std::string& material,
   if (!mesh.tints.empty()) {
     float brightest = 0.0f;
     for (const sim::Colour tint : mesh.tints) brightest = std::max({brightest, tint.r, tint.g, tint.b});
-    scale = tintScale(brightest);
+    scale = tintScale(mesh, brightest);
     std::vector<Bytes4> tints;
     tints.reserve(mesh.tints.size());
     for (const sim::Colour tint : mesh.tints) tints.push_back(bytesOf(tint, scale));

@@ -9,9 +9,11 @@ std::uint8_t byteOf(float share) {
   return static_cast<std::uint8_t>(std::lround(std::clamp(share, 0.0f, 1.0f) * 255.0f));
 }
 
-float tintScale(float brightest) {
+float tintScale(const ModelMesh& mesh, float brightest) {
   constexpr float kStep = 0.125f;
-  return std::max(std::ceil(brightest / kStep), 1.0f) * kStep;
+  const sim::Colour c = mesh.picture == nullptr ? mesh.base_colour : sim::Colour(1.0f);
+  const float most = 1.0f / std::max({c.r, c.g, c.b, 1e-3f});
+  return std::min(std::max(std::ceil(brightest / kStep), 1.0f) * kStep, most);
 }
 
 Bytes4 bytesOf(sim::Colour tint, float scale) {

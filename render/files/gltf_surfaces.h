@@ -15,9 +15,11 @@ using Bytes4 = std::array<std::uint8_t, 4>;
 /// 0 to 1 as a normalized byte.
 std::uint8_t byteOf(float share);
 
-/// By what tints are divided to fit into 0..1, where `brightest` is the most of them: in few steps, so that
-/// plants share materials, into which the same factor goes.
-float tintScale(float brightest);
+/// By what the tints of a mesh are divided to fit into 0..1, where `brightest` is the most of them: in few
+/// steps, so that plants share materials, into which the same factor goes. No more than the material can
+/// take, for no channel of it is above 1 and a picture's is 1 as it is: what is brighter then is cut off, and
+/// the rest as bright as it should be.
+float tintScale(const ModelMesh& mesh, float brightest);
 
 /// A tint as bytes, which glTF takes for linear light.
 Bytes4 bytesOf(sim::Colour tint, float scale);

@@ -142,6 +142,29 @@ TEST_F(Glb, TintsAreColoursTimesAFactor) {
   EXPECT_FALSE(tests::primitiveOf(model, "vine stems").attributes.contains("COLOR_0"));
 }
 
+/// No factor is above 1: what tints would make brighter than that is cut off, rather than all made darker.
+TEST_F(Glb, TintsDoNotDarkenWhatIsBrightAlready) {
+  render::ModelMesh& leaf = vine_.elements[0];
+  leaf.tints.assign(leaf.positions_m.size(), sim::Colour(0.5f, 0.75f, 1.0f));
+  leaf.tints.back() = sim::Colour(3.0f);  // one of them is far brighter
+  for (const bool painted : {true, false}) {
+    leaf.picture = painted ? pictureOf("leaf") : nullptr;
+    leaf.base_colour = sim::Colour(0.8f, 0.4f, 0.2f);  // 1.25 times as bright at most
+    const auto model = readGlb(glbBytes({{}, {&vine_}}));
+    const auto& primitive = tests::primitiveOf(model, "vine leaf");
+    const auto tints =
+        tests::valuesOf<std::array<std::uint8_t, 4>>(model, primitive.attributes.at("COLOR_0"));
+    const auto& factor = at(model.materials, primitive.material).pbrMetallicRoughness.baseColorFactor;
+    const sim::Colour colour = painted ? sim::Colour(1.0f) : leaf.base_colour;
+    for (std::size_t c = 0; c < 3; ++c) {
+      const float wanted = leaf.tints[0][static_cast<int>(c)] * colour[static_cast<int>(c)];
+      EXPECT_NEAR(tints[0][c] / 255.0 * factor[c], wanted, 0.004) << painted << c;
+      EXPECT_LE(factor[c], 1.0);
+    }
+    EXPECT_EQ(tints.back()[0], 255);
+  }
+}
+
 /// Each instance where the leaf or stalk is that it stands for.
 TEST_F(Glb, InstancesStandWhereTheMeshesAre) {
   const render::PlantModel placed =
@@ -163,6 +186,14 @@ TEST_F(Glb, InstancesStandWhereTheMeshesAre) {
     const auto scaled = tests::valuesOf<sim::Vec3f>(model, accessor("SCALE"));
     const auto turned = tests::valuesOf<std::array<std::int16_t, 4>>(model, accessor("ROTATION"));
     const auto exposures = tests::valuesOf<std::uint8_t>(model, accessor("_EXPOSURE"));
+    // Who does not know their tints sees the colour of all.
+    const auto& factor =
+        at(model.materials, tests::primitiveOf(model, name).material).pbrMetallicRoughness.baseColorFactor;
+    EXPECT_NEAR(factor[1], mesh->base_colour.g, 1e-6);
+    ASSERT_EQ(attributes.Has("_TINT"), !mesh->tints.empty());
+    if (!mesh->tints.empty()) {
+      EXPECT_EQ(tests::valuesOf<sim::Colour>(model, accessor("_TINT"))[0], mesh->tints[0]);
+    }
     const auto orders = tests::valuesOf<std::uint8_t>(model, accessor("_ORDER"));
     const auto shape =
         tests::valuesOf<sim::Vec3f>(model, tests::primitiveOf(model, name).attributes.at("POSITION"));

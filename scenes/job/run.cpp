@@ -10,6 +10,7 @@
 #include "render/files/vdb.h"
 #include "render/image/image_io.h"
 #include "render/model/plant_model.h"
+#include "rules/growth/rule_book.h"
 #include "scenes/foretell/foretell.h"
 #include "scenes/job/plant_models.h"
 #include "scenes/job/plant_reports.h"
@@ -175,6 +176,23 @@ sim::Growth growOn(const Scene& scene, Prepared& prepared, std::optional<sim::Gr
   return growing->take();
 }
 
+/// Whether models have pictures on them that the program draws: pictures or not, its drawing module is
+/// needed.
+bool drawsTextures(const Scene& scene) {
+  return std::any_of(scene.plants.begin(), scene.plants.end(), [](const PlantSpec& plant) {
+    bool draws = false;
+    rules::forEachSet(*plant.rules, [&](const rules::RuleSet& set, const std::string&) {
+      const auto drawn = [](const std::string& texture, const auto& picture) {
+        return !texture.empty() && picture == nullptr;
+      };
+      draws = draws || drawn(set.stem.texture, set.stem.picture) ||
+              std::any_of(set.elements.begin(), set.elements.end(),
+                          [&](const rules::Element& e) { return drawn(e.texture, e.picture); });
+    });
+    return draws;
+  });
+}
+
 }  // namespace
 
 Report runScene(const Scene& scene, const RunOptions& options, const Keeping& keeping) {
@@ -184,8 +202,8 @@ Report runScene(const Scene& scene, const RunOptions& options, const Keeping& ke
   if (keeping.keep || keeping.every > 0) names.emplace_back(kStateFile);
   if (options.pictures) {
     for (std::string& name : fileNames(scene.images)) names.push_back(std::move(name));
-    render::makeReadyToDraw();
   }
+  if (options.pictures || drawsTextures(scene)) render::makeReadyToDraw();
   OutputFolder output(options.folder, std::move(names), scene.read_paths);
   Report report;
   Stages stages(options, report);

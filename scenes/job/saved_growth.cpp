@@ -74,10 +74,12 @@ std::vector<std::string> told(const std::vector<std::string>& differences) {
   return lines;
 }
 
-constexpr std::array<std::string_view, 4> kLooks{".stem.by", ".stem.exponent", ".stem.thickens",
-                                                 ".stem.thickest"};
+constexpr std::array<std::string_view, 8> kLooks{".stem.by",       ".stem.exponent", ".stem.thickens",
+                                                 ".stem.thickest", ".stem.texture",  ".varies.chance",
+                                                 ".varies.age",    ".varies.light"};
 
-/// How thick stems are beyond their twigs is for models alone.
+/// How thick stems are beyond their twigs is for models alone, and so are what is painted on them and how far
+/// leaves differ.
 bool ofLooksAlone(const std::string& path) {
   return std::any_of(kLooks.begin(), kLooks.end(), [&](std::string_view key) { return path.ends_with(key); });
 }
@@ -123,6 +125,11 @@ sim::Inputs inputsOf(const Scene& scene, const Site& site) {
                   [](const PlantSpec& p) { return p.skeleton.has_value(); }))
     inputs.emplace_back("skeletons.iterations",
                         fmt::format("{}", scene.skeleton_iterations.value_or(scene.iterations)));
+  // How much of a leaf its picture leaves, and the shape of its card, follow from it.
+  for (const sim::InputFile& read : scene.read_files) {
+    if (read.kind == "picture")
+      inputs.emplace_back(fmt::format("pictures.{}.contents", read.name), sim::hexOf(read.hash));
+  }
   for (std::size_t i = 0; i < scene.fields.size(); ++i) {
     if (scene.fields[i].file.empty()) continue;
     const VectorLattice& grid = site.fields[i].grid;

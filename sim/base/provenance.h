@@ -10,7 +10,7 @@ namespace espalier::sim {
 struct InputFile {
   std::string name;        ///< from the scene's file, never from the machine's root
   std::string kind;        ///< "scene", "rules", "mesh", "mesh_part" (a material file, a buffer), "points",
-                           ///< "skeleton", "volume"
+                           ///< "skeleton", "volume", "picture"
   std::uint64_t hash = 0;  ///< XXH3 (64 bits) of its bytes, as `xxhsum -H3` gives it
 
   friend bool operator==(const InputFile&, const InputFile&) = default;

@@ -20,6 +20,12 @@ if(NOT result EQUAL 2 OR NOT output MATCHES "cannot load the module that draws p
   message(FATAL_ERROR "without its module, exit ${result} and:\n${output}")
 endif()
 step(${work}/prefix/bin/espalier grow ${work}/prefix/share/espalier/scenes/library/figure_2.yaml --no-pictures -o ${work}/undrawn)
+# A model with bark on it needs what draws, pictures or not.
+execute_process(COMMAND ${work}/prefix/bin/espalier grow ${work}/prefix/share/espalier/scenes/library/figure_18.yaml --no-pictures -o ${work}/unpainted
+                RESULT_VARIABLE result OUTPUT_VARIABLE output ERROR_VARIABLE output)
+if(NOT result EQUAL 2 OR NOT output MATCHES "cannot load the module that draws pictures" OR EXISTS ${work}/unpainted)
+  message(FATAL_ERROR "a painted model without its module, exit ${result} and:\n${output}")
+endif()
 file(RENAME ${work}/hidden ${work}/prefix/lib/espalier)
 step(${CMAKE_COMMAND} -S ${SOURCE}/consumer -B ${work}/consumer -G Ninja -DCMAKE_PREFIX_PATH=${work}/prefix)
 step(${CMAKE_COMMAND} --build ${work}/consumer)

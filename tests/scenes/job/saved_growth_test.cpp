@@ -6,6 +6,7 @@
 #include <functional>
 #include <limits>
 
+#include "render/image/image_io.h"
 #include "rules/growth/front_memory.h"
 #include "scenes/job/run.h"
 #include "scenes/prepare/plantings.h"
@@ -123,6 +124,45 @@ TEST(KeptAttractors, AreThoseThatItGoesOnWith) {
   scratch.write("points.csv", "1,1.5,1\n");
   EXPECT_NE(goesOnWith(scratch, table, table).find("attractors.crown.contents are others"),
             std::string::npos);
+}
+
+/// A plant with leaves of that picture, which is a file beside the scene, and how its stem is painted.
+std::string paintedPlot(const std::string& stem) {
+  std::string text = kPlot;
+  text.insert(text.find("random_tree"),
+              "stem: {texture: " + stem +
+                  "}, elements: [{texture: leaf.png, size: 0.4, phyllotaxis: {spacing: 0.9}}], ");
+  return text;
+}
+
+std::string pngOf(float alpha) {
+  render::Image image(4, 4, 4, 1.0f);
+  image.pixels[3] = alpha;
+  return render::encodePng(image);
+}
+
+TEST(KeptPictures, AreThoseThatItGoesOnWith) {
+  const tests::Scratch scratch;
+  RunOptions options;
+  options.folder = scratch.path("out");
+  options.pictures = false;
+  const auto goOn = [&](const std::string& stem, float alpha) {
+    const auto read = [&](std::string text, const char* iterations) {
+      text.replace(text.find("iterations: 8"), 13, iterations);
+      auto scene = readScene(scratch.write("scene.yaml", text));
+      EXPECT_TRUE(scene) << format(scene.problems());
+      return *scene;
+    };
+    scratch.write("leaf.png", pngOf(1.0f));
+    runScene(read(paintedPlot("bark"), "iterations: 4"), options);
+    scratch.write("leaf.png", pngOf(alpha));
+    return tests::messageOf(
+        [&] { runScene(read(paintedPlot(stem), "iterations: 8"), options, {.resume = true}); });
+  };
+  EXPECT_EQ(goOn("bark", 1.0f), "no error");
+  EXPECT_EQ(goOn("./leaf.png", 1.0f), "no error") << "what is painted on stems is for models alone";
+  EXPECT_NE(goOn("bark", 0.0f).find("pictures.leaf.png.contents are others"), std::string::npos)
+      << goOn("bark", 0.0f);
 }
 
 TEST(KeptFront, ThatIsNoneIsADamagedStateToRunsAndPictures) {

@@ -1,7 +1,6 @@
 #pragma once
 #include <cstdint>
 #include <span>
-#include <unordered_map>
 #include <utility>
 #include <vector>
 
@@ -29,12 +28,20 @@ class Claims {
   void clear();
 
  private:
-  bool mayBeTaken(std::uint64_t packed) const;
+  struct Slot {
+    std::uint64_t key = 0;  // of a voxel; 0: free
+    Node node;
+  };
+
+  bool mayBeTaken(std::uint64_t key) const;
+  std::size_t slotOf(std::uint64_t key) const;
   const Node* takerOf(Voxel v) const;
+  void grow();
 
   Voxel size_;
-  std::vector<std::uint64_t> marks_;               // bits by a hash of the voxel: most are not taken
-  std::unordered_map<std::uint64_t, Node> owner_;  // by packed voxel
+  std::vector<std::uint64_t> marks_;  // bits by a hash of the voxel: most are not taken
+  std::vector<Slot> slots_;           // a key's is the first from its place on that is its own or free
+  std::vector<std::uint64_t> keys_;   // of all that are taken
 };
 
 }  // namespace espalier::sim

@@ -45,7 +45,10 @@ LightSensor::LightSensor(const BitVolume& shape, const LightSource& source)
 std::vector<Light> LightSensor::at(const BitVolume& opaque, std::span<const Voxel> places, ClearAhead& ahead,
                                    const Bricks* filled) const {
   const Voxel size = opaque.size();
-  std::vector<Light> lights = places.size() < fewestForOpenRays(size, ahead.known()) ? byRays(opaque, places)
+  // As long as it is not known, the places of all questions so far count: who asks of a few at a time comes
+  // to find it in the end, at the latest when casting rays has cost as much.
+  const std::size_t asked = ahead.known() ? places.size() : ahead.cast(places.size());
+  std::vector<Light> lights = asked < fewestForOpenRays(size, ahead.known()) ? byRays(opaque, places)
                               : places.size() < voxelsIn(size) / kVoxelsPerFound
                                   ? byOpenRays(opaque, places, ahead, filled)
                                   : bySweep(opaque, places);

@@ -29,12 +29,15 @@ class ClearAhead {
   ClearAhead& operator=(ClearAhead&&) noexcept;
 
   bool known() const { return filled_ahead_ != nullptr || !of_groups_.empty(); }
+  /// Counts places whose rays were cast while nothing was known. Returns their sum.
+  std::size_t cast(std::size_t places) { return cast_ += places; }
 
  private:
   friend class OpenRays;
   friend class RaysInside;
   std::vector<ClearBricks> of_groups_;         // unless the world is coarse,
   std::unique_ptr<FilledAhead> filled_ahead_;  // and else this
+  std::size_t cast_ = 0;
 };
 
 /// Directions made ready to be looked along from many places, again and again in worlds of one shape. The

@@ -6,7 +6,7 @@ namespace espalier::sim {
 
 PlantVoxels::Entry& PlantVoxels::entryAt(Voxel v) {
   Block& block = blocks_.make(v);
-  return block.entries[numberIn(block.rows[rowOf(v)], v)];
+  return block.entries[numberIn(block, v)];
 }
 
 std::uint32_t PlantVoxels::lookOf(const Surface& surface) {
@@ -35,13 +35,14 @@ std::optional<Surface> PlantVoxels::surfaceAt(Voxel v) const {
 void PlantVoxels::add(Voxel v, const Surface& surface) {
   assert(find(v) == nullptr);
   Block& block = blocks_.make(v);
-  Row& row = block.rows[rowOf(v)];
   auto& entries = block.entries;
   if (entries.size() == entries.capacity()) entries.reserve(entries.size() + entries.size() / 4 + 4);
-  entries.insert(entries.begin() + static_cast<std::ptrdiff_t>(numberIn(row, v)),
+  entries.insert(entries.begin() + static_cast<std::ptrdiff_t>(numberIn(block, v)),
                  {surface.part, lookOf(surface), surface.coverage});
-  row.taken = static_cast<std::uint8_t>(row.taken | 1u << (v.x & 7));
-  for (std::size_t later = rowOf(v) + 1; later < block.rows.size(); ++later) ++block.rows[later].first;
+  const std::size_t row = rowOf(v);
+  block.taken[row] = static_cast<std::uint8_t>(block.taken[row] | 1u << (v.x & 7));
+  for (std::size_t r = 0; r < block.first.size(); ++r)  // of all of them: in lanes
+    block.first[r] = static_cast<std::uint16_t>(block.first[r] + (r > row ? 1 : 0));
 }
 
 float PlantVoxels::addCoverage(Voxel v, float coverage) {

@@ -36,15 +36,17 @@ class PlantVoxels {
                 shift = v.x - before - first.x;  // of the block's eight voxels, below 0 at the start
       const std::uint64_t eight = shift < 0 ? std::uint64_t{0xff} >> -shift : std::uint64_t{0xff} << shift;
       const Block& block = blocks_.of(v);
-      const Row& row = block.rows[rowOf(v)];
+      const unsigned taken = block.taken[rowOf(v)];
       for (std::uint64_t left = among & eight; left != 0; left &= left - 1) {
         v.x = first.x + std::countr_zero(left);
-        if ((row.taken >> (v.x & 7) & 1) != 0) visit(left & -left, block.entries[numberIn(row, v)].part);
+        if ((taken >> (v.x & 7) & 1) != 0) visit(left & -left, block.entries[numberIn(block, v)].part);
       }
       among &= ~eight;
     }
   }
 
+  /// A voxel is to be asked for or added soon.
+  void prefetch(Voxel v) const { blocks_.prefetch(v); }
   /// Into a voxel where no plant is.
   void add(Voxel v, const Surface& surface);
   /// More comes into a voxel where a plant is. Returns the sum.
@@ -76,25 +78,23 @@ class PlantVoxels {
     std::uint32_t look;
     float coverage;
   };
-  /// Eight voxels along x.
-  struct Row {
-    std::uint16_t first = 0;  // of the block's entries
-    std::uint8_t taken = 0;
-  };
+  /// Of rows of eight voxels along x.
   struct Block {
-    std::array<Row, 64> rows;
-    std::vector<Entry> entries;  // in the order of (y, z, x)
+    std::array<std::uint16_t, 64> first{};  // of the entries, for each row
+    std::array<std::uint8_t, 64> taken{};   // which of a row's voxels are
+    std::vector<Entry> entries;             // in the order of (y, z, x)
   };
 
   static std::size_t rowOf(Voxel v) { return static_cast<std::size_t>((v.y & 7) << 3 | (v.z & 7)); }
-  static std::size_t numberIn(const Row& row, Voxel v) {
-    const unsigned before = row.taken & ((1u << (v.x & 7)) - 1);
-    return row.first + std::size_t{kBits[before]};
+  static bool isTaken(const Block& block, Voxel v) { return (block.taken[rowOf(v)] >> (v.x & 7) & 1) != 0; }
+  static std::size_t numberIn(const Block& block, Voxel v) {
+    const std::size_t row = rowOf(v);
+    const unsigned before = block.taken[row] & ((1u << (v.x & 7)) - 1);
+    return block.first[row] + std::size_t{kBits[before]};
   }
   const Entry* find(Voxel v) const {
     const Block& block = blocks_.of(v);
-    const Row& row = block.rows[rowOf(v)];
-    return (row.taken >> (v.x & 7) & 1) != 0 ? &block.entries[numberIn(row, v)] : nullptr;
+    return isTaken(block, v) ? &block.entries[numberIn(block, v)] : nullptr;
   }
   Entry& entryAt(Voxel v);
   std::uint32_t lookOf(const Surface& surface);
@@ -106,7 +106,7 @@ class PlantVoxels {
     auto entry = block.entries.begin();
     for (int n = 0; entry != block.entries.end(); ++n) {
       const Voxel v = corner + Voxel(n & 7, n >> 6, n >> 3 & 7);
-      if ((block.rows[rowOf(v)].taken >> (v.x & 7) & 1) != 0) visit(v, surfaceOf(*entry++));
+      if (isTaken(block, v)) visit(v, surfaceOf(*entry++));
     }
   }
 

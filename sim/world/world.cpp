@@ -189,7 +189,15 @@ void World::findBlocks() {
 }
 
 void World::occupy(std::span<const TiledVoxel> voxels) {
-  for (const TiledVoxel& tiled : voxels) {
+  constexpr std::size_t kAhead = 12;  // scattered voxels are waited for in memory
+  for (std::size_t i = 0; i < voxels.size(); ++i) {
+    if (i + kAhead < voxels.size() && contains(frame_.size, voxels[i + kAhead].voxel)) {
+      const Voxel later = voxels[i + kAhead].voxel;
+      for (const BitVolume* const bits : {&occupied_, &solid_, &opaque_})
+        __builtin_prefetch(bits->row(later.y, later.z) + (later.x >> 6));
+      grids_->plants.prefetch(later);
+    }
+    const TiledVoxel& tiled = voxels[i];
     if (occupied_.at(tiled.voxel)) {
       join(tiled);
       continue;

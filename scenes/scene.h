@@ -34,7 +34,7 @@ struct SceneMesh {
   std::filesystem::path file;
   std::string told;  ///< what reports call the file, without a path of the machine; empty: its last name
   RegionsFrom regions_from = RegionsFrom::group;  ///< which names of the file become regions
-  bool solid = false;                             ///< fill the inside
+  std::optional<bool> solid;  ///< fill the inside; unset: where the mesh is closed
   bool tiled = true;      ///< false: no part of the world, a shape for attractors alone
   bool optional = false;  ///< a missing file skips the scene instead of being an error
   double scale = 1.0;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "scenes/import/facing.h"
 #include "scenes/import/mesh_import.h"
 #include "sim/light/surface.h"
 
@@ -11,6 +12,8 @@ sim::World worldOf(const std::filesystem::path& mesh, double voxel_m, double mar
   std::vector<sim::TiledMesh> meshes(1);
   meshes[0].mesh = importMesh(mesh, RegionsFrom::group);
   meshes[0].mesh.name = mesh.stem().string();
+  meshes[0].where_closed = true;
+  findFacing(meshes);
   return worldAround(meshes, voxel_m, margin_m, [](const sim::Frame&) { return 0; });
 }
 

@@ -90,6 +90,7 @@ void describeWorld(Report& report, const Scene& scene, const Site& site) {
   report.made_by.inputs.insert(report.made_by.inputs.end(), site.mesh_files.begin(), site.mesh_files.end());
   report.run.scene = scene.file.string();
   report.frame = site.world.frame();
+  report.facings = site.facings;
   report.fills = site.fills;
   report.scene_voxels = site.world.occupied().count();
   report.occupied_voxels = report.scene_voxels;
@@ -117,8 +118,16 @@ std::string toJson(const Report& report) {
   for (const auto& fill : report.fills) {
     fills.push_back(
         {{"object", fill.object}, {"filled_voxels", fill.filled}, {"doubtful_voxels", fill.doubtful}});
+    if (fill.found) fills.back()["found"] = true;
   }
   json["world"]["fills"] = fills;
+  Json facings = Json::array();
+  for (const FacingReport& facing : report.facings) {
+    facings.push_back({{"object", facing.object},
+                       {"turned_triangles", facing.turned},
+                       {"share_of_area", facing.area_share}});
+  }
+  json["world"]["turned"] = facings;
   json["light"] = lightJson(report.light);
   if (report.growth) json["growth"] = growth(*report.growth);
   if (report.exposure) {
@@ -163,8 +172,17 @@ void writeReport(const OutputFolder& output, const std::vector<OutputFile>& file
 
 std::string endOfSummary(const Report& report, const std::filesystem::path& folder) {
   std::string text;
+  for (const FacingReport& facing : report.facings) {
+    text += fmt::format(
+        "note: {} triangles of '{}', {:.3g} % of its area, face the other way than they are wound: there "
+        "is light; solid: false takes them as they are\n",
+        facing.turned, facing.object, 100.0 * facing.area_share);
+  }
   for (const auto& fill : report.fills) {
-    if (fill.doubtful > 0) {
+    if (fill.found) {
+      text += fmt::format("note: '{}' is closed, or nearly, and was filled; solid: false leaves it hollow\n",
+                          fill.object);
+    } else if (fill.doubtful > 0) {
       text += fmt::format("note: '{}' leaks; {} of {} voxels inside are doubtful\n", fill.object,
                           fill.doubtful, fill.filled);
     }

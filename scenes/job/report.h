@@ -27,6 +27,7 @@ struct Report {
   std::size_t occupied_voxels = 0;  ///< with the plants
   std::size_t scene_voxels = 0;     ///< before they grew
   std::size_t degenerate_triangles = 0;
+  std::vector<FacingReport> facings;
   std::vector<sim::FillReport> fills;
   sim::LightAbout light;
 

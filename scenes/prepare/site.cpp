@@ -82,7 +82,7 @@ Meshes readMeshes(const Scene& scene, MeshFiles& files, std::vector<Problem>& wa
       }
     }
     if (spec.tiled) {
-      meshes.tiled.push_back({std::move(mesh), spec.solid});
+      meshes.tiled.push_back({std::move(mesh), spec.solid.value_or(false), !spec.solid});
     } else {
       mesh.uvs = {};  // nobody sees it
       mesh.normals = {};
@@ -185,6 +185,7 @@ Site makeSite(const Scene& scene) {
   std::vector<std::vector<FileTree>> skeletons = readPlaced(scene, files);
   std::vector<FieldVolume> fields = readFields(scene, files, warnings);
   Site made = inScene(scene, [&]() -> Site {
+    std::vector<FacingReport> facings = findFacing(meshes.tiled);
     std::vector<sim::FillReport> fills;
     std::optional<sim::World> world;
     sim::Sky sky;
@@ -194,11 +195,13 @@ Site makeSite(const Scene& scene) {
                           sky = sim::makeSky(skySettings(scene.sky));
                           sun = makeSun(scene.sun);
                         });
-    return {std::move(meshes.tiled), std::move(meshes.shapes), std::move(listed_m),
-            std::move(skeletons),    std::move(fields),        std::move(fills),
-            std::move(*world),       std::move(sky),           randomSky(scene.sky, scene.seed),
-            std::move(sun),          std::move(files.files),   std::move(files.paths),
-            std::move(warnings)};
+    return {std::move(meshes.tiled), std::move(meshes.shapes),
+            std::move(listed_m),     std::move(skeletons),
+            std::move(fields),       std::move(facings),
+            std::move(fills),        std::move(*world),
+            std::move(sky),          randomSky(scene.sky, scene.seed),
+            std::move(sun),          std::move(files.files),
+            std::move(files.paths),  std::move(warnings)};
   });
   findRegions(scene, made);
   return made;

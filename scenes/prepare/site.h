@@ -3,6 +3,7 @@
 #include <stdexcept>
 #include <vector>
 
+#include "scenes/import/facing.h"
 #include "scenes/import/skeleton_forest.h"
 #include "scenes/prepare/fields.h"
 #include "scenes/problem.h"
@@ -30,7 +31,8 @@ struct Site {
   std::vector<std::vector<sim::Vec3>> listed_m;  ///< what tables of points list, as forEachTable has them
   std::vector<std::vector<FileTree>> skeletons;  ///< of each of the scene's plants, placed: in metres
   std::vector<FieldVolume> fields;               ///< of each of the scene's fields
-  std::vector<sim::FillReport> fills;            ///< of the solid ones
+  std::vector<FacingReport> facings;             ///< of meshes with triangles that were turned
+  std::vector<sim::FillReport> fills;            ///< of the solid ones, and of what was found to be closed
   sim::World world;                              ///< with nothing but the meshes in it
   sim::Sky sky;
   std::optional<sim::RandomSky> random_sky;  ///< where the scene asks for it: instead of sky's directions

@@ -12,6 +12,7 @@
 #include "sim/base/parallel.h"
 #include "sim/base/stop.h"
 #include "sim/tile/clip.h"
+#include "sim/tile/closed.h"
 #include "sim/tile/fill.h"
 #include "sim/tile/memory.h"
 #include "sim/tile/tile_mesh.h"
@@ -217,6 +218,15 @@ void faceOutwards(std::vector<TiledVoxel>& surface, const BitVolume& solid) {
   }
 }
 
+/// The mesh wound as it faces.
+Mesh asItFaces(const TiledMesh& tiled) {
+  Mesh mesh = tiled.mesh;
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    if (tiled.turned[t]) std::swap(mesh.triangles[t][1], mesh.triangles[t][2]);
+  }
+  return mesh;
+}
+
 /// Puts a mesh into the world; what was found out where it is filled.
 FillReport add(World& world, const TiledMesh& tiled, PartId first_part) {
   const Mesh& mesh = tiled.mesh;
@@ -224,15 +234,18 @@ FillReport add(World& world, const TiledMesh& tiled, PartId first_part) {
   std::vector<TiledVoxel> surface = tileMesh(mesh, vertices_vx, world.frame().size, first_part);
   BitVolume touched(world.frame().size);
   for (const TiledVoxel& t : surface) touched.set(t.voxel);
-  Filled filled = fillMesh(trianglesOf(tiled, vertices_vx, world.frame().size), touched, tiled.solid);
+  const Triangles triangles = trianglesOf(tiled, vertices_vx, world.frame().size);
+  const bool finds = tiled.where_closed && !tiled.solid;
+  Filled filled = finds ? fillMesh(triangles, touched, enclosedBy(triangles, touched))
+                        : fillMesh(triangles, touched, tiled.solid);
   world.addOpaque(filled.opaque);
-  if (tiled.solid) faceOutwards(surface, filled.opaque);
+  if (tiled.solid || finds) faceOutwards(surface, filled.opaque);
   world.occupyClear(surface);
-  if (!tiled.solid) return {};
+  if (!tiled.solid && !finds) return {};
   keepFree(filled.inside, world.occupied());
   requireFilledFits(singleVoxels(filled.inside), mesh.name);
   occupyInside(world, filled.inside, surface, largestRegion(mesh, first_part));
-  return {mesh.name, filled.inside.count(), filled.doubtful};
+  return {mesh.name, filled.inside.count(), filled.doubtful, finds};
 }
 
 }  // namespace
@@ -240,14 +253,20 @@ FillReport add(World& world, const TiledMesh& tiled, PartId first_part) {
 World buildWorld(const Frame& frame, const std::vector<TiledMesh>& meshes, int layers,
                  std::vector<FillReport>* fills) {
   requireFits(frame, {.layers = layers});
-  for (const TiledMesh& m : meshes) requireSound(m.mesh);
+  for (const TiledMesh& m : meshes) {
+    requireSound(m.mesh);
+    if (!m.turned.empty() && m.turned.size() != m.mesh.triangles.size())
+      throw InputError(fmt::format("mesh '{}': every triangle needs a side to face", m.mesh.name));
+  }
   World world(frame);
   for (const TiledMesh& m : meshes) {
     const auto first_part = static_cast<PartId>(world.parts().size() + 1);
     for (const std::string& region : m.mesh.regions) world.addPart({.object = m.mesh.name, .region = region});
     if (m.mesh.triangles.empty()) continue;
-    const FillReport report = add(world, m, first_part);
-    if (m.solid && fills != nullptr) fills->push_back(report);
+    const FillReport report = m.turned.empty()
+                                  ? add(world, m, first_part)
+                                  : add(world, {asItFaces(m), m.solid, m.where_closed}, first_part);
+    if (fills != nullptr && (m.solid || report.filled > 0)) fills->push_back(report);
   }
   world.setLayers(layers);
   return world;

@@ -16,6 +16,9 @@ inline constexpr double kLeastVoxel_m = 2e-5, kMostVoxel_m = 1e6;
 struct TiledMesh {
   Mesh mesh;
   bool solid = false;  ///< fill its inside too
+  /// Fill it where it is closed, or nearly, if it is not called solid. What it does not enclose stays open.
+  bool where_closed = false;
+  std::vector<bool> turned = {};  ///< of each triangle: it faces the other way than it is wound; empty: none
 };
 
 /// What filling found out about a mesh that may leak.
@@ -23,6 +26,7 @@ struct FillReport {
   std::string object;
   std::size_t filled = 0;    ///< voxels inside
   std::size_t doubtful = 0;  ///< voxels where the lines along the axes disagreed: there the mesh leaks
+  bool found = false;        ///< nobody called it solid; it is closed, at least in part
 };
 
 /// Tiles meshes into a new world, in parallel; the result does not depend on the thread count.

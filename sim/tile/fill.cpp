@@ -92,23 +92,16 @@ void markSkin(const VoxelBox& box, const Lines& lines, int axis, std::uint32_t l
   }
 }
 
-/// The voxels of the world that may be inside or behind.
-VoxelBox boxOf(const Triangles& triangles_vx, Voxel size) {
-  VoxelBox box{size, Voxel(-1)};
-  for (const auto& t : triangles_vx) {
-    for (const Vec3& p : t) {
-      box.first = glm::min(box.first, tilePoint(p));
-      box.last = glm::max(box.last, tilePoint(p));
-    }
-  }
-  return {glm::max(box.first - 1, Voxel(0)), glm::min(box.last + 1, size - 1)};
-}
-
 /// Part of a mesh's box, with a rim of neighbours that are judged but belong to others.
 class Slab {
  public:
-  Slab(const Triangles& triangles_vx, const BitVolume& surface, const VoxelBox& box, bool solid)
-      : triangles_(triangles_vx), surface_(surface), box_(box), inside_(solid ? box.count() : 0) {
+  /// `known`: the voxels inside; null: there are none, or `solid` says that lines vote on them.
+  Slab(const Triangles& triangles_vx, const BitVolume& surface, const VoxelBox& box, bool solid,
+       const BitVolume* known)
+      : triangles_(triangles_vx),
+        surface_(surface),
+        box_(box),
+        inside_(solid || known != nullptr ? box.count() : 0) {
     Bytes skin(box.count());
     for (std::size_t axis = 0; axis < kAxes.size(); ++axis) {
       const Lines lines(kAxes[axis], box_);
@@ -119,6 +112,7 @@ class Slab {
     }
     skin_ = std::move(skin);
     if (solid) settle();
+    if (known != nullptr) copy(*known);
   }
 
   /// Writes the rows y_first .. y_last.
@@ -153,6 +147,17 @@ class Slab {
 
  private:
   static constexpr std::uint8_t kInside = 1, kDoubtful = 2, kUndecided = 4;
+
+  void copy(const BitVolume& inside) {
+    parallelForEach(static_cast<std::size_t>(box_.size().y), [&](std::size_t row) {
+      const int y = box_.first.y + static_cast<int>(row);
+      for (int z = box_.first.z; z <= box_.last.z; ++z) {
+        for (int x = box_.first.x; x <= box_.last.x; ++x) {
+          if (inside.at({x, y, z})) inside_[box_.index({x, y, z})] = kInside;
+        }
+      }
+    });
+  }
 
   /// Turns votes into kInside, kDoubtful and kUndecided.
   void settle() {
@@ -226,24 +231,47 @@ void addWires(const Triangles& triangles_vx, BitVolume& opaque) {
   }
 }
 
-}  // namespace
-
-Filled fillMesh(const Triangles& triangles_vx, const BitVolume& surface, bool solid) {
-  Filled filled{solid ? BitVolume(surface.size()) : BitVolume(), BitVolume(surface.size()), 0};
+Filled fillBox(const Triangles& triangles_vx, const BitVolume& surface, bool solid, const BitVolume* known) {
+  Filled filled{solid || known != nullptr ? BitVolume(surface.size()) : BitVolume(),
+                BitVolume(surface.size()), 0};
   const VoxelBox box = boxOf(triangles_vx, surface.size());
   if (box.empty()) return filled;
+  forEachSlab(box, [&](int first, int last) {
+    VoxelBox slab = box;
+    slab.first.y = std::max(box.first.y, first - 1);
+    slab.last.y = std::min(box.last.y, last + 1);
+    Slab(triangles_vx, surface, slab, solid, known).write(first, last, filled);
+  });
+  addWires(triangles_vx, filled.opaque);
+  return filled;
+}
+
+}  // namespace
+
+VoxelBox boxOf(const Triangles& triangles_vx, Voxel size) {
+  VoxelBox box{size, Voxel(-1)};
+  for (const auto& t : triangles_vx) {
+    for (const Vec3& p : t) {
+      box.first = glm::min(box.first, tilePoint(p));
+      box.last = glm::max(box.last, tilePoint(p));
+    }
+  }
+  return {glm::max(box.first - 1, Voxel(0)), glm::min(box.last + 1, size - 1)};
+}
+
+void forEachSlab(const VoxelBox& box, const std::function<void(int, int)>& work) {
   constexpr std::size_t kMostBytes = std::size_t{1} << 28;
   const std::size_t slice = box.count() / static_cast<std::size_t>(box.size().y);
   const int rows = static_cast<int>(std::clamp<std::size_t>(kMostBytes / slice, 1, 1 << 14));
-  for (int y = box.first.y; y <= box.last.y; y += rows) {
-    const int last = std::min(y + rows - 1, box.last.y);
-    VoxelBox slab = box;
-    slab.first.y = std::max(box.first.y, y - 1);
-    slab.last.y = std::min(box.last.y, last + 1);
-    Slab(triangles_vx, surface, slab, solid).write(y, last, filled);
-  }
-  addWires(triangles_vx, filled.opaque);
-  return filled;
+  for (int y = box.first.y; y <= box.last.y; y += rows) work(y, std::min(y + rows - 1, box.last.y));
+}
+
+Filled fillMesh(const Triangles& triangles_vx, const BitVolume& surface, bool solid) {
+  return fillBox(triangles_vx, surface, solid, nullptr);
+}
+
+Filled fillMesh(const Triangles& triangles_vx, const BitVolume& surface, const BitVolume& inside) {
+  return fillBox(triangles_vx, surface, false, &inside);
 }
 
 }  // namespace espalier::sim

@@ -1,6 +1,7 @@
 #pragma once
 // Internal to the room: what lies inside a mesh that may leak, and what of it takes light.
 #include <array>
+#include <functional>
 #include <vector>
 
 #include "sim/base/bits.h"
@@ -22,5 +23,12 @@ inline constexpr double kFarthestCorner = 16000.0;
 
 /// `surface` are the voxels that the mesh's own triangles tile. Corners must lie within kFarthestCorner.
 Filled fillMesh(const Triangles& triangles_vx, const BitVolume& surface, bool solid);
+/// The same where it is known which voxels' centres are inside.
+Filled fillMesh(const Triangles& triangles_vx, const BitVolume& surface, const BitVolume& inside);
+
+/// The voxels of a world of this size that may be inside or behind.
+VoxelBox boxOf(const Triangles& triangles_vx, Voxel size);
+/// Calls work(first y, last y) for slabs of a box whose bytes never outgrow the world's bits.
+void forEachSlab(const VoxelBox& box, const std::function<void(int, int)>& work);
 
 }  // namespace espalier::sim

@@ -30,7 +30,8 @@ int certify(const CertifyArguments& arguments) {
     const auto scene = scenes::readScene(arguments.scene);
     if (!scene) return sayProblems(scene.problems());
     try {
-      const scenes::Certificate certificate = scenes::certify(scenes::makeSiteForLight(*scene), scene->seed);
+      const scenes::Certificate certificate =
+          scenes::certifyWithShapes(scenes::makeSiteForLight(*scene), scene->seed);
       if (arguments.json) {
         printJson(scenes::toJson(certificate));
       } else {

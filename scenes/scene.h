@@ -34,7 +34,7 @@ struct SceneMesh {
   std::filesystem::path file;
   std::string told;  ///< what reports call the file, without a path of the machine; empty: its last name
   RegionsFrom regions_from = RegionsFrom::group;  ///< which names of the file become regions
-  std::optional<bool> solid;  ///< fill the inside; unset: where the mesh is closed
+  std::optional<bool> solid;                      ///< fill the inside; unset: where the mesh is closed
   bool tiled = true;      ///< false: no part of the world, a shape for attractors alone
   bool optional = false;  ///< a missing file skips the scene instead of being an error
   double scale = 1.0;
@@ -44,9 +44,9 @@ struct SceneMesh {
 };
 
 struct WorldSpec {
-  std::optional<double> voxel_m;  ///< either this
-  std::optional<int> resolution;  ///< or the number of voxels along the longest side
-  double margin_m = 0.0;
+  std::optional<double> voxel_m;                     ///< either this
+  std::optional<int> resolution;                     ///< or the number of voxels along the longest side
+  std::optional<double> margin_m;                    ///< unset: room for light beside and above the meshes
   std::optional<std::array<sim::Vec3, 2>> bounds_m;  ///< instead of the meshes' bounds plus margin
   int layers = 4;  ///< at least so many; more where the rules of its plants ask for them (layersFor)
 };

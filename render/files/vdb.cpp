@@ -96,8 +96,9 @@ void touchLeaves(Tree& tree, const sim::VoxelSet& where) {
 float toVdb(float value) {
   return value;
 }
-std::int32_t toVdb(std::int32_t value) {
-  return value;
+/// Many programs read grids of floats and of vectors, and no others. Numbers of parts stay exact.
+float toVdb(std::int32_t value) {
+  return static_cast<float>(value);
 }
 openvdb::Vec3f toVdb(sim::Vec3f value) {
   return {value.x, value.y, value.z};
@@ -262,7 +263,7 @@ std::string inMemory(const std::function<void(std::ostream&)>& write) {
 void writeVdb(std::ostream& file, const sim::World& world, const std::vector<VdbField>& fields,
               const sim::Provenance& made_by) {
   openvdb::initialize();
-  using openvdb::FloatGrid, openvdb::Int32Grid, openvdb::Vec3SGrid;
+  using openvdb::FloatTree;
   const sim::World::Grids& grids = world.grids();
   const auto fog = openvdb::GRID_FOG_VOLUME;
 
@@ -275,7 +276,8 @@ void writeVdb(std::ostream& file, const sim::World& world, const std::vector<Vdb
                  {"density", "1 where a voxel is occupied", "1"}, world, fog);
   });
   const auto addSurface = [&](const auto& grid, auto valueOf, const About& about, auto finish) {
-    using Tree = typename std::decay_t<decltype(*grid)>::TreeType;
+    using Value = decltype(valueOf(sim::Surface{}));
+    using Tree = typename openvdb::tree::Tree4<Value, 5, 4, 3>::Type;
     add([&world, &grid, valueOf, about, finish] {
       auto result = shown(withPlants(std::make_shared<Tree>(grid->tree()), world, valueOf), about, world);
       finish(*result);
@@ -284,7 +286,7 @@ void writeVdb(std::ostream& file, const sim::World& world, const std::vector<Vdb
   };
   const auto nothing = [](openvdb::GridBase&) {};
   addSurface(
-      grids.part, [](const sim::Surface& s) { return s.part; },
+      grids.part, [](const sim::Surface& s) { return toVdb(s.part); },
       {"part", "number of the part that occupies a voxel, as listed in the file's metadata", "1"}, nothing);
   addSurface(
       grids.colour, [](const sim::Surface& s) { return toVdb(s.colour); },
@@ -298,11 +300,12 @@ void writeVdb(std::ostream& file, const sim::World& world, const std::vector<Vdb
       {"normal", "mean surface normal, zero where there is none", "1"},
       [](openvdb::GridBase& grid) { grid.setVectorType(openvdb::VEC_COVARIANT_NORMALIZE); });
   add([&] {
-    return shown(grids.layer->treePtr(),
+    return shown(std::make_shared<FloatTree>(grids.layer->tree()),
                  {"layer", "boundary layer: 0 on the scene, k voxels away from it in layer k", "1"}, world);
   });
   add([&] {
-    return shown(grids.nearest->treePtr(), {"nearest", "part of the nearest scene voxel", "1"}, world);
+    return shown(std::make_shared<FloatTree>(grids.nearest->tree()),
+                 {"nearest", "part of the nearest scene voxel", "1"}, world);
   });
   add([&] {
     return shown(grids.distance_vx->treePtr(),

@@ -246,8 +246,9 @@ std::string accuracyStudy(std::string_view only) {
 
 std::string accuracyOnMeshes(const std::vector<std::filesystem::path>& meshes) {
   std::string text =
-      "| mesh | voxel | voxels along its longest side | points | bias | RMS | median | 95th percentile |\n"
-      "|---|---|---|---|---|---|---|---|\n";
+      "| mesh | voxel | voxels along its longest side | points | bias | RMS | median | 95th percentile | on "
+      "faces | RMS there |\n"
+      "|---|---|---|---|---|---|---|---|---|---|\n";
   for (const auto& file : meshes) {
     for (const int resolution : {64, 128, 256}) {
       Scene scene;
@@ -255,16 +256,16 @@ std::string accuracyOnMeshes(const std::vector<std::filesystem::path>& meshes) {
       SceneMesh mesh;
       mesh.name = file.stem();
       mesh.file = file;
-      mesh.solid = true;
       scene.meshes.push_back(mesh);
       scene.world.resolution = resolution;
       scene.sky.directions = 512;
       const Site site = makeSiteForLight(scene);
       const auto check = spotCheck(site, scene.seed);
       if (!check) continue;
-      text += fmt::format("| {} | {:.3g} m | {} | {} | {:+.4f} | {:.4f} | {:.4f} | {:.4f} |\n",
+      text += fmt::format("| {} | {:.3g} m | {} | {} | {:+.4f} | {:.4f} | {:.4f} | {:.4f} | {} | {:.4f} |\n",
                           file.filename().string(), site.world.frame().voxel_m, resolution, check->points,
-                          check->bias, check->rms, check->median, check->percentile_95);
+                          check->bias, check->rms, check->median, check->percentile_95, check->on_faces,
+                          check->rms_on_faces);
     }
   }
   return text;

@@ -11,9 +11,9 @@
 
 namespace espalier::scenes {
 
-/// How exact a scene's maps of sky_exposure are: shapes whose answer is known, built of voxels of the scene's
-/// own size and seen by its own sky, and the scene's own triangles, seen by rays (Embree). Errors are value
-/// minus truth, in shares of the whole sky (0..1).
+/// How exact a scene's maps of sky_exposure are: its own surfaces, seen by rays (Embree), and, where that is
+/// asked for, shapes whose answer is known, built of voxels of the scene's own size and seen by its own sky.
+/// Errors are value minus truth, in shares of the whole sky (0..1).
 struct Certificate {
   /// One place in one shape (scenes/accuracy/known_shapes.h).
   struct Line {
@@ -26,12 +26,18 @@ struct Certificate {
 
     double error() const { return value - truth; }
   };
-  /// Points drawn evenly by area on the scene's triangles.
+  /// Points drawn evenly by area on the scene's triangles, all that light could reach: in gaps and at edges
+  /// too, and where the map has no value, which counts as 0.
   struct SpotCheck {
     std::size_t points = 0;    ///< compared
-    std::size_t left_out = 0;  ///< drawn, but in joints, on backs of what is thinner than a voxel, or outside
+    std::size_t left_out = 0;  ///< drawn, but inside of solids or outside of the world
     int rays = 0;              ///< from each point
     double bias = 0.0, rms = 0.0, median = 0.0, percentile_95 = 0.0;  ///< the last two of the error's size
+    std::size_t on_faces = 0;   ///< points that face as their voxel does, with no gap narrower than a voxel
+    double rms_on_faces = 0.0;  ///< theirs
+    /// What the sky's directions make of the error on faces, and what the voxels: RMS over some of the
+    /// points, by a map with several times as many directions.
+    double rms_of_directions = 0.0, rms_of_voxels = 0.0;
     struct Worst {
       sim::Vec3 at_m{0.0};
       std::string object, region;
@@ -42,15 +48,18 @@ struct Certificate {
   sim::Weighting weighting = sim::Weighting::uniform;
   std::size_t directions = 0;
   double voxel_m = 0.0;
-  std::vector<Line> lines;
+  std::vector<Line> lines;         ///< of known shapes
   double bias = 0.0, rms = 0.0;    ///< mean of the lines' errors; root of the mean square of their rms
   std::optional<SpotCheck> spots;  ///< where the scene has triangles that light can reach
 };
 
-/// Of a scene: shapes whose width is 8, 16, 32 and 64 voxels of the scene, as far as they are no wider than
-/// the scene's longest side, and as high (the pit: as deep as its radius); and the spot check, drawn by the
-/// scene's seed. The street, which must be very long, goes to 32.
+/// Of a scene: the spot check, drawn by the scene's seed.
 Certificate certify(const Site& site, std::uint64_t seed);
+
+/// The same, and shapes whose width is 8, 16, 32 and 64 voxels of the scene, as far as they are no wider than
+/// the scene's longest side, and as high (the pit: as deep as its radius). The street, which must be very
+/// long, goes to 32.
+Certificate certifyWithShapes(const Site& site, std::uint64_t seed);
 
 /// Of a voxel size and a sky: the shapes alone.
 Certificate certifyShapes(const sim::Sky& sky, double voxel_m, const std::vector<int>& widths);
@@ -58,5 +67,7 @@ Certificate certifyShapes(const sim::Sky& sky, double voxel_m, const std::vector
 /// A table to be read on a terminal or in a report. Names the weighting.
 std::string toText(const Certificate& certificate);
 std::string toJson(const Certificate& certificate);
+/// The spot check in three lines, the last of which says what would help most.
+std::string inShort(const Certificate& certificate);
 
 }  // namespace espalier::scenes

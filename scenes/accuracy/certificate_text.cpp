@@ -6,11 +6,39 @@
 
 namespace espalier::scenes {
 
-std::string toText(const Certificate& c) {
+std::string inShort(const Certificate& c) {
+  if (!c.spots) return "";
+  const auto& s = *c.spots;
   std::string text = fmt::format(
-      "sky exposure, {} weighting, {} directions, voxels of {:.4g} m; errors in shares of the whole sky\n"
+      "error of sky_exposure, {} weighting, at {} points of these surfaces by {} rays (Embree) from each:\n"
+      "  bias {:+.4f}, RMS {:.4f}, half within {:.4f}, 95% within {:.4f}\n",
+      sim::nameOf(c.weighting), s.points, s.rays, s.bias, s.rms, s.median, s.percentile_95);
+  if (s.on_faces == 0)
+    return text + "  none of them on a face as wide as a voxel; smaller voxels would help\n";
+  text +=
+      fmt::format("  on faces ({} points) RMS {:.4f}: {} directions make {:.4f}, voxels of {:.4g} m {:.4f}; ",
+                  s.on_faces, s.rms_on_faces, c.directions, s.rms_of_directions, c.voxel_m, s.rms_of_voxels);
+  const bool voxels = s.rms_of_voxels > s.rms_of_directions || c.directions >= sim::kMostSkyDirections;
+  return text + (voxels ? "smaller voxels would help most\n" : "a finer sky.accuracy would help most\n");
+}
+
+std::string toText(const Certificate& c) {
+  std::string text = inShort(c);
+  if (c.spots) {
+    const auto& s = *c.spots;
+    text += fmt::format(
+        "  worst {:+.4f} at ({:.4g}, {:.4g}, {:.4g}) m on {}, {}: {:.4f} instead of {:.4f}\n"
+        "  {} points inside of solids or outside of the world were left out\n",
+        s.worst.value - s.worst.truth, s.worst.at_m.x, s.worst.at_m.y, s.worst.at_m.z, s.worst.object,
+        s.worst.region, s.worst.value, s.worst.truth, s.left_out);
+  }
+  if (c.lines.empty()) return text;
+  text += fmt::format(
+      "{}known shapes of such voxels under such a sky, {} weighting, {} directions, voxels of {:.4g} m; "
+      "errors "
+      "in shares of the whole sky\n"
       "walls as high as streets and courts are wide, pits as deep as their radius\n\n",
-      sim::nameOf(c.weighting), c.directions, c.voxel_m);
+      text.empty() ? "" : "\n", sim::nameOf(c.weighting), c.directions, c.voxel_m);
   text += fmt::format("{:<34} {:<20} {:>9} {:>7} {:>7} {:>7} {:>8} {:>7}\n", "shape", "place", "width",
                       "voxels", "truth", "map", "error", "RMS");
   for (const auto& line : c.lines) {
@@ -19,20 +47,7 @@ std::string toText(const Certificate& c) {
                         line.voxels > 0 ? fmt::format("{}", line.voxels) : "-", line.truth, line.value,
                         line.error(), line.rms);
   }
-  text += fmt::format("all shapes: bias {:+.4f}, RMS {:.4f}\n", c.bias, c.rms);
-  if (c.spots) {
-    const auto& s = *c.spots;
-    text += fmt::format(
-        "\nagainst {} rays (Embree) from each of {} points of the scene's triangles, {} weighting:\n"
-        "bias {:+.4f}, RMS {:.4f}, median {:.4f}, 95th percentile {:.4f}\n"
-        "worst {:+.4f} at ({:.4g}, {:.4g}, {:.4g}) m on {}, {}: {:.4f} instead of {:.4f}\n",
-        s.rays, s.points, sim::nameOf(c.weighting), s.bias, s.rms, s.median, s.percentile_95,
-        s.worst.value - s.worst.truth, s.worst.at_m.x, s.worst.at_m.y, s.worst.at_m.z, s.worst.object,
-        s.worst.region, s.worst.value, s.worst.truth);
-    text += fmt::format(
-        "{} points in joints, on backs of thin things or outside of the world were left out\n", s.left_out);
-  }
-  return text;
+  return text + fmt::format("all shapes: bias {:+.4f}, RMS {:.4f}\n", c.bias, c.rms);
 }
 
 std::string toJson(const Certificate& c) {
@@ -53,9 +68,7 @@ std::string toJson(const Certificate& c) {
                      {"rms", line.rms},
                      {"worst", line.worst}});
   }
-  json["shapes"] = lines;
-  json["bias"] = c.bias;
-  json["rms"] = c.rms;
+  if (!lines.empty()) json["known_shapes"] = {{"bias", c.bias}, {"rms", c.rms}, {"lines", lines}};
   if (c.spots) {
     const auto& s = *c.spots;
     json["rays_on_triangles"] = {{"points", s.points},
@@ -65,6 +78,10 @@ std::string toJson(const Certificate& c) {
                                  {"rms", s.rms},
                                  {"median", s.median},
                                  {"percentile_95", s.percentile_95},
+                                 {"points_on_faces", s.on_faces},
+                                 {"rms_on_faces", s.rms_on_faces},
+                                 {"rms_of_directions", s.rms_of_directions},
+                                 {"rms_of_voxels", s.rms_of_voxels},
                                  {"worst",
                                   {{"at_m", {s.worst.at_m.x, s.worst.at_m.y, s.worst.at_m.z}},
                                    {"object", s.worst.object},

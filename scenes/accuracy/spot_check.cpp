@@ -10,6 +10,7 @@
 #include "render/finish/ray_scene.h"
 #include "sim/base/parallel.h"
 #include "sim/base/random.h"
+#include "sim/light/open_rays.h"
 #include "sim/light/surface.h"
 #include "sim/sweep/sweep.h"
 #include "sim/tile/tiling.h"
@@ -22,11 +23,13 @@ using sim::Vec3f;
 using sim::Voxel;
 
 constexpr int kPoints = 3000;
-constexpr int kRays = 1024;  // spread over the hemisphere of the sky
+constexpr int kRays = 4096;        // spread over the hemisphere of the sky
+constexpr std::size_t kSplit = 6;  // of every so many points the error is split, by so many more directions
+constexpr std::size_t kTimesDirections = 4;
 
 struct Point {
   Vec3 p_m;
-  Vec3 normal;  ///< of its triangle; of a solid's, outwards
+  Vec3 normal;  ///< of its triangle, to the side that it faces; of a solid's, outwards
   std::size_t mesh, triangle;
   Voxel voxel;
 };
@@ -64,9 +67,11 @@ std::vector<Point> drawPoints(const Site& site, std::uint64_t seed) {
     const Vec3 q = sim::voxelFromWorld(site.world.frame(), p);
     const Voxel nearest = sim::voxelAt(q);
     if (!sim::contains(site.world.frame().size, nearest) || !(glm::length(glm::cross(u, v)) > 0.0)) continue;
-    Vec3 normal = glm::normalize(glm::cross(u, v));
+    const sim::TiledMesh& tiled = site.meshes[m];
+    Vec3 normal = glm::normalize(glm::cross(u, v)) * (!tiled.turned.empty() && tiled.turned[t] ? -1.0 : 1.0);
     const auto solid = [&](const Vec3& way) { return site.world.opaque().at(sim::voxelAt(q + way)); };
-    if (site.meshes[m].solid && solid(normal) && !solid(-normal)) normal = -normal;
+    const bool may_be_closed = tiled.solid || tiled.where_closed;
+    if (may_be_closed && solid(normal) && !solid(-normal)) normal = -normal;
     if (!solid(normal)) points.push_back({p, normal, m, t, sim::tilePoint(q)});
   }
   return points;
@@ -98,8 +103,7 @@ Vec3f start(const Site& site, const Point& point) {
   return Vec3f(point.p_m + 1e-3 * site.world.frame().voxel_m * point.normal);
 }
 
-/// Whether something stands before the point, nearer than a voxel: a joint between things, which no map
-/// shows.
+/// Whether something stands before the point, nearer than a voxel: a joint between things.
 bool inJoint(const Site& site, const render::RayScene& scene, const Point& point) {
   render::RayScene::ShadowRays rays;
   rays.origins_m[0] = start(site, point);
@@ -137,10 +141,23 @@ struct Mapped {
   Vec3f normal;
 };
 
-/// The map's values at the points' voxels.
+/// Which directions are open: by rays where that is less work than a sweep of the world.
+sim::OpenTable openAt(const sim::BitVolume& opaque, const sim::DirectionSet& directions,
+                      const std::shared_ptr<const sim::VoxelSet>& places) {
+  constexpr std::size_t kVoxelsPerPlace = 200;
+  const std::vector<Voxel> voxels = places->voxels();
+  const Voxel size = opaque.size();
+  if (kVoxelsPerPlace * voxels.size() >
+      static_cast<std::size_t>(size.x) * static_cast<std::size_t>(size.y) * static_cast<std::size_t>(size.z))
+    return sim::sweepOpen(opaque, directions, places);
+  sim::ClearAhead ahead;
+  return {places, directions.size(), sim::OpenRays(opaque, directions).from(opaque, voxels, ahead)};
+}
+
+/// The map's values at the points' voxels, where it has any.
 using MappedVoxels = std::map<Voxel, Mapped, decltype(&sim::beforeInRows)>;
 
-MappedVoxels mapAt(const Site& site, const std::vector<Point>& points) {
+MappedVoxels mapAt(const Site& site, const sim::Sky& sky, const std::vector<Point>& points) {
   MappedVoxels values(sim::beforeInRows);
   for (const Point& point : points) values[point.voxel] = {};
   std::vector<sim::TiledVoxel> tiled;
@@ -148,12 +165,47 @@ MappedVoxels mapAt(const Site& site, const std::vector<Point>& points) {
     if (const auto surface = site.world.surfaceAt(voxel)) tiled.push_back({voxel, *surface});
   }
   const auto sensors = sim::surfaceSensors(site.world, std::move(tiled));
-  const auto open = sim::sweepOpen(site.world.opaque(), site.sky.directions, sensors.places);
-  const auto sky = sim::surfaceSky(sensors, open, site.sky);
+  const auto open = openAt(site.world.opaque(), sky.directions, sensors.places);
+  const auto received = sim::surfaceSky(sensors, open, sky);
   values.clear();
-  for (std::size_t i = 0; i < sky.size(); ++i)
-    values[sensors.surfaces[i].voxel] = {static_cast<double>(sky[i]), sensors.surfaces[i].surface.normal};
+  for (std::size_t i = 0; i < received.size(); ++i) {
+    values[sensors.surfaces[i].voxel] = {static_cast<double>(received[i]),
+                                         sensors.surfaces[i].surface.normal};
+  }
   return values;
+}
+
+/// 0 where the map has none.
+double valueIn(const MappedVoxels& map, const Point& point) {
+  const auto found = map.find(point.voxel);
+  return found == map.end() ? 0.0 : found->second.value;
+}
+
+/// What directions and voxels make of the error of some points.
+void split(const Site& site, const MappedVoxels& map, const std::vector<Point>& points,
+           const std::vector<double>& truths, Certificate::SpotCheck& check) {
+  const std::size_t wanted =
+      std::min<std::size_t>(kTimesDirections * site.sky.directions.size(), sim::kMostSkyDirections);
+  const sim::Sky fine =
+      sim::makeSky({.weighting = site.sky.weighting, .directions = static_cast<int>(wanted)});
+  const MappedVoxels finer = mapAt(site, fine, points);
+  double of_directions = 0.0, of_voxels = 0.0;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const double value = valueIn(map, points[i]), better = valueIn(finer, points[i]);
+    of_directions += (value - better) * (value - better);
+    of_voxels += (better - truths[i]) * (better - truths[i]);
+  }
+  const auto n = static_cast<double>(std::max<std::size_t>(1, points.size()));
+  check.rms_of_directions = std::sqrt(of_directions / n);
+  check.rms_of_voxels = std::sqrt(of_voxels / n);
+}
+
+/// Whether the point's voxel is its own: one that holds several faces has one value and one normal.
+bool onFace(const Site& site, const render::RayScene& scene, const MappedVoxels& map, const Point& point) {
+  constexpr double kSameFace = 0.7;
+  const auto found = map.find(point.voxel);
+  return found != map.end() && glm::dot(point.normal, Vec3(found->second.normal)) >= kSameFace &&
+         !inJoint(site, scene, point);
 }
 
 }  // namespace
@@ -162,20 +214,13 @@ std::optional<Certificate::SpotCheck> spotCheck(const Site& site, std::uint64_t 
   render::ModelScene model;
   for (const sim::TiledMesh& tiled : site.meshes) model.meshes.push_back(&tiled.mesh);
   const render::RayScene scene(model);
-  std::vector<Point> points = drawPoints(site, seed);
-  std::erase_if(points, [&](const Point& p) { return inJoint(site, scene, p); });
-  const auto map = mapAt(site, points);
+  const std::vector<Point> points = drawPoints(site, seed);
+  if (points.empty()) return std::nullopt;
+  const MappedVoxels map = mapAt(site, site.sky, points);
   Certificate::SpotCheck check;
   check.rays = kRays;
-  // A voxel has one value and one normal: where faces meet in it, the point's may be another.
-  constexpr double kSameFace = 0.7;
-  std::erase_if(points, [&](const Point& p) {
-    const auto found = map.find(p.voxel);
-    return found == map.end() || glm::dot(p.normal, Vec3(found->second.normal)) < kSameFace;
-  });
   check.points = points.size();
   check.left_out = kPoints - points.size();
-  if (points.empty()) return std::nullopt;
 
   const auto directions = hemisphere();
   std::vector<double> truths(points.size());
@@ -183,12 +228,21 @@ std::optional<Certificate::SpotCheck> spotCheck(const Site& site, std::uint64_t 
                        [&](std::size_t i) { truths[i] = traced(site, scene, directions, points[i]); });
 
   std::vector<double> sizes;
-  double squares = 0.0;
+  double squares = 0.0, squares_on_faces = 0.0;
+  std::vector<Point> some;  // of those on faces
+  std::vector<double> truths_of_some;
   for (std::size_t i = 0; i < points.size(); ++i) {
-    const double value = map.at(points[i].voxel).value, error = value - truths[i];
+    const double value = valueIn(map, points[i]), error = value - truths[i];
     check.bias += error;
     squares += error * error;
-    if (sizes.empty() || std::abs(error) > *std::max_element(sizes.begin(), sizes.end())) {
+    if (onFace(site, scene, map, points[i])) {
+      squares_on_faces += error * error;
+      if (check.on_faces++ % kSplit == 0) {
+        some.push_back(points[i]);
+        truths_of_some.push_back(truths[i]);
+      }
+    }
+    if (sizes.empty() || std::abs(error) > std::abs(check.worst.value - check.worst.truth)) {
       const sim::Mesh& mesh = site.meshes[points[i].mesh].mesh;
       check.worst = {points[i].p_m, mesh.name, mesh.regions[mesh.region[points[i].triangle]], truths[i],
                      value};
@@ -198,6 +252,9 @@ std::optional<Certificate::SpotCheck> spotCheck(const Site& site, std::uint64_t 
   const auto n = static_cast<double>(points.size());
   check.bias /= n;
   check.rms = std::sqrt(squares / n);
+  check.rms_on_faces =
+      std::sqrt(squares_on_faces / static_cast<double>(std::max<std::size_t>(1, check.on_faces)));
+  split(site, map, some, truths_of_some, check);
   std::sort(sizes.begin(), sizes.end());
   check.median = sizes[sizes.size() / 2];
   check.percentile_95 = sizes[sizes.size() * 95 / 100];

@@ -8,7 +8,7 @@
 
 namespace espalier::scenes {
 
-sim::World worldOf(const std::filesystem::path& mesh, double voxel_m, double margin_m) {
+sim::World worldOf(const std::filesystem::path& mesh, double voxel_m, std::optional<double> margin_m) {
   std::vector<sim::TiledMesh> meshes(1);
   meshes[0].mesh = importMesh(mesh, RegionsFrom::group);
   meshes[0].mesh.name = mesh.stem().string();
@@ -17,8 +17,8 @@ sim::World worldOf(const std::filesystem::path& mesh, double voxel_m, double mar
   return worldAround(meshes, voxel_m, margin_m, [](const sim::Frame&) { return 0; });
 }
 
-sim::World worldAround(const std::vector<sim::TiledMesh>& meshes, double voxel_m, double margin_m,
-                       const std::function<int(const sim::Frame&)>& layers,
+sim::World worldAround(const std::vector<sim::TiledMesh>& meshes, double voxel_m,
+                       std::optional<double> margin_m, const std::function<int(const sim::Frame&)>& layers,
                        std::vector<sim::FillReport>* fills) {
   constexpr int kRoom_vx = 3;  // so far before a surface light is looked for
   const double room_m = kRoom_vx * voxel_m;
@@ -26,12 +26,18 @@ sim::World worldAround(const std::vector<sim::TiledMesh>& meshes, double voxel_m
     if (fills != nullptr) fills->clear();
     return sim::buildWorld(frame, meshes, layers(frame), fills);
   };
-  const sim::Frame frame = sim::frameAround(meshes, voxel_m, margin_m);
+  if (!margin_m) {
+    sim::Frame frame = sim::frameAround(meshes, voxel_m, 0.0);
+    frame.origin_m -= sim::Vec3(room_m, 0.0, room_m);
+    frame.size += sim::Voxel(2 * kRoom_vx, kRoom_vx, 2 * kRoom_vx);
+    return build(frame);
+  }
+  const sim::Frame frame = sim::frameAround(meshes, voxel_m, *margin_m);
   if (std::min({frame.size.x, frame.size.y, frame.size.z}) >= kRoom_vx) {
     sim::World world = build(frame);
-    if (margin_m >= room_m || sim::anyCanBeLit(world)) return world;
+    if (*margin_m >= room_m || sim::anyCanBeLit(world)) return world;
   }
-  return build(sim::frameAround(meshes, voxel_m, std::max(margin_m, room_m)));
+  return build(sim::frameAround(meshes, voxel_m, std::max(*margin_m, room_m)));
 }
 
 }  // namespace espalier::scenes

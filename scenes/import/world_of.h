@@ -1,6 +1,7 @@
 #pragma once
 #include <filesystem>
 #include <functional>
+#include <optional>
 #include <vector>
 
 #include "sim/tile/build_world.h"
@@ -9,15 +10,18 @@
 namespace espalier::scenes {
 
 /// The world of a mesh file on disk (scenes/import/mesh_import.h), its groups as regions, in voxels of
-/// `voxel_m` metres, with `margin_m` of free space around it. Throws sim::InputError.
-sim::World worldOf(const std::filesystem::path& mesh, double voxel_m, double margin_m = 0.0);
+/// `voxel_m` metres, with `margin_m` of free space around it, as for worldAround. It is filled where it is
+/// closed, and its faces turn to the light (scenes/import/facing.h). Throws sim::InputError.
+sim::World worldOf(const std::filesystem::path& mesh, double voxel_m,
+                   std::optional<double> margin_m = std::nullopt);
 
 /// A world around meshes with `margin_m` of free space on every side: with three voxels of it where the world
 /// would be thinner than that, as that of a wall without thickness, or leave room for light before no surface
-/// at all. `layers`: how many boundary layers a world with this frame has. `fills`: as for sim::buildWorld.
-/// Throws sim::InputError.
-sim::World worldAround(const std::vector<sim::TiledMesh>& meshes, double voxel_m, double margin_m,
-                       const std::function<int(const sim::Frame&)>& layers,
+/// at all. Without a margin it has three voxels at the sides and above, so that all that is seen from there
+/// can be lit, and none below, where no light comes from. `layers`: how many boundary layers a world with
+/// this frame has. `fills`: as for sim::buildWorld. Throws sim::InputError.
+sim::World worldAround(const std::vector<sim::TiledMesh>& meshes, double voxel_m,
+                       std::optional<double> margin_m, const std::function<int(const sim::Frame&)>& layers,
                        std::vector<sim::FillReport>* fills = nullptr);
 
 }  // namespace espalier::scenes

@@ -130,8 +130,8 @@ ExposeResult exposeScene(const Scene& scene, const RunOptions& options) {
 
   if (!site.random_sky && !light.surfaces.empty())
     report.certificate = stages.run("certifying", [&] { return certify(site, scene.seed); });
-  const ExposureTable table =
-      stages.run("counting", [&] { return exposureTable(scene.name, site.world, light); });
+  const ExposureTable table = stages.run(
+      "counting", [&] { return exposureTable(scene.name, site.world, light, scene.sun.north_deg); });
   result.table = toText(table);
   std::vector<OutputFile> files = {
       fileOf(kTable, [&] { return toCsv(table); }),
@@ -159,23 +159,6 @@ ExposeResult exposeScene(const Scene& scene, const RunOptions& options) {
   return result;
 }
 
-namespace {
-
-/// The certificate in a line or two; all of it is in report.json.
-std::string errors(const Certificate& c) {
-  std::string text = fmt::format(
-      "error of sky_exposure, {} weighting: bias {:+.4f}, RMS {:.4f} over known shapes of such voxels\n",
-      sim::nameOf(c.weighting), c.bias, c.rms);
-  if (c.spots) {
-    text += fmt::format(
-        "  and bias {:+.4f}, RMS {:.4f}, 95% within {:.4f} against rays from {} points of the meshes\n",
-        c.spots->bias, c.spots->rms, c.spots->percentile_95, c.spots->points);
-  }
-  return text;
-}
-
-}  // namespace
-
 std::string summary(const ExposeResult& result, const std::filesystem::path& folder) {
   const Report& report = result.report;
   const auto& size = report.frame.size;
@@ -186,7 +169,7 @@ std::string summary(const ExposeResult& result, const std::filesystem::path& fol
   text += "sky: " + report.light.sky + "\n";
   if (!report.light.sun.empty()) text += report.light.sun + "\n";
   text += "\n" + result.table + "\n";
-  if (report.certificate) text += errors(*report.certificate);
+  if (report.certificate) text += inShort(*report.certificate);
   if (report.exposure->gaps > 0) {
     text += fmt::format(
         "note: {} voxels, deep in corners or gaps, have no place in front and are not in the table\n",

@@ -145,7 +145,7 @@ double voxelFor(int resolution, const WorldSpec& spec, const std::vector<sim::Ti
         high = glm::max(high, v);
       }
     }
-    extent = high - low + 2.0 * spec.margin_m;
+    extent = high - low + 2.0 * spec.margin_m.value_or(0.0);
   }
   return std::max({extent.x, extent.y, extent.z}) / resolution;
 }

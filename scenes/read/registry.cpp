@@ -49,7 +49,9 @@ std::shared_ptr<const Table> meshKeys() {
           "regions", &SceneMesh::regions_from,
           {{"group", RegionsFrom::group}, {"material", RegionsFrom::material}},
           {.meaning = "Whether the file's groups or its materials become regions that rules can name."})
-      .flag("solid", &SceneMesh::solid, {.meaning = "Fills the inside too."})
+      .flag("solid", &SceneMesh::solid,
+            {.meaning = "Fills the inside, or not. Without it: where the mesh is closed, and faces turn to "
+                        "the light."})
       .flag("tiled", &SceneMesh::tiled,
             {.meaning = "Whether it stands in the world; otherwise it is a shape for attractors alone."})
       .flag("optional", &SceneMesh::optional,
@@ -82,12 +84,12 @@ std::shared_ptr<const Table> worldKeys() {
              {.unit = "voxels",
               .limits = {1.0, 4096.0},
               .meaning = "Voxels along the world's longest side; either this or a voxel size."})
-      .metres(
-          "margin", &WorldSpec::margin_m,
-          {.unit = kMetres,
-           .limits = {0.0, 1e6},
-           .meaning = "Free space around the meshes on every side, where no bounds are given; three voxels "
-                      "where the world would be thinner than that or no surface could be lit."})
+      .metres("margin", &WorldSpec::margin_m,
+              {.unit = kMetres,
+               .limits = {0.0, 1e6},
+               .meaning =
+                   "Free space around the meshes on every side. Without it, and without bounds: three voxels "
+                   "at the sides and above."})
       .section("bounds", &WorldSpec::bounds_m, bounds,
                {.meaning = "The world's box; without it, the meshes' box plus the margin."})
       .whole("layers", &WorldSpec::layers,

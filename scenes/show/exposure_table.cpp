@@ -3,7 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <numbers>
 #include <numeric>
 
 #include "scenes/show/light_json.h"
@@ -85,7 +87,11 @@ std::vector<std::pair<const char*, double>> numbersOf(const Spread& s) {
 
 Json rowJson(const ExposureTable& table, const ExposureRow& row) {
   Json json = Json::object();
-  if (!row.object.empty()) json = {{"object", row.object}, {"region", row.region}};
+  if (!row.faces.empty()) {
+    json = {{"faces", row.faces}};
+  } else if (!row.object.empty()) {
+    json = {{"object", row.object}, {"region", row.region}};
+  }
   json["voxels"] = row.voxels;
   json["area_m2"] = row.area_m2;
   for (std::size_t q = 0; q < table.quantities.size(); ++q) {
@@ -97,9 +103,43 @@ Json rowJson(const ExposureTable& table, const ExposureRow& row) {
   return json;
 }
 
+constexpr std::array kWays{"N", "NE", "E", "SE", "S", "SW", "W", "NW", "up", "down"};
+
+std::size_t wayNumber(sim::Vec3f normal, double north_deg) {
+  constexpr float kLevel = 0.8660254f;  // the cosine of 30 degrees
+  if (std::abs(normal.y) > kLevel) return normal.y > 0.0f ? 8 : 9;
+  const double compass_deg =
+      std::atan2(static_cast<double>(normal.x), -static_cast<double>(normal.z)) * 180.0 / std::numbers::pi -
+      north_deg;
+  return static_cast<std::size_t>(((std::lround(compass_deg / 45.0) % 8) + 8) % 8);
+}
+
+/// What the light of some surfaces is like; `of` are their numbers.
+ExposureRow rowOf(const ExposureTable& table, const sim::Lighting& light,
+                  const std::vector<const sim::Received*>& received, const std::vector<std::size_t>& of) {
+  ExposureRow row;
+  row.voxels = of.size();
+  for (const std::size_t i : of) row.area_m2 += static_cast<double>(light.surfaces[i].surface.coverage);
+  row.area_m2 = sixDigits(row.area_m2 * table.about.voxel_m * table.about.voxel_m);
+  row.spreads.resize(received.size());
+  sim::parallelForEach(received.size(), [&](std::size_t q) {
+    std::vector<std::pair<float, float>> values;
+    values.reserve(of.size());
+    for (const std::size_t i : of)
+      values.emplace_back(received[q]->values[i], light.surfaces[i].surface.coverage);
+    row.spreads[q] = spreadOf(std::move(values), table.quantities[q].range);
+  });
+  return row;
+}
+
 }  // namespace
 
-ExposureTable exposureTable(const std::string& scene, const sim::World& world, const sim::Lighting& light) {
+std::string wayOf(sim::Vec3f normal, double north_deg) {
+  return kWays[wayNumber(normal, north_deg)];
+}
+
+ExposureTable exposureTable(const std::string& scene, const sim::World& world, const sim::Lighting& light,
+                            double north_deg) {
   ExposureTable table{scene, light.about, {}, {}};
   std::vector<const sim::Received*> received = {&light.sky};
   table.quantities.push_back(
@@ -115,32 +155,30 @@ ExposureTable exposureTable(const std::string& scene, const sim::World& world, c
     of[static_cast<std::size_t>(light.surfaces[i].surface.part - 1)].push_back(i);
   of.back().resize(light.surfaces.size());
   std::iota(of.back().begin(), of.back().end(), std::size_t{0});
-  const double face_m2 = world.frame().voxel_m * world.frame().voxel_m;
   for (std::size_t p = 0; p <= parts; ++p) {
     if (of[p].empty()) continue;
-    ExposureRow row;
-    if (p < parts) {
-      row.object = world.parts()[p].object;
-      row.region = world.parts()[p].region;
+    const auto add = [&](const std::vector<std::size_t>& surfaces, const std::string& faces) {
+      ExposureRow row = rowOf(table, light, received, surfaces);
+      row.faces = faces;
+      if (p < parts) {
+        row.object = world.parts()[p].object;
+        row.region = world.parts()[p].region;
+      }
+      table.rows.push_back(std::move(row));
+    };
+    add(of[p], "");
+    std::array<std::vector<std::size_t>, kWays.size()> facing;
+    for (const std::size_t i : of[p])
+      facing[wayNumber(light.surfaces[i].surface.normal, north_deg)].push_back(i);
+    for (std::size_t way = 0; way < kWays.size(); ++way) {
+      if (!facing[way].empty()) add(facing[way], kWays[way]);
     }
-    row.voxels = of[p].size();
-    for (const std::size_t i : of[p]) row.area_m2 += static_cast<double>(light.surfaces[i].surface.coverage);
-    row.area_m2 = sixDigits(row.area_m2 * face_m2);
-    row.spreads.resize(received.size());
-    sim::parallelForEach(received.size(), [&](std::size_t q) {
-      std::vector<std::pair<float, float>> values;
-      values.reserve(of[p].size());
-      for (const std::size_t i : of[p])
-        values.emplace_back(received[q]->values[i], light.surfaces[i].surface.coverage);
-      row.spreads[q] = spreadOf(std::move(values), table.quantities[q].range);
-    });
-    table.rows.push_back(std::move(row));
   }
   return table;
 }
 
 std::string toCsv(const ExposureTable& table) {
-  std::vector<std::string> header = {"scene",  "voxel_m", "object",   "region",
+  std::vector<std::string> header = {"scene",  "voxel_m", "object",   "region", "faces",
                                      "voxels", "area_m2", "quantity", "unit"};
   for (const auto& [name, value] : numbersOf({})) header.emplace_back(name);
   header.emplace_back("histogram_to");
@@ -154,6 +192,7 @@ std::string toCsv(const ExposureTable& table) {
                                          fmt::format("{:.6g}", table.about.voxel_m),
                                          total ? "total" : field(row.object),
                                          field(row.region),
+                                         row.faces.empty() ? "all" : row.faces,
                                          std::to_string(row.voxels),
                                          fmt::format("{}", row.area_m2),
                                          table.quantities[q].name,
@@ -180,7 +219,10 @@ std::string toJson(const ExposureTable& table) {
   json["weighted_by"] = "area";
   json["regions"] = Json::array();
   for (const ExposureRow& row : table.rows) {
-    if (row.object.empty()) {
+    if (!row.faces.empty()) {
+      Json& whole = row.object.empty() ? json["total"] : json["regions"].back();
+      whole["facing"].push_back(rowJson(table, row));
+    } else if (row.object.empty()) {
       json["total"] = rowJson(table, row);
     } else {
       json["regions"].push_back(rowJson(table, row));
@@ -191,17 +233,25 @@ std::string toJson(const ExposureTable& table) {
 
 namespace {
 
-/// The rows that a person will look at: the largest regions, in their order, and the total.
+/// The rows that a person will look at: the largest regions, in their order, the total, and that by where it
+/// faces.
 std::vector<const ExposureRow*> rowsToShow(const std::vector<ExposureRow>& rows) {
   constexpr std::size_t kMost = 40;
-  std::vector<const ExposureRow*> shown;
-  for (const ExposureRow& row : rows) shown.push_back(&row);
-  if (shown.size() <= kMost + 1) return shown;
-  std::stable_sort(shown.begin(), shown.end(), [](const ExposureRow* a, const ExposureRow* b) {
-    return std::pair(a->object.empty(), a->area_m2) > std::pair(b->object.empty(), b->area_m2);
-  });
-  shown.resize(kMost + 1);
-  std::sort(shown.begin(), shown.end());
+  std::vector<const ExposureRow*> shown, total;
+  for (const ExposureRow& row : rows) {
+    if (row.object.empty()) {
+      total.push_back(&row);
+    } else if (row.faces.empty()) {
+      shown.push_back(&row);
+    }
+  }
+  if (shown.size() > kMost) {
+    std::stable_sort(shown.begin(), shown.end(),
+                     [](const ExposureRow* a, const ExposureRow* b) { return a->area_m2 > b->area_m2; });
+    shown.resize(kMost);
+    std::sort(shown.begin(), shown.end());
+  }
+  shown.insert(shown.end(), total.begin(), total.end());
   return shown;
 }
 
@@ -212,6 +262,7 @@ std::string toText(const ExposureTable& table) {
     return !row.object.empty() && row.object != table.rows.front().object;
   });
   const auto nameOf = [&](const ExposureRow& row) {
+    if (!row.faces.empty()) return "  facing " + row.faces;
     if (row.object.empty()) return std::string("all surfaces");
     return objects ? row.object + ", " + row.region : row.region;
   };
@@ -231,8 +282,14 @@ std::string toText(const ExposureTable& table) {
     }
     text += "\n";
   }
-  if (rows.size() < table.rows.size())
-    text += fmt::format("and {} smaller regions, in exposure.csv\n", table.rows.size() - rows.size());
+  const auto regions = [](const auto& all, auto rowAt) {
+    return std::count_if(all.begin(), all.end(), [&](const auto& row) {
+      return !rowAt(row).object.empty() && rowAt(row).faces.empty();
+    });
+  };
+  const auto left = regions(table.rows, [](const ExposureRow& row) -> const ExposureRow& { return row; }) -
+                    regions(rows, [](const ExposureRow* row) -> const ExposureRow& { return *row; });
+  if (left > 0) text += fmt::format("and {} smaller regions, in exposure.csv\n", left);
   return text + "means by area, with the quartiles\n";
 }
 

@@ -21,6 +21,7 @@ struct Spread {
 
 struct ExposureRow {
   std::string object, region;  ///< both empty: all surfaces
+  std::string faces;           ///< the way, as wayOf names it; empty: all ways
   std::size_t voxels = 0;
   double area_m2 = 0.0;         ///< coverage times a voxel's face, summed
   std::vector<Spread> spreads;  ///< by ExposureTable::quantities
@@ -35,17 +36,23 @@ struct ExposureTable {
   std::string scene;
   sim::LightAbout about;
   std::vector<Quantity> quantities;  ///< those of a sun only where there is one
-  std::vector<ExposureRow> rows;     ///< regions that have surfaces, then the total
+  std::vector<ExposureRow> rows;  ///< regions that have surfaces, then the total, each first as a whole and
+                                  ///< then by the ways that its surfaces face
 };
 
+/// Where a surface with this unit normal faces: "up" and "down" for what leans to the level by less than 30
+/// degrees, else the nearest of "N", "NE" .. "NW". `north_deg` is the model's compass way of true north.
+std::string wayOf(sim::Vec3f normal, double north_deg);
+
 /// `scene` is its name.
-ExposureTable exposureTable(const std::string& scene, const sim::World& world, const sim::Lighting& light);
+ExposureTable exposureTable(const std::string& scene, const sim::World& world, const sim::Lighting& light,
+                            double north_deg = 0.0);
 
 /// A row for each region and quantity, RFC 4180, with a header that names units; exposures to 4 decimals.
 std::string toCsv(const ExposureTable& table);
 /// The same numbers.
 std::string toJson(const ExposureTable& table);
-/// Means by region, as a text to read: of more than 40 regions the largest.
+/// Means by region, and of all by where they face, as a text to read: of more than 40 regions the largest.
 std::string toText(const ExposureTable& table);
 
 }  // namespace espalier::scenes

@@ -78,13 +78,23 @@ void SunPath::add(double hours, const std::function<Vec3(double)>& at) {
     places_.push_back({*v, hours, hours * (weighting_ == SunWeighting::even ? 1.0 : middle.y)});
     return;
   }
-  throw InputError(fmt::format(
-      "no direction lies within {:g} degrees of the sun {:.1f} degrees above the horizon; expected at least "
-      "{:.2f}",
-      degreesOf(within_sine_), degreesOf(middle.y), degreesOf(leastSine(middle)) + 0.005));
+  double needed = 1.0;
+  for (const double moment : kMoments) {
+    const Vec3 unit = at(moment);
+    if (unit.y > 0.0) needed = std::min(needed, leastSine(unit));
+  }
+  if (!missed_) missed_ = Missed{degreesOf(middle.y), needed};
+  missed_->needed_sine = std::max(missed_->needed_sine, needed);
 }
 
 Sun SunPath::sun(int days, std::string about) const {
+  if (missed_) {
+    throw InputError(fmt::format(
+        "no direction lies within {:g} degrees of the sun {:.1f} degrees above the horizon; expected at "
+        "least {:.2f}",
+        degreesOf(within_sine_), missed_->altitude_deg,
+        std::ceil(degreesOf(missed_->needed_sine) * 100.0 + 1e-6) / 100.0));
+  }
   auto places = places_;
   std::stable_sort(places.begin(), places.end(),
                    [](const Place& a, const Place& b) { return beforeInRows(a.v, b.v); });

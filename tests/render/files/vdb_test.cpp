@@ -56,8 +56,8 @@ TEST_F(Vdb, HoldsTheWorldVoxelForVoxel) {
   const auto density = file.grid<openvdb::FloatGrid>("density"),
              distance = file.grid<openvdb::FloatGrid>("distance"),
              coverage = file.grid<openvdb::FloatGrid>("coverage");
-  const auto part = file.grid<openvdb::Int32Grid>("part"), layer = file.grid<openvdb::Int32Grid>("layer"),
-             nearest = file.grid<openvdb::Int32Grid>("nearest");
+  const auto part = file.grid<openvdb::FloatGrid>("part"), layer = file.grid<openvdb::FloatGrid>("layer"),
+             nearest = file.grid<openvdb::FloatGrid>("nearest");
   const auto colour = file.grid<openvdb::Vec3SGrid>("colour"),
              normal = file.grid<openvdb::Vec3SGrid>("normal");
   ASSERT_TRUE(density && distance && coverage && part && layer && nearest && colour && normal);
@@ -88,7 +88,7 @@ TEST_F(Vdb, FieldsAreActiveWhereTheyAreKnownAndNowhereElse) {
   const ReadBack file = readBack(render::fieldVdbBytes(world_, fields()));
   ASSERT_EQ(file.grids.size(), 3u);
   const auto place = file.grid<openvdb::FloatGrid>("place");
-  const auto count = file.grid<openvdb::Int32Grid>("count");
+  const auto count = file.grid<openvdb::FloatGrid>("count");
   const auto way = file.grid<openvdb::Vec3SGrid>("way");
   ASSERT_TRUE(place && count && way);
   EXPECT_EQ(place->activeVoxelCount(), stands_.count() + near_.count());

@@ -1,5 +1,6 @@
 #include "scenes/accuracy/certificate.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <cstdlib>
@@ -116,6 +117,8 @@ TEST(Certificate, OfASceneAgreesWithRaysOnItsTriangles) {
   EXPECT_LT(std::abs(spots.bias), 0.01);
   EXPECT_LT(spots.median, 0.01);
   EXPECT_LT(spots.percentile_95, 0.08);
+  EXPECT_LE(spots.on_faces, spots.points);
+  EXPECT_LE(spots.rms_on_faces, spots.rms);
   EXPECT_EQ(certificate.voxel_m, site.world.frame().voxel_m);
   EXPECT_EQ(certificate.directions, site.sky.directions.size());
   // The worst place is a place of the scene.
@@ -124,9 +127,55 @@ TEST(Certificate, OfASceneAgreesWithRaysOnItsTriangles) {
   EXPECT_EQ(spotCheck(site, scene.seed)->rms, spots.rms);  // the same points in every run
   const auto json = nlohmann::json::parse(toJson(certificate));
   EXPECT_EQ(json["weighting"], std::string(sim::nameOf(site.sky.weighting)));
-  EXPECT_EQ(json["shapes"].size(), certificate.lines.size());
+  EXPECT_FALSE(json.contains("known_shapes"));
+  const Certificate whole = certifyWithShapes(site, scene.seed);
+  EXPECT_EQ(whole.spots->rms, spots.rms);
+  EXPECT_GT(whole.lines.size(), 10u);
+  EXPECT_EQ(nlohmann::json::parse(toJson(whole))["known_shapes"]["lines"].size(), whole.lines.size());
   EXPECT_NE(toText(certificate).find(std::string(sim::nameOf(site.sky.weighting)) + " weighting"),
             std::string::npos);
+}
+
+/// A block of earth with a square court in it, 20 m wide and deep.
+Scene courtOf(const tests::Scratch& scratch, double voxel_m, double accuracy) {
+  std::string obj;
+  const auto ring = [&](double half, double y) {
+    for (const auto& [x, z] : {std::pair(-1, -1), std::pair(1, -1), std::pair(1, 1), std::pair(-1, 1)})
+      obj += fmt::format("v {} {} {}\n", x * half, y, z * half);
+  };
+  ring(13.0, -1.0);
+  ring(13.0, 20.0);
+  ring(10.0, 20.0);
+  ring(10.0, 0.0);
+  for (int low = 1; low <= 9; low += 4) {
+    for (int k = 0; k < 4; ++k)
+      obj += fmt::format("f {} {} {} {}\n", low + k, low + 4 + k, low + 4 + (k + 1) % 4, low + (k + 1) % 4);
+  }
+  obj += "f 1 2 3 4\nf 13 16 15 14\n";
+  Scene scene;
+  scene.name = scene.file = "court";
+  SceneMesh mesh;
+  mesh.name = "court";
+  mesh.file = scratch.write("court.obj", obj);
+  scene.meshes.push_back(mesh);
+  scene.world.voxel_m = voxel_m;
+  scene.sky.weighting = sim::Weighting::cosine;
+  scene.sky.accuracy = accuracy;
+  return scene;
+}
+
+/// Coarse voxels err more than 512 directions; beyond some fineness it is the directions that err.
+TEST(Certificate, SaysWhatWouldHelp) {
+  const tests::Scratch scratch;
+  const auto of = [&](double voxel_m, double accuracy) {
+    const Scene scene = courtOf(scratch, voxel_m, accuracy);
+    return certify(makeSiteForLight(scene), scene.seed);
+  };
+  const Certificate coarse = of(1.0, 0.005), fine = of(0.2, 0.005), exact = of(0.2, 0.002);
+  EXPECT_NE(inShort(coarse).find("smaller voxels would help most"), std::string::npos) << inShort(coarse);
+  EXPECT_NE(inShort(fine).find("a finer sky.accuracy would help most"), std::string::npos) << inShort(fine);
+  EXPECT_LT(fine.spots->rms_on_faces, 0.5 * coarse.spots->rms_on_faces);
+  EXPECT_LT(exact.spots->rms_of_directions, 0.7 * fine.spots->rms_of_directions);
 }
 
 /// Between these lines docs/accuracy.md holds what the program says. ESPALIER_UPDATE_DOCS=1 writes it anew.

@@ -6,6 +6,7 @@
 
 #include "scenes/lights.h"
 #include "sim/base/error.h"
+#include "tests/support/meshes.h"
 #include "tests/support/scratch.h"
 
 namespace espalier::scenes {
@@ -41,6 +42,44 @@ TEST(Site, KnowsItsSkyItsSunAndItsRandomRays) {
   ASSERT_TRUE(site.random_sky);
   EXPECT_EQ(site.random_sky->rays, 100);
   EXPECT_EQ(site.random_sky->seed, 7u);
+}
+
+/// Nobody said how they are wound, nor that they are closed.
+TEST(Site, AStrangersMeshIsTheSameWorldHoweverItIsWound) {
+  const tests::Scratch scratch;
+  const auto siteOf = [&](const std::string& obj, std::optional<bool> solid) {
+    Scene scene = emptyScene();
+    SceneMesh mesh;
+    mesh.name = "house";
+    mesh.file = scratch.write("house.obj", obj);
+    mesh.solid = solid;
+    scene.meshes.push_back(mesh);
+    scene.world.bounds_m.reset();
+    scene.world.voxel_m = 0.1;
+    return makeSite(scene);
+  };
+  const std::string right = tests::kCubeObj;
+  std::string inside_out = right;
+  inside_out = inside_out.substr(0, inside_out.find("f ")) +
+               "f 4 3 2 1\nf 6 7 8 5\nf 2 6 5 1\nf 3 7 6 2\nf 4 8 7 3\nf 1 5 8 4\n";
+  const Site a = siteOf(right, std::nullopt), b = siteOf(inside_out, std::nullopt);
+  EXPECT_TRUE(a.facings.empty());
+  ASSERT_EQ(b.facings.size(), 1u);
+  EXPECT_EQ(b.facings[0].turned, 12u);
+  for (const Site* site : {&a, &b}) {
+    ASSERT_EQ(site->fills.size(), 1u);
+    EXPECT_TRUE(site->fills[0].found);
+  }
+  EXPECT_EQ(a.world.opaque().words(), b.world.opaque().words());
+  const auto surfaces = a.world.surfaces(), others = b.world.surfaces();
+  ASSERT_EQ(surfaces.size(), others.size());
+  for (std::size_t i = 0; i < surfaces.size(); ++i) {
+    ASSERT_EQ(surfaces[i].voxel, others[i].voxel);
+    ASSERT_LT(glm::distance(surfaces[i].surface.normal, others[i].surface.normal), 1e-5f);
+  }
+  const Site hollow = siteOf(inside_out, false);  // as it is
+  EXPECT_TRUE(hollow.fills.empty() && hollow.facings.empty());
+  EXPECT_LT(hollow.world.occupied().count(), a.world.occupied().count());
 }
 
 TEST(Site, KeepsItsMeshesAsPlaced) {

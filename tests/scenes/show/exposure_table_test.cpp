@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <numbers>
 
 #include "sim/tile/build_world.h"
 
@@ -74,7 +75,10 @@ struct Made {
  private:
   void add(sim::PartId part, float value, float coverage) {
     const sim::Voxel v(static_cast<int>(light.surfaces.size()), 0, 0);
-    light.surfaces.push_back({v, {part, sim::Colour(0.5f), coverage, sim::Vec3f(0, 1, 0)}});
+    const sim::Vec3f normal = part == 2 ? sim::Vec3f(0, 1, 0)
+                              : v.x < 4 ? sim::Vec3f(0, 0, 1)
+                                        : sim::Vec3f(1, 0, 0);
+    light.surfaces.push_back({v, {part, sim::Colour(0.5f), coverage, normal}});
     light.sky.values.push_back(value);
     light.sun.values.push_back(1.0f - value);
     light.sun_hours.values.push_back(10.0f * (1.0f - value));
@@ -84,7 +88,7 @@ struct Made {
 TEST(ExposureTable, IsWeightedByArea) {
   const Made made;
   const ExposureTable table = made.table();
-  ASSERT_EQ(table.rows.size(), 3u);
+  ASSERT_EQ(table.rows.size(), 3u + 2u + 1u + 3u);  // the wall faces two ways, the roof one
   const ExposureRow& wall = table.rows[0];
   EXPECT_EQ(wall.region, "wall");
   EXPECT_EQ(wall.voxels, 5u);
@@ -99,18 +103,59 @@ TEST(ExposureTable, IsWeightedByArea) {
   EXPECT_EQ(sky.greatest, 0.4);
   EXPECT_EQ(sky.histogram[0], 0.1429);
   EXPECT_EQ(sky.histogram[8], 0.4286);
-  EXPECT_EQ(table.rows[1].spreads[0].histogram[Spread::kBins - 1], 1.0);  // 1 belongs to the last bin
+  EXPECT_EQ(table.rows[3].spreads[0].histogram[Spread::kBins - 1], 1.0);  // 1 belongs to the last bin
   EXPECT_EQ(wall.spreads[2].histogram[12], 0.4286);                       // 6 of 10 hours
-  EXPECT_EQ(table.rows[2].object, "");
-  EXPECT_EQ(table.rows[2].voxels, 6u);
-  EXPECT_EQ(table.rows[2].area_m2, 2.75 * 0.25);
+  EXPECT_EQ(table.rows[5].object, "");
+  EXPECT_EQ(table.rows[5].voxels, 6u);
+  EXPECT_EQ(table.rows[5].area_m2, 2.75 * 0.25);
+}
+
+TEST(ExposureTable, SplitsWhatFacesSeveralWays) {
+  const Made made;
+  const ExposureTable table = made.table();
+  const auto is = [&](std::size_t row, const char* region, const char* faces, std::size_t voxels) {
+    EXPECT_EQ(table.rows[row].region, region);
+    EXPECT_EQ(table.rows[row].faces, faces);
+    EXPECT_EQ(table.rows[row].voxels, voxels);
+  };
+  is(0, "wall", "", 5);
+  is(1, "wall", "E", 1);
+  is(2, "wall", "S", 4);
+  is(3, "roof", "", 1);
+  is(4, "roof", "up", 1);
+  is(5, "", "", 6);
+  is(6, "", "E", 1);
+  is(7, "", "S", 4);
+  is(8, "", "up", 1);
+  EXPECT_EQ(table.rows[1].spreads[0].mean, 0.4);
+  EXPECT_EQ(table.rows[2].spreads[0].mean, 0.15);
+}
+
+TEST(ExposureTable, NamesWaysByTheCompass) {
+  for (int step = 0; step < 32; ++step) {
+    const double compass_deg = 11.25 * step, radians = compass_deg * std::numbers::pi / 180.0;
+    const sim::Vec3f normal(static_cast<float>(std::sin(radians)), 0.0f,
+                            static_cast<float>(-std::cos(radians)));
+    if (step % 4 == 2) continue;  // between two ways
+    const char* const names[] = {"N", "NE", "E", "SE", "S", "SW", "W", "NW"};
+    EXPECT_EQ(wayOf(normal, 0.0), names[(step + 2) / 4 % 8]) << compass_deg;
+    EXPECT_EQ(wayOf(normal, 90.0), names[(step + 2 + 24) / 4 % 8]) << compass_deg;  // true north lies east
+  }
+  const auto leaning = [](double from_level_deg) {
+    const double radians = from_level_deg * std::numbers::pi / 180.0;
+    return sim::Vec3f(0.0f, static_cast<float>(std::cos(radians)), static_cast<float>(std::sin(radians)));
+  };
+  EXPECT_EQ(wayOf(leaning(29.0), 0.0), "up");
+  EXPECT_EQ(wayOf(leaning(31.0), 0.0), "S");
+  EXPECT_EQ(wayOf(leaning(149.0), 0.0), "S");
+  EXPECT_EQ(wayOf(leaning(151.0), 0.0), "down");
 }
 
 TEST(ExposureTable, CsvFollowsItsRfcAndSaysWhatJsonSays) {
   const Made made;
   const ExposureTable table = made.table();
   const auto rows = readCsv(toCsv(table));
-  ASSERT_EQ(rows.size(), 1u + 3u * 3u);
+  ASSERT_EQ(rows.size(), 1u + 9u * 3u);
   const json all = json::parse(toJson(table));
   EXPECT_EQ(all["light"]["weighting"], "uniform");
   EXPECT_EQ(all["light"]["directions"], 7);
@@ -129,6 +174,11 @@ TEST(ExposureTable, CsvFollowsItsRfcAndSaysWhatJsonSays) {
       const auto& regions = all["regions"];
       region = *std::find_if(regions.begin(), regions.end(),
                              [&](const json& j) { return j["region"] == row["region"]; });
+    }
+    if (row["faces"] != "all") {
+      const json& ways = region["facing"];
+      region = json(
+          *std::find_if(ways.begin(), ways.end(), [&](const json& j) { return j["faces"] == row["faces"]; }));
     }
     EXPECT_EQ(std::stod(row["area_m2"]), region["area_m2"]);
     EXPECT_EQ(std::stoul(row["voxels"]), region["voxels"]);
@@ -155,7 +205,7 @@ TEST(ExposureTable, WithoutASunHasNoColumnsOfOne) {
   const ExposureTable table = made.table();
   EXPECT_EQ(table.quantities.size(), 1u);
   EXPECT_EQ(toCsv(table).find("sun"), std::string::npos);
-  EXPECT_EQ(readCsv(toCsv(table)).size(), 4u);
+  EXPECT_EQ(readCsv(toCsv(table)).size(), 1u + 9u);
 }
 
 TEST(ExposureTable, TheTextNamesEveryRegionWithItsMean) {

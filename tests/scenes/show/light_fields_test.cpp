@@ -49,7 +49,7 @@ TEST_F(LightFields, SurfacesHaveTheirOwnValuesAndNothingElseIsActive) {
   }
   const auto sky = file.grid<openvdb::FloatGrid>("sky_exposure"),
              hours = file.grid<openvdb::FloatGrid>("sun_hours");
-  const auto part = file.grid<openvdb::Int32Grid>("part");
+  const auto part = file.grid<openvdb::FloatGrid>("part");
   const auto normal = file.grid<openvdb::Vec3SGrid>("normal"),
              brightest = file.grid<openvdb::Vec3SGrid>("brightest");
   ASSERT_TRUE(sky && hours && part && normal && brightest);

@@ -184,6 +184,28 @@ TEST(RealSun, RefusesWhatMakesNoSun) {
   EXPECT_NE(fine.find("expected at least 0."), fine.npos) << fine;
 }
 
+TEST(RealSun, SaysAnAccuracyThatServes) {
+  for (const double latitude_deg : {-60.0, 0.0, 33.0, 47.37, 71.0}) {
+    RealSun sun = zurich(2026y / 1 / 1, 2026y / 12 / 31);
+    sun.latitude_deg = latitude_deg;
+    sun.step_min = 60.0;
+    sun.within_deg = 0.05;
+    std::string message;
+    try {
+      sim::makeSun(sun);
+    } catch (const sim::InputError& error) {
+      message = error.what();
+    }
+    const std::string expected = "expected at least ";
+    const std::size_t at = message.find(expected);
+    ASSERT_NE(at, message.npos) << message;
+    sun.within_deg = std::stod(message.substr(at + expected.size()));
+    EXPECT_NO_THROW(sim::makeSun(sun)) << message;
+    sun.within_deg -= 0.011;
+    EXPECT_THROW(sim::makeSun(sun), sim::InputError) << message;
+  }
+}
+
 TEST(RealSun, SaysWhatItIs) {
   const auto about = sim::describe(sim::makeSun(zurich(2026y / 6 / 21, 2026y / 6 / 21)));
   EXPECT_EQ(about.substr(0, 33), "sun at 47.37 N 8.54 E, 2026-06-21") << about;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <optional>
 
 #include "sim/base/random.h"
 
@@ -180,8 +181,6 @@ class Places {
   std::vector<bool> taken_;
 };
 
-enum class Room { all, elsewhere, none };
-
 /// Twice as many rows.
 void refine(std::vector<double>& arcs) {
   std::vector<double> finer;
@@ -193,8 +192,8 @@ void refine(std::vector<double>& arcs) {
   arcs = std::move(finer);
 }
 
-/// Whether all feet have found room, and where they wished for it.
-Room place(LimbGrid& grid, std::span<const Foot> standing) {
+/// How many feet stand elsewhere than they wished to; nothing where one has found no room at all.
+std::optional<std::size_t> place(LimbGrid& grid, std::span<const Foot> standing) {
   Places places(grid.sides, grid.arcs_m.size());
   std::vector<std::size_t> order(standing.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
@@ -203,7 +202,7 @@ Room place(LimbGrid& grid, std::span<const Foot> standing) {
   });
   const double side = 2.0 * kPi / grid.sides;
   const int most = std::max(1, grid.sides - 2);
-  Room room = Room::all;
+  std::size_t elsewhere = 0;
   grid.patches.assign(standing.size(), {});
   for (const std::size_t i : order) {
     const Foot& foot = standing[i];
@@ -217,12 +216,12 @@ Room place(LimbGrid& grid, std::span<const Foot> standing) {
     patch.row = std::min(nearest(grid.arcs_m, low), rings - 2);
     patch.rows = std::max(nearest(grid.arcs_m, high) - patch.row, 1);
     if (!places.free(patch)) {
-      if (!places.findRoom(patch)) return Room::none;
-      room = Room::elsewhere;
+      if (!places.findRoom(patch)) return {};
+      ++elsewhere;
     }
     places.take(patch);
   }
-  return room;
+  return elsewhere;
 }
 
 /// Puts a foot where its patch is, and no wider than the patch and a part of the quads around it.
@@ -282,14 +281,21 @@ LimbGrid gridOf(const Limb& limb, std::span<const Foot> standing, double error_m
   part(feet);
   grid.arcs_m = ringArcs(limb, feet, error_m);
   const bool fine = limb.line.front().radius_m > kFine * error_m;
-  for (Room room; (room = place(grid, feet)) != Room::all;) {
-    if (fine && 2 * grid.sides <= std::min(kMostSides, 4 * limb.sides)) {
+  const int most_sides = fine ? std::min(kMostSides, 4 * limb.sides) : limb.sides;
+  std::optional<std::size_t> elsewhere;
+  while (!(elsewhere = place(grid, feet))) {
+    if (2 * grid.sides <= most_sides) {
       grid.sides *= 2;
-    } else if (room == Room::elsewhere) {
-      break;
     } else {
       refine(grid.arcs_m);
     }
+  }
+  for (LimbGrid finer = grid; *elsewhere > 0 && 2 * finer.sides <= most_sides;) {
+    finer.sides *= 2;
+    const std::optional<std::size_t> then = place(finer, feet);
+    if (!then || *then >= *elsewhere) continue;
+    elsewhere = then;
+    grid = finer;
   }
 
   const double side = 2.0 * kPi / grid.sides;

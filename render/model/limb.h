@@ -41,6 +41,8 @@ struct Section {
   sim::Vec3 surface(double angle) const { return centre_m + radius_m * out(angle); }
 };
 Section sectionAt(const Limb& limb, double arc_m);
+/// The same without its axes.
+TubeStation stationOn(const Limb& limb, double arc_m);
 
 /// The point of a limb's line next to another, from a stretch between two stations downhill.
 struct NearLine {

@@ -33,9 +33,9 @@ void leaveOut(std::vector<double>& arcs, const Limb& limb, std::span<const Foot>
   constexpr double kThinner = 0.1;  // of the radius
   if (standing.empty()) return;
   std::size_t kept = 0;
-  Section before = sectionAt(limb, arcs[0]);
+  TubeStation before = stationOn(limb, arcs[0]);
   for (std::size_t i = 1; i + 1 < arcs.size(); ++i) {
-    const Section here = sectionAt(limb, arcs[i]), next = sectionAt(limb, arcs[i + 1]);
+    const TubeStation here = stationOn(limb, arcs[i]), next = stationOn(limb, arcs[i + 1]);
     const double share = (arcs[i] - arcs[kept]) / (arcs[i + 1] - arcs[kept]);
     const bool a_station = std::binary_search(limb.arcs_m.begin(), limb.arcs_m.end(), arcs[i]);
     const double off = glm::distance(here.centre_m, glm::mix(before.centre_m, next.centre_m, share));
@@ -55,10 +55,10 @@ std::vector<double> ringArcs(const Limb& limb, std::span<const Foot> standing, d
   std::vector<double> arcs = limb.arcs_m;
   for (const Foot& foot : standing) {
     const auto [low, high] = endsOf(foot, length);
-    const Vec3 from = sectionAt(limb, low).centre_m, step = sectionAt(limb, high).centre_m - from;
+    const Vec3 from = stationOn(limb, low).centre_m, step = stationOn(limb, high).centre_m - from;
     const auto straight = [&, first = low, last = high](double arc) {
       const Vec3 wanted = from + (arc - first) / (last - first) * step;
-      return glm::distance(sectionAt(limb, arc).centre_m, wanted) < 0.5 * limb.off_m;
+      return glm::distance(stationOn(limb, arc).centre_m, wanted) < 0.5 * limb.off_m;
     };
     const auto inner = std::upper_bound(arcs.begin() + 1, arcs.end() - 1, low);
     const auto outer = std::lower_bound(inner, arcs.end() - 1, high);
@@ -246,12 +246,13 @@ void fit(Patch& patch, const LimbGrid& grid) {
   within(patch.foot.arc_m, patch.foot.half_arc_m, grid.arcs_m[row] - below, grid.arcs_m[end] + above);
 }
 
-}  // namespace
-
 Rim rimOf(const Patch& patch) {
   Rim rim;
   const int m = patch.rows, k = patch.columns, count = 2 * (m + k);
   std::vector<std::pair<int, int>> around;  // (row, column) in the patch, from its far right corner on
+  around.reserve(static_cast<std::size_t>(count));
+  rim.corners.reserve(around.capacity());
+  rim.turns.reserve(around.capacity());
   for (int c = k; c > 0; --c) around.emplace_back(m, c);
   for (int r = m; r > 0; --r) around.emplace_back(r, 0);
   for (int c = 0; c < k; ++c) around.emplace_back(0, c);
@@ -267,6 +268,8 @@ Rim rimOf(const Patch& patch) {
   }
   return rim;
 }
+
+}  // namespace
 
 Vec3 onRim(const Limb& host, const Foot& foot, double turn) {
   const glm::dvec2 circle = sim::unitCircle(turn / (2.0 * kPi));
@@ -300,13 +303,14 @@ LimbGrid gridOf(const Limb& limb, std::span<const Foot> standing, double error_m
 
   const double side = 2.0 * kPi / grid.sides;
   std::vector<RimPoint> wishes;
+  grid.rims.reserve(grid.patches.size());
   for (Patch& patch : grid.patches) {
     fit(patch, grid);
     for (int r = 1; r < patch.rows; ++r) {
       for (int c = 1; c < patch.columns; ++c)
         grid.inside.push_back(grid.corner(patch.row + r, patch.column + c));
     }
-    const Rim rim = rimOf(patch);
+    const Rim& rim = grid.rims.emplace_back(rimOf(patch));
     for (std::size_t k = 0; k < rim.corners.size(); ++k) {
       const auto [ring, column] = rim.corners[k];
       const glm::dvec2 turn = sim::unitCircle(rim.turns[k] / (2.0 * kPi));

@@ -28,12 +28,6 @@ Place placeOn(const Limb& limb, double arc_m) {
   return {i, std::clamp((arc_m - arcs[i]) / (arcs[i + 1] - arcs[i]), 0.0, 1.0)};
 }
 
-TubeStation mixed(const TubeStation& a, const TubeStation& b, double share) {
-  const auto part = static_cast<float>(share);
-  return {glm::mix(a.centre_m, b.centre_m, share), glm::mix(a.radius_m, b.radius_m, share),
-          glm::mix(a.exposure, b.exposure, part), glm::mix(a.youth, b.youth, part)};
-}
-
 NearLine onStretch(const Limb& limb, std::size_t stretch, Vec3 p) {
   const TubeStation &a = limb.line[stretch], &b = limb.line[stretch + 1];
   const Vec3 step = b.centre_m - a.centre_m;
@@ -73,6 +67,12 @@ int sidesFor(double radius_m, double error_m) {
 Vec3 Section::out(double angle) const {
   const glm::dvec2 circle = sim::unitCircle(angle / (2.0 * kPi));
   return circle.x * frame.across + circle.y * frame.up;
+}
+
+TubeStation mixed(const TubeStation& a, const TubeStation& b, double share) {
+  const auto part = static_cast<float>(share);
+  return {glm::mix(a.centre_m, b.centre_m, share), glm::mix(a.radius_m, b.radius_m, share),
+          glm::mix(a.exposure, b.exposure, part), glm::mix(a.youth, b.youth, part)};
 }
 
 TubeStation stationOn(const Limb& limb, double arc_m) {

@@ -28,26 +28,6 @@ std::pair<double, double> endsOf(const Foot& foot, double length) {
   return {middle - half, middle + half};
 }
 
-/// Leaves out stations' rings that are of no use beside those of feet.
-void leaveOut(std::vector<double>& arcs, const Limb& limb, std::span<const Foot> standing) {
-  constexpr double kThinner = 0.1;  // of the radius
-  if (standing.empty()) return;
-  std::size_t kept = 0;
-  TubeStation before = stationOn(limb, arcs[0]);
-  for (std::size_t i = 1; i + 1 < arcs.size(); ++i) {
-    const TubeStation here = stationOn(limb, arcs[i]), next = stationOn(limb, arcs[i + 1]);
-    const double share = (arcs[i] - arcs[kept]) / (arcs[i + 1] - arcs[kept]);
-    const bool a_station = std::binary_search(limb.arcs_m.begin(), limb.arcs_m.end(), arcs[i]);
-    const double off = glm::distance(here.centre_m, glm::mix(before.centre_m, next.centre_m, share));
-    const double thinner = std::abs(here.radius_m - glm::mix(before.radius_m, next.radius_m, share));
-    if (a_station && off < 0.5 * limb.off_m && thinner < kThinner * here.radius_m) continue;
-    arcs[++kept] = arcs[i];
-    before = here;
-  }
-  arcs[++kept] = arcs.back();
-  arcs.resize(kept + 1);
-}
-
 /// Rings at both ends of each foot, and at the stations between feet; in the middle of those feet that are
 /// worth it.
 std::vector<double> ringArcs(const Limb& limb, std::span<const Foot> standing, double error_m) {
@@ -77,7 +57,6 @@ std::vector<double> ringArcs(const Limb& limb, std::span<const Foot> standing, d
     insert(high, kSameRing * half);
     if (half > kMiddle * error_m) insert(low + half, 0.7 * half);
   }
-  leaveOut(arcs, limb, standing);
   return arcs;
 }
 
@@ -269,6 +248,52 @@ Rim rimOf(const Patch& patch) {
   return rim;
 }
 
+/// Which rings a limb's shape needs whole: between them it is straight, as far as its stations say. The first and
+/// the last among them.
+std::vector<bool> neededWhole(const Limb& limb, const std::vector<double>& arcs) {
+  constexpr double kOffStraight = 0.1;  // of what lines may be off
+  constexpr double kThicker = 0.02;     // of radii
+  const auto straight = [&](double low, double high) {
+    const TubeStation from = stationOn(limb, low), to = stationOn(limb, high);
+    const auto fits = [&](const TubeStation& station, double arc) {
+      const TubeStation wanted = mixed(from, to, (arc - low) / (high - low));
+      return glm::distance(station.centre_m, wanted.centre_m) < kOffStraight * limb.off_m &&
+             std::abs(station.radius_m - wanted.radius_m) < kThicker * station.radius_m;
+    };
+    const auto first = std::upper_bound(limb.arcs_m.begin(), limb.arcs_m.end(), low);
+    for (auto arc = first; arc != limb.arcs_m.end() && *arc < high; ++arc)
+      if (!fits(limb.line[static_cast<std::size_t>(arc - limb.arcs_m.begin())], *arc)) return false;
+    return true;
+  };
+  std::vector<bool> whole(arcs.size(), false);
+  whole.front() = whole.back() = true;
+  for (std::size_t r = 1, last = 0; r + 1 < arcs.size(); ++r) {
+    if (straight(arcs[last], arcs[r + 1])) continue;
+    whole[r] = true;
+    last = r;
+  }
+  return whole;
+}
+
+void leaveOutBesideRims(LimbGrid& grid, const Limb& limb) {
+  if (grid.patches.empty()) return;
+  const std::vector<bool> whole = neededWhole(limb, grid.arcs_m);
+  const auto inside = static_cast<std::ptrdiff_t>(grid.absent.size());
+  auto rim = grid.rim.begin();
+  for (std::size_t r = 0; r < whole.size(); ++r) {
+    if (whole[r]) continue;
+    for (int c = 0; c < grid.sides; ++c) {
+      const std::uint32_t corner = grid.corner(static_cast<int>(r), c);
+      while (rim != grid.rim.end() && rim->corner < corner) ++rim;
+      if (rim != grid.rim.end() && rim->corner == corner) continue;
+      if (!std::binary_search(grid.absent.begin(), grid.absent.begin() + inside, corner))
+        grid.absent.push_back(corner);
+    }
+  }
+  grid.left_out = grid.absent.size() - static_cast<std::size_t>(inside);
+  std::inplace_merge(grid.absent.begin(), grid.absent.begin() + inside, grid.absent.end());
+}
+
 }  // namespace
 
 Vec3 onRim(const Limb& host, const Foot& foot, double turn) {
@@ -308,7 +333,7 @@ LimbGrid gridOf(const Limb& limb, std::span<const Foot> standing, double error_m
     fit(patch, grid);
     for (int r = 1; r < patch.rows; ++r) {
       for (int c = 1; c < patch.columns; ++c)
-        grid.inside.push_back(grid.corner(patch.row + r, patch.column + c));
+        grid.absent.push_back(grid.corner(patch.row + r, patch.column + c));
     }
     const Rim& rim = grid.rims.emplace_back(rimOf(patch));
     for (std::size_t k = 0; k < rim.corners.size(); ++k) {
@@ -321,7 +346,7 @@ LimbGrid gridOf(const Limb& limb, std::span<const Foot> standing, double error_m
           {grid.corner(ring, column), patch.foot.arc_m + patch.foot.half_arc_m * turn.x, own + away, {}});
     }
   }
-  std::sort(grid.inside.begin(), grid.inside.end());
+  std::sort(grid.absent.begin(), grid.absent.end());
   std::stable_sort(wishes.begin(), wishes.end(),
                    [](const RimPoint& a, const RimPoint& b) { return a.corner < b.corner; });
   // Where rims meet, their corners lie half way between what they wish for.
@@ -336,12 +361,13 @@ LimbGrid gridOf(const Limb& limb, std::span<const Foot> standing, double error_m
     point.at_m = sectionAt(limb, point.arc_m).surface(point.angle);
     grid.rim.push_back(point);
   }
+  leaveOutBesideRims(grid, limb);
   return grid;
 }
 
 std::uint32_t LimbGrid::pointOf(std::uint32_t corner) const {
   return corner -
-         static_cast<std::uint32_t>(std::lower_bound(inside.begin(), inside.end(), corner) - inside.begin());
+         static_cast<std::uint32_t>(std::lower_bound(absent.begin(), absent.end(), corner) - absent.begin());
 }
 
 const RimPoint& LimbGrid::rimPoint(std::uint32_t corner) const {

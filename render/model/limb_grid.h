@@ -33,17 +33,20 @@ struct Rim {
 /// every patch is a disc, no two share a quad, and each is filled by a disc, the limb that stands there.
 struct LimbGrid {
   int sides = 0;
-  std::vector<double> arcs_m;         ///< of the rings
-  std::vector<Patch> patches;         ///< of each of the limbs that stand here, in their order
-  std::vector<Rim> rims;              ///< of each patch
-  std::vector<RimPoint> rim;          ///< by their corners
-  std::vector<std::uint32_t> inside;  ///< corners inside of patches, which are no part of the surface
+  std::vector<double> arcs_m;  ///< of the rings
+  std::vector<Patch> patches;  ///< of each of the limbs that stand here, in their order
+  std::vector<Rim> rims;       ///< of each patch
+  std::vector<RimPoint> rim;   ///< by their corners
+  /// Corners that are no part of the surface, for they are inside of patches or would change nothing: those
+  /// beside rims of rings between which the limb is straight.
+  std::vector<std::uint32_t> absent;
+  std::size_t left_out = 0;  ///< so many of these are not inside of patches
 
   std::uint32_t corner(int ring, int column) const {
     return static_cast<std::uint32_t>(ring * sides + column % sides);
   }
-  /// Points of the surface: corners but those inside of patches.
-  std::size_t points() const { return arcs_m.size() * static_cast<std::size_t>(sides) - inside.size(); }
+  /// Points of the surface: corners but those that are absent.
+  std::size_t points() const { return arcs_m.size() * static_cast<std::size_t>(sides) - absent.size(); }
   /// The number of a corner's point among them.
   std::uint32_t pointOf(std::uint32_t corner) const;
   /// Of a corner on a rim.

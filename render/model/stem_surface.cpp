@@ -4,9 +4,9 @@
 #include <array>
 #include <cmath>
 #include <functional>
-#include <limits>
 
 #include "render/model/collar.h"
+#include "render/model/grid_faces.h"
 #include "render/model/limb_grid.h"
 #include "sim/base/parallel.h"
 #include "sim/base/random.h"
@@ -18,7 +18,6 @@ namespace {
 using sim::Vec3;
 using Triangle = std::array<std::uint32_t, 3>;
 
-constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
 constexpr double kFineCollar = 12.0, kCollar = 4.0;  // errors that a limb's radius is to be worth rings there
 
 /// Where a limb's part of the mesh begins, and how much it is.
@@ -55,17 +54,18 @@ Counts sizeOf(const Skin& skin, std::size_t rim) {
   Counts size;
   size.point = grid.points() + 1 + collars * sides + (rim == 0 ? 1 : 0);
   size.vertex = size.point + grid.arcs_m.size() + collars + (rim > 0 ? rim + 1 : 0);
-  for (const std::uint32_t corner : grid.inside) size.vertex -= corner % sides == 0 ? 1 : 0;
+  for (const std::uint32_t corner : grid.absent) size.vertex -= corner % sides == 0 ? 1 : 0;
   std::size_t quads = sides * (grid.arcs_m.size() - 1) + collars * sides;
   for (const Patch& patch : grid.patches) quads -= static_cast<std::size_t>(patch.rows * patch.columns);
   size.triangle = 2 * quads + 2 * sides + rim;  // the tip's; the root's, or the strip along the rim
+  size.triangle -= 2 * grid.left_out;           // one on each side
   return size;
 }
 
 /// What the work on one limb leaves to the next.
 struct Scratch {
   std::vector<glm::dvec2> circle;
-  std::vector<bool> hole;                         // quads of the grid
+  GridFaces faces;
   std::vector<std::uint32_t> vertices;            // of the grid: sides + 1 a ring
   std::vector<std::uint32_t> rim;                 // points of the rim that it stands in
   std::vector<std::uint32_t> outer, inner, next;  // vertices of the rim, and of rings about the joint
@@ -162,7 +162,7 @@ void Sewing::addGrid(Part& part, Scratch& scratch) const {
   }
   part.vertices.clear();
   auto rim = grid.rim.begin();
-  auto inside = grid.inside.begin();
+  auto absent = grid.absent.begin();
   std::uint32_t corner = 0;
   auto at = static_cast<std::uint32_t>(part.skin.begin.point);
   for (std::size_t r = 0; r < grid.arcs_m.size(); ++r) {
@@ -177,9 +177,9 @@ void Sewing::addGrid(Part& part, Scratch& scratch) const {
     const std::uint32_t begin = at;
     const auto first_on_rim = rim;
     for (std::size_t c = 0; c < sides; ++c, ++corner) {
-      if (inside != grid.inside.end() && *inside == corner) {
-        ++inside;
-        part.vertices.push_back(kNone);
+      if (absent != grid.absent.end() && *absent == corner) {
+        ++absent;
+        part.vertices.push_back(kNoVertex);
       } else if (rim != grid.rim.end() && rim->corner == corner) {
         part.vertices.push_back(part.addRimPoint(at++, *rim, r, 0.0));
         ++rim;
@@ -192,8 +192,8 @@ void Sewing::addGrid(Part& part, Scratch& scratch) const {
     }
     // The seam: the first column again, a turn on.
     const std::uint32_t seam = part.vertices[part.vertices.size() - sides];
-    if (seam == kNone) {
-      part.vertices.push_back(kNone);
+    if (seam == kNoVertex) {
+      part.vertices.push_back(kNoVertex);
     } else if (first_on_rim != grid.rim.end() && first_on_rim->corner + sides == corner) {
       part.vertices.push_back(part.addRimPoint(begin, *first_on_rim, r, 1.0));
     } else {
@@ -201,30 +201,8 @@ void Sewing::addGrid(Part& part, Scratch& scratch) const {
           part.addVertex(begin, Vec3(part.mesh.positions_m[seam]), part.skin.repeats, part.v, ring));
     }
   }
-  std::vector<bool>& hole = scratch.hole;
-  hole.assign(sides * (grid.arcs_m.size() - 1), false);
-  for (const Patch& patch : grid.patches) {
-    for (int r = patch.row; r < patch.row + patch.rows; ++r) {
-      for (int c = patch.column; c < patch.column + patch.columns; ++c)
-        hole[static_cast<std::size_t>(r * grid.sides + c % grid.sides)] = true;
-    }
-  }
-  for (std::size_t r = 0; r + 1 < grid.arcs_m.size(); ++r) {
-    for (std::size_t c = 0; c < sides; ++c) {
-      if (hole[r * sides + c]) continue;
-      const std::uint32_t *low = &part.vertices[r * (sides + 1) + c], *high = low + sides + 1;
-      // Along the shorter diagonal: the sharper one would show where a rim has moved corners.
-      const auto& p = part.mesh.positions_m;
-      const sim::Vec3f rising = p[high[1]] - p[low[0]], falling = p[high[0]] - p[low[1]];
-      if (glm::dot(rising, rising) <= glm::dot(falling, falling) * 1.0001f) {
-        part.addTriangle(low[0], low[1], high[1]);
-        part.addTriangle(low[0], high[1], high[0]);
-      } else {
-        part.addTriangle(low[0], low[1], high[0]);
-        part.addTriangle(low[1], high[1], high[0]);
-      }
-    }
-  }
+  for (const auto& [a, b, c] : scratch.faces.of(grid, part.vertices, part.mesh.positions_m))
+    part.addTriangle(a, b, c);
 }
 
 void Sewing::addEnds(Part& part) const {

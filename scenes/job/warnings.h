@@ -2,9 +2,9 @@
 #include <filesystem>
 #include <vector>
 
-#include "scenes/import/texture_reader.h"
 #include "scenes/job/report.h"
 #include "scenes/job/run.h"
+#include "scenes/prepare/texture_reader.h"
 #include "scenes/problem.h"
 
 namespace espalier::scenes {

@@ -1,4 +1,4 @@
-#include "scenes/import/texture_reader.h"
+#include "scenes/prepare/texture_reader.h"
 
 #include <fmt/format.h>
 

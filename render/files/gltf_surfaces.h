@@ -41,8 +41,8 @@ struct MeshPart {
   }
 };
 
-/// Parts of at most kMostShort vertices each, where triangles that follow each other have vertices that do; some
-/// may be in two parts. Else the whole.
+/// Parts of at most kMostShort vertices each, where triangles that follow each other have vertices that do;
+/// some may be in two parts. Else the whole.
 std::vector<MeshPart> partsOf(const ModelMesh& mesh);
 
 /// Places as so many steps from a corner, 0 .. 65535 each way.

@@ -248,8 +248,8 @@ Rim rimOf(const Patch& patch) {
   return rim;
 }
 
-/// Which rings a limb's shape needs whole: between them it is straight, as far as its stations say. The first and
-/// the last among them.
+/// Which rings a limb's shape needs whole: between them it is straight, as far as its stations say. The first
+/// and the last among them.
 std::vector<bool> neededWhole(const Limb& limb, const std::vector<double>& arcs) {
   constexpr double kOffStraight = 0.1;  // of what lines may be off
   constexpr double kThicker = 0.02;     // of radii

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
-#include <limits>
 #include <nlohmann/json.hpp>
 #include <ostream>
 #include <sstream>
@@ -25,6 +24,19 @@ tinygltf::Value extras(const sim::Provenance& made_by) {
   // As text: of JSON's numbers tinygltf writes 32 bits or a real one.
   return tinygltf::Value(tinygltf::Value::Object{{"seed", tinygltf::Value(std::to_string(made_by.seed))},
                                                  {"inputs", tinygltf::Value(std::move(inputs))}});
+}
+
+/// `at(element, axis)`: a number.
+void setExtent(tinygltf::Accessor& accessor, const auto& data, const auto& at) {
+  for (int axis = 0; axis < 3; ++axis) {
+    auto low = at(data[0], axis), high = low;
+    for (const auto& element : data) {
+      low = std::min(low, at(element, axis));
+      high = std::max(high, at(element, axis));
+    }
+    accessor.minValues.push_back(static_cast<double>(low));
+    accessor.maxValues.push_back(static_cast<double>(high));
+  }
 }
 
 }  // namespace
@@ -66,6 +78,10 @@ int GlbFile::accessor(const void* data, std::size_t bytes, std::size_t count, in
                       int target, bool normalized) {
   tinygltf::Accessor result;
   result.bufferView = view(data, bytes, target);
+  const auto packed =
+      static_cast<std::size_t>(tinygltf::GetComponentSizeInBytes(static_cast<std::uint32_t>(component_type)) *
+                               tinygltf::GetNumComponentsInType(static_cast<std::uint32_t>(type)));
+  if (bytes != count * packed) model_.bufferViews.back().byteStride = bytes / count;
   result.componentType = component_type;
   result.type = type;
   result.count = count;
@@ -76,14 +92,23 @@ int GlbFile::accessor(const void* data, std::size_t bytes, std::size_t count, in
 
 int GlbFile::positions(std::span<const sim::Vec3f> data) {
   const int index = vertices(data, TINYGLTF_COMPONENT_TYPE_FLOAT, TINYGLTF_TYPE_VEC3);
-  sim::Vec3f low = data[0], high = data[0];
-  for (const sim::Vec3f p : data) {
-    low = glm::min(low, p);
-    high = glm::max(high, p);
-  }
-  model_.accessors.back().minValues = {low.x, low.y, low.z};
-  model_.accessors.back().maxValues = {high.x, high.y, high.z};
+  setExtent(model_.accessors.back(), data, [](const sim::Vec3f& p, int axis) { return p[axis]; });
   return index;
+}
+
+int GlbFile::positions(std::span<const std::array<std::uint16_t, 4>> data) {
+  const int index = vertices(data, TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT, TINYGLTF_TYPE_VEC3);
+  setExtent(model_.accessors.back(), data,
+            [](const auto& p, int axis) { return p[static_cast<std::size_t>(axis)]; });
+  return index;
+}
+
+void GlbFile::require(const std::string& extension) {
+  std::vector<std::string>& required = model_.extensionsRequired;
+  if (std::find(required.begin(), required.end(), extension) != required.end()) return;
+  required.push_back(extension);
+  std::sort(required.begin(), required.end());
+  model_.extensionsUsed = required;
 }
 
 int GlbFile::uvs(std::span<const glm::vec2> data, bool coarse) {
@@ -106,17 +131,18 @@ int GlbFile::uvs(std::span<const glm::vec2> data, bool coarse) {
   return vertices<glm::vec2>(turned, TINYGLTF_COMPONENT_TYPE_FLOAT, TINYGLTF_TYPE_VEC2);
 }
 
-int GlbFile::indices(std::span<const std::array<std::uint32_t, 3>> triangles, std::size_t vertices) {
+int GlbFile::indices(std::span<const std::array<std::uint32_t, 3>> triangles, std::size_t vertices,
+                     std::size_t first) {
   const std::size_t count = 3 * triangles.size();
-  // The greatest number of each kind is not an index: it restarts strips.
-  if (vertices > std::numeric_limits<std::uint16_t>::max()) {
+  if (vertices > kMostShort) {
+    if (first != 0) throw sim::BrokenContract("parts of a mesh have indices of 16 bits");
     return accessor(triangles.data(), triangles.size_bytes(), count, TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT,
                     TINYGLTF_TYPE_SCALAR, TINYGLTF_TARGET_ELEMENT_ARRAY_BUFFER, false);
   }
   std::vector<std::uint16_t> corners;
   corners.reserve(count);
   for (const auto& triangle : triangles) {
-    for (const std::uint32_t corner : triangle) corners.push_back(static_cast<std::uint16_t>(corner));
+    for (const std::uint32_t corner : triangle) corners.push_back(static_cast<std::uint16_t>(corner - first));
   }
   return accessor(corners.data(), 2 * count, count, TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT,
                   TINYGLTF_TYPE_SCALAR, TINYGLTF_TARGET_ELEMENT_ARRAY_BUFFER, false);

@@ -15,14 +15,17 @@
 
 namespace espalier::render {
 
+/// Vertices that 16 bits can name: the greatest number is not an index, it restarts strips.
+inline constexpr std::size_t kMostShort = 65535;
+
 /// A .glb file while it is made: its buffer, and what its JSON says of that. Without a stream it measures
 /// alone: the sizes stand before the data in the file.
 class GlbFile {
  public:
   GlbFile(const sim::Provenance& made_by, std::ostream* buffer);
 
-  /// Adds an accessor of the data, tightly packed. Elements of vertices have multiples of 4 bytes, as glTF
-  /// wants them.
+  /// Adds an accessor of the data. Elements of vertices have multiples of 4 bytes, as glTF wants them: of
+  /// what is longer than its type the rest is not looked at.
   template <class T>
   int vertices(std::span<const T> data, int component_type, int type, bool normalized = false) {
     static_assert(sizeof(T) % 4 == 0);
@@ -31,6 +34,8 @@ class GlbFile {
   }
   /// A VEC3 of places, whose box glTF wants to know.
   int positions(std::span<const sim::Vec3f> data);
+  /// The same in whole numbers, of which the fourth is not looked at: needs KHR_mesh_quantization.
+  int positions(std::span<const std::array<std::uint16_t, 4>> data);
   /// A number each.
   int numbers(std::span<const float> data) {
     return vertices(data, TINYGLTF_COMPONENT_TYPE_FLOAT, TINYGLTF_TYPE_SCALAR);
@@ -47,8 +52,11 @@ class GlbFile {
   int instances(std::span<const T> data, int component_type, int type, bool normalized = false) {
     return accessor(data.data(), data.size_bytes(), data.size(), component_type, type, 0, normalized);
   }
-  /// In 16 bits each where there are no more than 65535 vertices.
-  int indices(std::span<const std::array<std::uint32_t, 3>> triangles, std::size_t vertices);
+  /// From `first` on; in 16 bits each where there are no more than kMostShort vertices.
+  int indices(std::span<const std::array<std::uint32_t, 3>> triangles, std::size_t vertices,
+              std::size_t first = 0);
+  /// Readers that do not know an extension that is required refuse the file.
+  void require(const std::string& extension);
   /// Adds a buffer view of bytes as they are.
   int bytes(std::string_view data);
   /// Adds a node; without a mesh: -1.

@@ -43,9 +43,12 @@ int GltfInstances::node(const Instances& instances, const std::string& kind) {
   const int material = plantMaterial(materials_, instances.shape, kind, surface, 1.0f);
   const auto [mesh, is_new] = shapes_.try_emplace({hashOfPlaces(instances.shape), kind, material}, 0);
   if (is_new) {
-    tinygltf::Primitive primitive = shapeOf(file_, instances.shape, surface);
-    primitive.material = material;
-    mesh->second = addMesh(file_, kind, std::move(primitive));
+    std::vector<tinygltf::Primitive> primitives;
+    for (const MeshPart& part : partsOf(instances.shape)) {
+      primitives.push_back(shapeOf(file_, instances.shape, part, surface));
+      primitives.back().material = material;
+    }
+    mesh->second = addMesh(file_, kind, std::move(primitives));
   }
   const int node = file_.node(instances.shape.name, mesh->second);
 
@@ -75,7 +78,7 @@ int GltfInstances::node(const Instances& instances, const std::string& kind) {
   tinygltf::Value::Object extension{{"attributes", tinygltf::Value(std::move(attributes))}};
   file_.model().nodes[static_cast<std::size_t>(node)].extensions[kInstancing] =
       tinygltf::Value(std::move(extension));
-  file_.model().extensionsUsed = file_.model().extensionsRequired = {kInstancing};
+  file_.require(kInstancing);
   return node;
 }
 

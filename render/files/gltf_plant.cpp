@@ -8,33 +8,50 @@
 
 namespace espalier::render {
 
-int GltfPlants::surfaceNode(const ModelMesh& drawn, const std::string& material, PlantSurface kind) {
+int GltfPlants::surfaceNode(const ModelMesh& drawn, const std::string& material, PlantSurface kind,
+                            const std::optional<Steps>& steps) {
   const ModelMesh flat = kind == PlantSurface::blades ? withoutFlatNormals(drawn) : ModelMesh();
   const ModelMesh& mesh = flat.empty() ? drawn : flat;
-  tinygltf::Primitive primitive = shapeOf(file_, mesh, kind);
   float scale = 1.0f;
+  std::vector<Bytes4> tints;
   if (!mesh.tints.empty()) {
     float brightest = 0.0f;
     for (const sim::Colour tint : mesh.tints) brightest = std::max({brightest, tint.r, tint.g, tint.b});
     scale = tintScale(mesh, brightest);
-    std::vector<Bytes4> tints;
     tints.reserve(mesh.tints.size());
     for (const sim::Colour tint : mesh.tints) tints.push_back(bytesOf(tint, scale));
-    primitive.attributes["COLOR_0"] =
-        file_.vertices<Bytes4>(tints, TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE, TINYGLTF_TYPE_VEC4, true);
   }
   const std::vector<float> orders(mesh.orders.begin(), mesh.orders.end());
-  primitive.attributes["_EXPOSURE"] = file_.numbers(mesh.exposures);
-  primitive.attributes["_AGE"] = file_.numbers(mesh.youths);
-  primitive.attributes["_ORDER"] = file_.numbers(orders);
-  primitive.material = plantMaterial(materials_, mesh, material, kind, scale);
-  return file_.node(drawn.name, addMesh(file_, drawn.name, std::move(primitive)));
+  const int number = plantMaterial(materials_, mesh, material, kind, scale);
+  std::vector<tinygltf::Primitive> primitives;
+  for (const MeshPart& part : partsOf(mesh)) {
+    tinygltf::Primitive& primitive = primitives.emplace_back(shapeOf(file_, mesh, part, kind, steps));
+    if (!tints.empty()) {
+      primitive.attributes["COLOR_0"] =
+          file_.vertices(part.of(tints), TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE, TINYGLTF_TYPE_VEC4, true);
+    }
+    primitive.attributes["_EXPOSURE"] = file_.numbers(part.of(mesh.exposures));
+    primitive.attributes["_AGE"] = file_.numbers(part.of(mesh.youths));
+    primitive.attributes["_ORDER"] = file_.numbers(part.of(orders));
+    primitive.material = number;
+  }
+  const int node = file_.node(drawn.name, addMesh(file_, drawn.name, std::move(primitives)));
+  if (steps) {
+    tinygltf::Node& placed = file_.model().nodes[static_cast<std::size_t>(node)];
+    placed.translation = {steps->from_m.x, steps->from_m.y, steps->from_m.z};
+    placed.scale.assign(3, steps->step_m);
+    file_.require("KHR_mesh_quantization");
+  }
+  return node;
 }
 
 void GltfPlants::add(const PlantModel& plant) {
   std::vector<int> children;
   forEachSurface(plant, [&](const ModelMesh& mesh, const std::string& kind, PlantSurface surface) {
-    children.push_back(surfaceNode(mesh, kind, surface));
+    // Beside instances, which readers must know of anyway.
+    const bool smaller = surface == PlantSurface::stems && !plant.instances.empty();
+    const auto steps = smaller ? stepsOf(mesh, plant.thinnest_m) : std::nullopt;
+    children.push_back(surfaceNode(mesh, kind, surface, steps));
   });
   for (const Instances& instances : plant.instances)
     children.push_back(instances_.node(instances, kindOf(plant, instances.shape)));

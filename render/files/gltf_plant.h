@@ -1,6 +1,7 @@
 #pragma once
 // Internal to the wing.
 #include "render/files/gltf_instances.h"
+#include "render/files/gltf_surfaces.h"
 #include "render/files/surfaces.h"
 #include "render/model/plant_model.h"
 
@@ -17,7 +18,8 @@ class GltfPlants {
   void add(const PlantModel& plant);
 
  private:
-  int surfaceNode(const ModelMesh& drawn, const std::string& material, PlantSurface kind);
+  int surfaceNode(const ModelMesh& drawn, const std::string& material, PlantSurface kind,
+                  const std::optional<Steps>& steps);
 
   GlbFile& file_;
   GltfMaterials& materials_;

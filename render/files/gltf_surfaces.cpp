@@ -40,21 +40,93 @@ int plantMaterial(GltfMaterials& materials, const ModelMesh& mesh, const std::st
                       materials.textureOf(mesh.picture->name, mesh.picture->png, "image/png", {wrap, wrap}));
 }
 
-tinygltf::Primitive shapeOf(GlbFile& file, const ModelMesh& mesh, PlantSurface kind) {
+std::vector<MeshPart> partsOf(const ModelMesh& mesh) {
+  const std::size_t all = mesh.positions_m.size();
+  if (all <= kMostShort) return {{0, all, 0, mesh.triangles.size()}};
+  std::vector<MeshPart> parts;
+  std::size_t low = 0, high = 0, vertices = 0;  // of the last part; of all of them
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    const auto [least, most] = std::minmax_element(mesh.triangles[t].begin(), mesh.triangles[t].end());
+    if (parts.empty() ||
+        std::max<std::size_t>(high, *most) - std::min<std::size_t>(low, *least) >= kMostShort) {
+      parts.push_back({*least, 0, t, 0});
+      low = *least;
+      high = *most;
+    }
+    vertices -= parts.back().vertices;
+    low = std::min<std::size_t>(low, *least);
+    high = std::max<std::size_t>(high, *most);
+    parts.back() = {low, high - low + 1, parts.back().first_triangle, t + 1 - parts.back().first_triangle};
+    vertices += parts.back().vertices;
+  }
+  const bool short_ones = std::all_of(parts.begin(), parts.end(),
+                                      [](const MeshPart& part) { return part.vertices <= kMostShort; });
+  if (!short_ones || vertices > all + all / 8) return {{0, all, 0, mesh.triangles.size()}};
+  return parts;
+}
+
+std::optional<Steps> stepsOf(const ModelMesh& mesh, double least_m) {
+  constexpr double kMostSteps = 65535.0, kSteps = 15.0;
+  sim::Vec3f low = mesh.positions_m[0], high = low;
+  for (const sim::Vec3f p : mesh.positions_m) {
+    low = glm::min(low, p);
+    high = glm::max(high, p);
+  }
+  const sim::Vec3 size = sim::Vec3(high) - sim::Vec3(low);
+  const double step_m = std::max({size.x, size.y, size.z}) / kMostSteps;
+  if (!(step_m > 0.0 && kSteps * step_m <= least_m)) return {};
+  return Steps{sim::Vec3(low), step_m};
+}
+
+namespace {
+
+int addPlaces(GlbFile& file, std::span<const sim::Vec3f> places_m, const Steps& steps) {
+  std::vector<std::array<std::uint16_t, 4>> shorts;
+  shorts.reserve(places_m.size());
+  for (const sim::Vec3f place : places_m) {
+    const sim::Vec3 at = (sim::Vec3(place) - steps.from_m) / steps.step_m;
+    const auto shortOf = [&](int axis) { return static_cast<std::uint16_t>(std::lround(at[axis])); };
+    shorts.push_back({shortOf(0), shortOf(1), shortOf(2), 0});
+  }
+  return file.positions(shorts);
+}
+
+int addNormalBytes(GlbFile& file, std::span<const sim::Vec3f> normals) {
+  std::vector<std::array<std::int8_t, 4>> bytes;
+  bytes.reserve(normals.size());
+  for (const sim::Vec3f normal : normals) {
+    const auto signedByteOf = [&](int axis) {
+      return static_cast<std::int8_t>(std::lround(127.0f * normal[axis]));
+    };
+    bytes.push_back({signedByteOf(0), signedByteOf(1), signedByteOf(2), 0});
+  }
+  return file.vertices<std::array<std::int8_t, 4>>(bytes, TINYGLTF_COMPONENT_TYPE_BYTE, TINYGLTF_TYPE_VEC3,
+                                                   true);
+}
+
+}  // namespace
+
+tinygltf::Primitive shapeOf(GlbFile& file, const ModelMesh& mesh, const MeshPart& part, PlantSurface kind,
+                            const std::optional<Steps>& steps) {
   tinygltf::Primitive primitive;
   primitive.mode = TINYGLTF_MODE_TRIANGLES;
-  primitive.attributes["POSITION"] = file.positions(mesh.positions_m);
-  if (!mesh.normals.empty()) primitive.attributes["NORMAL"] = file.normals(mesh.normals);
+  const auto places = part.of(mesh.positions_m);
+  primitive.attributes["POSITION"] = steps ? addPlaces(file, places, *steps) : file.positions(places);
+  if (!mesh.normals.empty()) {
+    const auto normals = part.of(mesh.normals);
+    primitive.attributes["NORMAL"] = steps ? addNormalBytes(file, normals) : file.normals(normals);
+  }
   if (kind != PlantSurface::stalks)  // nothing is laid on those
-    primitive.attributes["TEXCOORD_0"] = file.uvs(mesh.uvs, kind == PlantSurface::blades);
-  primitive.indices = file.indices(mesh.triangles, mesh.positions_m.size());
+    primitive.attributes["TEXCOORD_0"] = file.uvs(part.of(mesh.uvs), kind == PlantSurface::blades);
+  primitive.indices = file.indices(std::span(mesh.triangles).subspan(part.first_triangle, part.triangles),
+                                   part.vertices, part.first_vertex);
   return primitive;
 }
 
-int addMesh(GlbFile& file, const std::string& name, tinygltf::Primitive primitive) {
+int addMesh(GlbFile& file, const std::string& name, std::vector<tinygltf::Primitive> primitives) {
   tinygltf::Mesh mesh;
   mesh.name = validUtf8(name);
-  mesh.primitives.push_back(std::move(primitive));
+  mesh.primitives = std::move(primitives);
   file.model().meshes.push_back(std::move(mesh));
   return sizeOf(file.model().meshes) - 1;
 }

@@ -2,6 +2,8 @@
 // Internal to the wing.
 #include <array>
 #include <cstdint>
+#include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -28,10 +30,36 @@ Bytes4 bytesOf(sim::Colour tint, float scale);
 int plantMaterial(GltfMaterials& materials, const ModelMesh& mesh, const std::string& name, PlantSurface kind,
                   float scale);
 
-/// Places, normals where there are some, UVs and triangles.
-tinygltf::Primitive shapeOf(GlbFile& file, const ModelMesh& mesh, PlantSurface kind);
+/// Vertices and triangles of a mesh that follow each other.
+struct MeshPart {
+  std::size_t first_vertex = 0, vertices = 0, first_triangle = 0, triangles = 0;
 
-/// Adds a mesh of one primitive; its number.
-int addMesh(GlbFile& file, const std::string& name, tinygltf::Primitive primitive);
+  /// What a part has of what all vertices have.
+  template <class T>
+  std::span<const T> of(const std::vector<T>& values) const {
+    return std::span(values).subspan(first_vertex, vertices);
+  }
+};
+
+/// Parts of at most kMostShort vertices each, where triangles that follow each other have vertices that do;
+/// some may be in two parts. Else the whole.
+std::vector<MeshPart> partsOf(const ModelMesh& mesh);
+
+/// Places as so many steps from a corner, 0 .. 65535 each way.
+struct Steps {
+  sim::Vec3 from_m{0.0};
+  double step_m = 0.0;
+};
+/// Those in which a mesh's places are off by a thirtieth of `least_m` at most each way; nothing where 16 bits
+/// are not enough for that.
+std::optional<Steps> stepsOf(const ModelMesh& mesh, double least_m);
+
+/// Places, normals where there are some, UVs and triangles. In steps places take 8 bytes in place of 12, and
+/// normals 4.
+tinygltf::Primitive shapeOf(GlbFile& file, const ModelMesh& mesh, const MeshPart& part, PlantSurface kind,
+                            const std::optional<Steps>& steps = {});
+
+/// Adds a mesh; its number.
+int addMesh(GlbFile& file, const std::string& name, std::vector<tinygltf::Primitive> primitives);
 
 }  // namespace espalier::render

@@ -62,7 +62,7 @@ struct Fragment {
 class Painter {
  public:
   Painter(const FinishedScene& scene, const Camera& camera, int width, int height)
-      : rays_(scene.model),
+      : rays_(scene.model, scene.pictures),
         sky_(scene.frame, *scene.occupied, *scene.sky),
         ground_(groundOf(scene.model.meshes, scene.frame.voxel_m)),
         camera_(camera, static_cast<double>(width) / height),
@@ -141,8 +141,7 @@ void Painter::meet(const SurfaceHit& hit, Vec3f direction, Fragment& f) const {
   f.flat = glm::dot(hit.normal, direction) > 0.0f ? -hit.normal : hit.normal;
   f.normal = f.flat;
   if (surface.kind == SurfaceKind::scene) {
-    const sim::Mesh& mesh = *surface.mesh;
-    f.look = stoneLook(noise_, mesh.materials[mesh.material[hit.triangle]].colour, f.p_m);
+    f.look = sceneLook(noise_, surface, hit, f.p_m, pixel_ * hit.distance_m);
     return;
   }
   const ModelMesh& mesh = *surface.model;

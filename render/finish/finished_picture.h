@@ -1,5 +1,6 @@
 #pragma once
 #include "render/files/gltf.h"
+#include "render/finish/ray_scene.h"
 #include "render/image/camera.h"
 #include "render/image/image.h"
 #include "sim/base/bits.h"
@@ -11,6 +12,7 @@ namespace espalier::render {
 /// What the finished picture is made of. Borrowed: everything must outlive the call.
 struct FinishedScene {
   ModelScene model;
+  KnownPictures pictures;  ///< of textures of the model's meshes: the others are in their materials' colours
   sim::Frame frame;
   const sim::BitVolume* occupied = nullptr;  ///< scene and plants, as tiled
   const sim::ExposureField* sky = nullptr;   ///< sky_exposure of every free voxel

@@ -16,14 +16,25 @@ auto atHit(const Data& data, const std::array<std::uint32_t, 3>& t, const Surfac
 }
 
 /// How much of a picture's height a metre spans on a triangle: 0 where it spans none.
-float picturePerMetre(const ModelMesh& mesh, const std::array<std::uint32_t, 3>& t) {
+template <class Place>
+float picturePerMetre(const std::vector<Place>& places_m, const std::vector<glm::vec2>& uvs,
+                      const std::array<std::uint32_t, 3>& t) {
   float most = 0.0f;
   for (std::size_t i = 0; i < 3; ++i) {
     const std::uint32_t a = t[i], b = t[(i + 1) % 3];
-    const float length = glm::distance(mesh.positions_m[a], mesh.positions_m[b]);
-    if (length > 0.0f) most = std::max(most, std::abs(mesh.uvs[a].y - mesh.uvs[b].y) / length);
+    const auto length = static_cast<float>(glm::distance(places_m[a], places_m[b]));
+    if (length > 0.0f) most = std::max(most, std::abs(uvs[a].y - uvs[b].y) / length);
   }
   return most;
+}
+
+/// Masonry.
+Look stoneLook(const Noise& noise, Colour base, Vec3f p_m) {
+  const float stain = noise(p_m * 2.3f) + 0.5f * noise(p_m * 7.1f);
+  const float grain = noise(p_m * 61.0f);
+  const float value = 1.0f + 0.10f * stain + 0.07f * grain;
+  const Colour warmth(1.0f + 0.03f * stain, 1.0f, 1.0f - 0.04f * stain);
+  return {glm::clamp(base * value * warmth, 0.0f, 1.0f), Colour(0.0f), 0.0f};
 }
 
 /// What shines through a blade: leaves let yellow light through, petals their own colour.
@@ -35,12 +46,15 @@ Colour throughBlade(Colour albedo) {
 
 }  // namespace
 
-Look stoneLook(const Noise& noise, Colour base, Vec3f p_m) {
-  const float stain = noise(p_m * 2.3f) + 0.5f * noise(p_m * 7.1f);
-  const float grain = noise(p_m * 61.0f);
-  const float value = 1.0f + 0.10f * stain + 0.07f * grain;
-  const Colour warmth(1.0f + 0.03f * stain, 1.0f, 1.0f - 0.04f * stain);
-  return {glm::clamp(base * value * warmth, 0.0f, 1.0f), Colour(0.0f), 0.0f};
+Look sceneLook(const Noise& noise, const Surface& surface, const SurfaceHit& hit, Vec3f p_m, float pixel_m) {
+  const sim::Mesh& mesh = *surface.mesh;
+  const std::uint32_t material = mesh.material[hit.triangle];
+  const Colour base = mesh.materials[material].colour;
+  const PictureTexture* const texture = surface.textures.empty() ? nullptr : surface.textures[material];
+  if (texture == nullptr) return stoneLook(noise, base, p_m);
+  const auto& t = mesh.triangles[hit.triangle];
+  const float span = pixel_m * picturePerMetre(mesh.vertices_m, mesh.uvs, t);
+  return {glm::clamp(base * texture->colour(atHit(mesh.uvs, t, hit), span), 0.0f, 1.0f), Colour(0.0f), 0.0f};
 }
 
 Look groundLook(const Noise& noise, Colour base, Vec3f p_m) {
@@ -56,7 +70,8 @@ Look barkLook(const Noise& noise, const Surface& stem, const SurfaceHit& hit, Ve
   Colour bark = mesh.base_colour;
   float streak = 1.0f;
   if (stem.texture != nullptr) {
-    bark = stem.texture->colour(atHit(mesh.uvs, t, hit), pixel_m * picturePerMetre(mesh, t));
+    bark = stem.texture->colour(atHit(mesh.uvs, t, hit),
+                                pixel_m * picturePerMetre(mesh.positions_m, mesh.uvs, t));
   } else {
     streak += 0.25f * noise(Vec3f(p_m.x * 180.0f, p_m.y * 40.0f, p_m.z * 180.0f));
   }
@@ -70,7 +85,7 @@ Look bladeLook(const Surface& blade, const SurfaceHit& hit, float pixel_m) {
   const Colour tint = mesh.tints.empty() ? Colour(1.0f) : mesh.tints[t[0]];
   Colour albedo;
   if (blade.texture != nullptr) {
-    albedo = tint * blade.texture->colour(uv, pixel_m * picturePerMetre(mesh, t));
+    albedo = tint * blade.texture->colour(uv, pixel_m * picturePerMetre(mesh.positions_m, mesh.uvs, t));
   } else {
     albedo = tint * mesh.base_colour;
     const float rib = std::clamp(1.0f - std::abs(uv.x - 0.5f) / 0.05f, 0.0f, 1.0f);

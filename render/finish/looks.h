@@ -12,8 +12,10 @@ struct Look {
   float gloss = 0.0f;         ///< strength of the waxy sheen
 };
 
-/// Masonry: the material's colour, weathered a little.
-Look stoneLook(const Noise& noise, sim::Colour base, sim::Vec3f p_m);
+/// A scene's surface: by its texture where it has one, else in its material's colour, weathered a little. p
+/// in metres. `pixel_m`: how much of it a pixel spans.
+Look sceneLook(const Noise& noise, const Surface& surface, const SurfaceHit& hit, sim::Vec3f p_m,
+               float pixel_m);
 /// The ground that carries on, calm: grain and the faintest of stains.
 Look groundLook(const Noise& noise, sim::Colour base, sim::Vec3f p_m);
 /// Bark by its picture, else in its colour with a few streaks; greener towards young ends. p in metres.

@@ -63,17 +63,33 @@ struct RayScene::Device {
   }
 };
 
-RayScene::RayScene(const ModelScene& scene)
+void RayScene::addTextures(Surface& surface, const KnownPictures& pictures) {
+  constexpr int kMostSide = 1024;  // texels: as much as pictures of that size show
+  if (surface.mesh->uvs.empty()) return;
+  for (const sim::Material& material : surface.mesh->materials) {
+    const sim::Texture* const of = material.texture.get();
+    const auto picture = pictures.find(of);
+    const PictureTexture*& texture = surface.textures.emplace_back(nullptr);
+    if (of == nullptr || picture == pictures.end()) continue;
+    auto& made = scene_textures_[of];
+    if (!made) made = std::make_unique<const PictureTexture>(*picture->second, of->wrap, kMostSide);
+    texture = made.get();
+  }
+}
+
+RayScene::RayScene(const ModelScene& scene, const KnownPictures& pictures)
     : device_(std::make_unique<Device>()), surfaces_(std::make_unique<std::vector<Surface>>()) {
   for (const sim::Mesh* mesh : scene.meshes) {
-    if (!mesh->triangles.empty()) surfaces_->push_back({SurfaceKind::scene, mesh});
+    if (mesh->triangles.empty()) continue;
+    surfaces_->push_back({SurfaceKind::scene, mesh});
+    addTextures(surfaces_->back(), pictures);
   }
   const auto add = [&](const ModelMesh& mesh, SurfaceKind kind) {
     if (mesh.empty()) return;
     surfaces_->push_back({kind, nullptr, &mesh});
     if (!mesh.picture) return;
     auto& texture = textures_[mesh.picture.get()];
-    if (!texture) texture = std::make_unique<const LeafTexture>(*mesh.picture);
+    if (!texture) texture = std::make_unique<const PictureTexture>(*mesh.picture);
     surfaces_->back().texture = texture.get();
   };
   for (const PlantModel* plant : scene.plants) {

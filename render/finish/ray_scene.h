@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "render/files/gltf.h"
-#include "render/finish/leaf_texture.h"
+#include "render/finish/picture_texture.h"
 #include "sim/base/vec.h"
 
 namespace espalier::render {
@@ -31,10 +31,16 @@ enum class SurfaceKind { scene, stem, blade };
 /// What a hit's `surface` stands for: one of the two meshes.
 struct Surface {
   SurfaceKind kind = SurfaceKind::scene;
-  const sim::Mesh* mesh = nullptr;       ///< of a scene surface
-  const ModelMesh* model = nullptr;      ///< of stems and blades
-  const LeafTexture* texture = nullptr;  ///< of stems and blades with a picture
+  const sim::Mesh* mesh = nullptr;          ///< of a scene surface
+  const ModelMesh* model = nullptr;         ///< of stems and blades
+  const PictureTexture* texture = nullptr;  ///< of stems and blades with a picture
+  /// Of each of a scene surface's materials; null: it has none, or its picture is not known. Empty without
+  /// UVs.
+  std::vector<const PictureTexture*> textures = {};
 };
+
+/// What there is of scene meshes' textures as pictures.
+using KnownPictures = std::map<const sim::Texture*, std::shared_ptr<const sim::Picture>>;
 
 /// Of a triangle's three corners, each with its value, at barycentric weights of the second and third.
 template <class Data>
@@ -42,11 +48,11 @@ auto onTriangle(const Data& data, const std::array<std::uint32_t, 3>& t, float u
   return data[t[0]] * (1.0f - u - v) + data[t[1]] * u + data[t[2]] * v;
 }
 
-/// Meshes made ready for rays (Embree), blades cut out by their pictures. The scene is borrowed. Const
+/// Meshes made ready for rays (Embree), blades cut out by their pictures. All is borrowed. Const
 /// members may be called from any number of threads; answers depend on neither their number nor their order.
 class RayScene {
  public:
-  explicit RayScene(const ModelScene& scene);
+  explicit RayScene(const ModelScene& scene, const KnownPictures& pictures = {});
   RayScene(RayScene&&) noexcept;
   ~RayScene();
 
@@ -72,7 +78,10 @@ class RayScene {
  private:
   struct Device;
   std::unique_ptr<Device> device_;
-  std::map<const LeafPicture*, std::unique_ptr<const LeafTexture>> textures_;
+  void addTextures(Surface& surface, const KnownPictures& pictures);
+
+  std::map<const LeafPicture*, std::unique_ptr<const PictureTexture>> textures_;
+  std::map<const sim::Texture*, std::unique_ptr<const PictureTexture>> scene_textures_;
   std::unique_ptr<std::vector<Surface>> surfaces_;  // where Embree knows them
 };
 

@@ -33,6 +33,8 @@ struct Oiio {
   /// The first picture of a PNG's bytes; grey becomes three channels alike, and no alpha is opaque. Its size
   /// is judged before any pixel is read. On the calling thread alone.
   Texels (*read_png)(const std::string& bytes, int most_pixels, int most_side);
+  /// The same of a JPEG's.
+  Texels (*read_jpeg)(const std::string& bytes, int most_pixels, int most_side);
   /// Nothing where the font is not installed.
   std::optional<TextBox> (*text_box)(const std::string& ascii, int size_px, const char* font);
   /// Draws white letters into a picture of one channel.

@@ -50,20 +50,29 @@ std::string png(const Image& size, const std::uint8_t* pixels, const Metadata& t
   return encoded("png", spec, pixels, texts);
 }
 
-Texels readPng(const std::string& bytes, int most_pixels, int most_side) {
-  constexpr std::string_view kSignature("\x89PNG\r\n\x1a\n", 8);
-  if (!std::string_view(bytes).starts_with(kSignature)) throw sim::InputError("it is no PNG; expected one");
-  const std::unique_ptr<OIIO::ImageInput> in = OIIO::ImageInput::create("png");
-  if (!in) throw sim::InputError("OpenImageIO was built without png");
+/// `name`: as messages call it; `reader`: as OpenImageIO does.
+struct Format {
+  const char *name, *reader;
+  std::string_view signature;
+};
+
+Texels readAs(const Format& format, const std::string& bytes, int most_pixels, int most_side) {
+  if (!std::string_view(bytes).starts_with(format.signature))
+    throw sim::InputError(fmt::format("it is no {}; expected one", format.name));
+  const std::unique_ptr<OIIO::ImageInput> in = OIIO::ImageInput::create(format.reader);
+  if (!in || !in->supports("ioproxy"))
+    throw sim::InputError(fmt::format("OpenImageIO was built without {}", format.reader));
   OIIO::Filesystem::IOMemReader memory(bytes.data(), bytes.size());
   OIIO::ImageSpec wanted;
   wanted.attribute("oiio:UnassociatedAlpha", 1);
   in->threads(1);
   in->set_ioproxy(&memory);
   OIIO::ImageSpec spec;
-  if (!in->open("memory.png", spec, wanted))
-    throw sim::InputError(
-        fmt::format("the file is damaged or cut; expected a whole PNG ({})", in->geterror()));
+  const auto damaged = [&] {
+    return sim::InputError(
+        fmt::format("the file is damaged or cut; expected a whole {} ({})", format.name, in->geterror()));
+  };
+  if (!in->open(fmt::format("memory.{}", format.reader), spec, wanted)) throw damaged();
   if (spec.width < 1 || spec.height < 1 || spec.width > most_side || spec.height > most_side ||
       spec.width > most_pixels / spec.height)
     throw sim::InputError(fmt::format("it has {} x {} pixels; expected at most {} on a side and {} in all",
@@ -73,9 +82,7 @@ Texels readPng(const std::string& bytes, int most_pixels, int most_side) {
     throw sim::InputError(fmt::format("it has {} channels; expected 1 to 4", channels));
   const std::size_t pixels = static_cast<std::size_t>(spec.width) * static_cast<std::size_t>(spec.height);
   std::vector<std::uint8_t> read(pixels * channels);
-  if (!in->read_image(0, 0, 0, spec.nchannels, OIIO::TypeDesc::UINT8, read.data()))
-    throw sim::InputError(
-        fmt::format("the file is damaged or cut; expected a whole PNG ({})", in->geterror()));
+  if (!in->read_image(0, 0, 0, spec.nchannels, OIIO::TypeDesc::UINT8, read.data())) throw damaged();
   Texels texels{spec.width, spec.height, {}};
   texels.rgba.reserve(pixels);
   for (std::size_t i = 0; i < pixels; ++i) {
@@ -85,6 +92,14 @@ Texels readPng(const std::string& bytes, int most_pixels, int most_side) {
                            channels % 2 == 0 ? p[channels - 1] : std::uint8_t{255}});
   }
   return texels;
+}
+
+Texels readPng(const std::string& bytes, int most_pixels, int most_side) {
+  return readAs({"PNG", "png", {"\x89PNG\r\n\x1a\n", 8}}, bytes, most_pixels, most_side);
+}
+
+Texels readJpeg(const std::string& bytes, int most_pixels, int most_side) {
+  return readAs({"JPEG", "jpeg", {"\xff\xd8\xff", 3}}, bytes, most_pixels, most_side);
 }
 
 std::string exr(const Image& measured, const std::vector<std::string>& channels, const Metadata& texts) {
@@ -155,5 +170,6 @@ std::vector<sim::Colour> colourMap(const std::string& name, int entries) {
 
 extern "C" const espalier::render::Oiio espalierOiio;
 const espalier::render::Oiio espalierOiio{
-    espalier::render::png,  espalier::render::exr,   espalier::render::readPng, espalier::render::textBox,
-    espalier::render::text, espalier::render::paste, espalier::render::resize,  espalier::render::colourMap};
+    espalier::render::png,      espalier::render::exr,     espalier::render::readPng,
+    espalier::render::readJpeg, espalier::render::textBox, espalier::render::text,
+    espalier::render::paste,    espalier::render::resize,  espalier::render::colourMap};

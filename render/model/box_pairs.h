@@ -6,7 +6,6 @@
 #include <cstdint>
 #include <limits>
 #include <map>
-#include <mutex>
 #include <utility>
 #include <vector>
 
@@ -42,15 +41,21 @@ class Boxes {
     }
     cell_m_ = static_cast<float>(
         std::max({2.0 * extent / static_cast<double>(boxes_.size()), widest / 16.0, 1e-12}));
-    for (std::uint32_t i = 0; i < boxes_.size(); ++i) {
-      const auto from = cellOf(boxes_[i].low), to = cellOf(boxes_[i].high);
-      for (std::uint64_t z = from[2]; z <= to[2]; ++z) {
-        for (std::uint64_t y = from[1]; y <= to[1]; ++y) {
-          for (std::uint64_t x = from[0]; x <= to[0]; ++x) entries_.push_back({keyOf({x, y, z}), i});
-        }
-      }
-    }
-    std::sort(entries_.begin(), entries_.end());
+    // What parts of the boxes have in each bucket of cells is gathered by buckets.
+    constexpr std::size_t kPart = 8192;
+    std::vector<Buckets> parts((boxes_.size() + kPart - 1) / kPart);
+    sim::parallelForEach(parts.size(), [&](std::size_t part) {
+      const std::size_t end = std::min(boxes_.size(), (part + 1) * kPart);
+      for (std::size_t i = part * kPart; i < end; ++i) enter(static_cast<std::uint32_t>(i), parts[part]);
+    });
+    sim::parallelForEach(kBuckets, [&](std::size_t b) {
+      std::vector<Entry>& bucket = buckets_[b];
+      std::size_t size = 0;
+      for (const Buckets& part : parts) size += part[b].size();
+      bucket.reserve(size);
+      for (const Buckets& part : parts) bucket.insert(bucket.end(), part[b].begin(), part[b].end());
+      std::sort(bucket.begin(), bucket.end());
+    });
   }
 
   using Pieces = std::pair<std::uint32_t, std::uint32_t>;
@@ -58,19 +63,20 @@ class Boxes {
   /// `counts(a, b)`: of two boxes, in parallel; `piece(a)`: what a box belongs to.
   template <class Counts, class Piece>
   std::vector<PiecePairs> count(Counts counts, Piece piece) const {
-    std::map<Pieces, std::size_t> found;
-    std::mutex one_at_a_time;
-    sim::parallelFor(entries_.size(), [&](std::size_t begin, std::size_t end) {
-      std::map<Pieces, std::size_t> here;
-      for (std::size_t i = begin; i < end; ++i) {
-        for (std::size_t j = i + 1; j < entries_.size() && entries_[j].cell == entries_[i].cell; ++j) {
-          const std::uint32_t a = entries_[i].item, b = entries_[j].item;
-          if (met(a, b, entries_[i].cell) && counts(a, b)) ++here[std::minmax({piece(a), piece(b)})];
+    std::array<std::map<Pieces, std::size_t>, kBuckets> of_bucket;
+    sim::parallelForEach(kBuckets, [&](std::size_t b) {
+      const std::vector<Entry>& entries = buckets_[b];
+      for (std::size_t i = 0; i < entries.size(); ++i) {
+        for (std::size_t j = i + 1; j < entries.size() && entries[j].cell == entries[i].cell; ++j) {
+          const std::uint32_t one = entries[i].item, other = entries[j].item;
+          if (met(one, other, entries[i].cell) && counts(one, other))
+            ++of_bucket[b][std::minmax({piece(one), piece(other)})];
         }
       }
-      const std::lock_guard lock(one_at_a_time);  // sums of whole numbers: the order does not matter
-      for (const auto& [pieces, pairs] : here) found[pieces] += pairs;
     });
+    std::map<Pieces, std::size_t> found;
+    for (const auto& here : of_bucket)
+      for (const auto& [pieces, pairs] : here) found[pieces] += pairs;
     std::vector<PiecePairs> result;
     for (const auto& [pieces, pairs] : found) result.push_back({pieces.first, pieces.second, pairs});
     return result;
@@ -84,6 +90,23 @@ class Boxes {
 
     friend auto operator<=>(const Entry&, const Entry&) = default;
   };
+
+  static constexpr std::size_t kBuckets = 64;
+  using Buckets = std::array<std::vector<Entry>, kBuckets>;
+
+  /// Into the bucket of each cell that the box lies in.
+  void enter(std::uint32_t box, Buckets& buckets) const {
+    constexpr std::uint64_t kSpread = 0x9e3779b97f4a7c15u;  // an even mix of a cell's numbers (Knuth)
+    const auto from = cellOf(boxes_[box].low), to = cellOf(boxes_[box].high);
+    for (std::uint64_t z = from[2]; z <= to[2]; ++z) {
+      for (std::uint64_t y = from[1]; y <= to[1]; ++y) {
+        for (std::uint64_t x = from[0]; x <= to[0]; ++x) {
+          const std::uint64_t cell = keyOf({x, y, z});
+          buckets[cell * kSpread >> 58u].push_back({cell, box});
+        }
+      }
+    }
+  }
 
   std::array<std::uint64_t, 3> cellOf(sim::Vec3f p) const {
     std::array<std::uint64_t, 3> cell{};
@@ -107,7 +130,7 @@ class Boxes {
   std::vector<Box> boxes_;
   sim::Vec3f low_{std::numeric_limits<float>::max()};
   float cell_m_ = 1.0f;
-  std::vector<Entry> entries_;
+  Buckets buckets_;
 };
 
 }  // namespace espalier::render

@@ -17,7 +17,8 @@ Vec3 Collar::at(double turn, double share) const {
   const glm::dvec2 circle = sim::unitCircle(turn / (2.0 * std::numbers::pi));
   const Section on_host = sectionAt(host_, foot_.arc_m + foot_.half_arc_m * circle.x);
   const double angle = foot_.angle - foot_.half_angle * circle.y;
-  const Vec3 out = on_host.out(angle), from = on_host.surface(angle), to = ring_.surface(turn);
+  const Vec3 out = on_host.out(angle), from = on_host.centre_m + on_host.radius_m * out,
+             to = ring_.surface(turn);
   const double wide = glm::distance(middle_, from);
   const double flare = std::clamp(2.0 * (wide - ring_.radius_m) / std::max(wide, 1e-12), 0.0, kMostFlare);
   const Vec3 third = (to - from) / 3.0;

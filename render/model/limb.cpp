@@ -15,6 +15,19 @@ constexpr double kThin = 0.15;   // errors: a radius that hardly shows
 constexpr double kFlat = 0.85;   // errors that a ring's sides may be off ..
 constexpr double kRound = 0.04;  // .. or radii: what shows in no picture
 
+/// A stretch between two stations, and how much of it lies before a place.
+struct Place {
+  std::size_t stretch;
+  double share;
+};
+
+Place placeOn(const Limb& limb, double arc_m) {
+  const std::vector<double>& arcs = limb.arcs_m;
+  const auto above = std::upper_bound(arcs.begin() + 1, arcs.end() - 1, arc_m);
+  const auto i = static_cast<std::size_t>(above - arcs.begin()) - 1;
+  return {i, std::clamp((arc_m - arcs[i]) / (arcs[i + 1] - arcs[i]), 0.0, 1.0)};
+}
+
 NearLine onStretch(const Limb& limb, std::size_t stretch, Vec3 p) {
   const TubeStation &a = limb.line[stretch], &b = limb.line[stretch + 1];
   const Vec3 step = b.centre_m - a.centre_m;
@@ -56,17 +69,22 @@ Vec3 Section::out(double angle) const {
   return circle.x * frame.across + circle.y * frame.up;
 }
 
+TubeStation mixed(const TubeStation& a, const TubeStation& b, double share) {
+  const auto part = static_cast<float>(share);
+  return {glm::mix(a.centre_m, b.centre_m, share), glm::mix(a.radius_m, b.radius_m, share),
+          glm::mix(a.exposure, b.exposure, part), glm::mix(a.youth, b.youth, part)};
+}
+
+TubeStation stationOn(const Limb& limb, double arc_m) {
+  const auto [i, share] = placeOn(limb, arc_m);
+  return mixed(limb.line[i], limb.line[i + 1], share);
+}
+
 Section sectionAt(const Limb& limb, double arc_m) {
-  const auto above = std::upper_bound(limb.arcs_m.begin() + 1, limb.arcs_m.end() - 1, arc_m);
-  const auto i = static_cast<std::size_t>(above - limb.arcs_m.begin()) - 1;
-  const double share = std::clamp((arc_m - limb.arcs_m[i]) / (limb.arcs_m[i + 1] - limb.arcs_m[i]), 0.0, 1.0);
-  const TubeStation &a = limb.line[i], &b = limb.line[i + 1];
+  const auto [i, share] = placeOn(limb, arc_m);
   const TubeFrame &f = limb.frames[i], &g = limb.frames[i + 1];
-  Section section;
-  section.centre_m = glm::mix(a.centre_m, b.centre_m, share);
-  section.radius_m = glm::mix(a.radius_m, b.radius_m, share);
-  section.exposure = glm::mix(a.exposure, b.exposure, static_cast<float>(share));
-  section.youth = glm::mix(a.youth, b.youth, static_cast<float>(share));
+  const TubeStation station = mixed(limb.line[i], limb.line[i + 1], share);
+  Section section{station.centre_m, station.radius_m, {}, station.exposure, station.youth};
   if (share == 0.0 || share == 1.0) {
     section.frame = share == 0.0 ? f : g;
     return section;

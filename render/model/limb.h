@@ -41,6 +41,10 @@ struct Section {
   sim::Vec3 surface(double angle) const { return centre_m + radius_m * out(angle); }
 };
 Section sectionAt(const Limb& limb, double arc_m);
+/// A station between two.
+TubeStation mixed(const TubeStation& a, const TubeStation& b, double share);
+/// A cross-section without its axes.
+TubeStation stationOn(const Limb& limb, double arc_m);
 
 /// The point of a limb's line next to another, from a stretch between two stations downhill.
 struct NearLine {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <optional>
 
 #include "sim/base/random.h"
 
@@ -27,26 +28,6 @@ std::pair<double, double> endsOf(const Foot& foot, double length) {
   return {middle - half, middle + half};
 }
 
-/// Leaves out stations' rings that are of no use beside those of feet.
-void leaveOut(std::vector<double>& arcs, const Limb& limb, std::span<const Foot> standing) {
-  constexpr double kThinner = 0.1;  // of the radius
-  if (standing.empty()) return;
-  std::size_t kept = 0;
-  Section before = sectionAt(limb, arcs[0]);
-  for (std::size_t i = 1; i + 1 < arcs.size(); ++i) {
-    const Section here = sectionAt(limb, arcs[i]), next = sectionAt(limb, arcs[i + 1]);
-    const double share = (arcs[i] - arcs[kept]) / (arcs[i + 1] - arcs[kept]);
-    const bool a_station = std::binary_search(limb.arcs_m.begin(), limb.arcs_m.end(), arcs[i]);
-    const double off = glm::distance(here.centre_m, glm::mix(before.centre_m, next.centre_m, share));
-    const double thinner = std::abs(here.radius_m - glm::mix(before.radius_m, next.radius_m, share));
-    if (a_station && off < 0.5 * limb.off_m && thinner < kThinner * here.radius_m) continue;
-    arcs[++kept] = arcs[i];
-    before = here;
-  }
-  arcs[++kept] = arcs.back();
-  arcs.resize(kept + 1);
-}
-
 /// Rings at both ends of each foot, and at the stations between feet; in the middle of those feet that are
 /// worth it.
 std::vector<double> ringArcs(const Limb& limb, std::span<const Foot> standing, double error_m) {
@@ -54,10 +35,10 @@ std::vector<double> ringArcs(const Limb& limb, std::span<const Foot> standing, d
   std::vector<double> arcs = limb.arcs_m;
   for (const Foot& foot : standing) {
     const auto [low, high] = endsOf(foot, length);
-    const Vec3 from = sectionAt(limb, low).centre_m, step = sectionAt(limb, high).centre_m - from;
+    const Vec3 from = stationOn(limb, low).centre_m, step = stationOn(limb, high).centre_m - from;
     const auto straight = [&, first = low, last = high](double arc) {
       const Vec3 wanted = from + (arc - first) / (last - first) * step;
-      return glm::distance(sectionAt(limb, arc).centre_m, wanted) < 0.5 * limb.off_m;
+      return glm::distance(stationOn(limb, arc).centre_m, wanted) < 0.5 * limb.off_m;
     };
     const auto inner = std::upper_bound(arcs.begin() + 1, arcs.end() - 1, low);
     const auto outer = std::lower_bound(inner, arcs.end() - 1, high);
@@ -76,7 +57,6 @@ std::vector<double> ringArcs(const Limb& limb, std::span<const Foot> standing, d
     insert(high, kSameRing * half);
     if (half > kMiddle * error_m) insert(low + half, 0.7 * half);
   }
-  leaveOut(arcs, limb, standing);
   return arcs;
 }
 
@@ -180,8 +160,6 @@ class Places {
   std::vector<bool> taken_;
 };
 
-enum class Room { all, elsewhere, none };
-
 /// Twice as many rows.
 void refine(std::vector<double>& arcs) {
   std::vector<double> finer;
@@ -193,8 +171,8 @@ void refine(std::vector<double>& arcs) {
   arcs = std::move(finer);
 }
 
-/// Whether all feet have found room, and where they wished for it.
-Room place(LimbGrid& grid, std::span<const Foot> standing) {
+/// How many feet stand elsewhere than they wished to; nothing where one has found no room at all.
+std::optional<std::size_t> place(LimbGrid& grid, std::span<const Foot> standing) {
   Places places(grid.sides, grid.arcs_m.size());
   std::vector<std::size_t> order(standing.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
@@ -203,7 +181,7 @@ Room place(LimbGrid& grid, std::span<const Foot> standing) {
   });
   const double side = 2.0 * kPi / grid.sides;
   const int most = std::max(1, grid.sides - 2);
-  Room room = Room::all;
+  std::size_t elsewhere = 0;
   grid.patches.assign(standing.size(), {});
   for (const std::size_t i : order) {
     const Foot& foot = standing[i];
@@ -217,12 +195,12 @@ Room place(LimbGrid& grid, std::span<const Foot> standing) {
     patch.row = std::min(nearest(grid.arcs_m, low), rings - 2);
     patch.rows = std::max(nearest(grid.arcs_m, high) - patch.row, 1);
     if (!places.free(patch)) {
-      if (!places.findRoom(patch)) return Room::none;
-      room = Room::elsewhere;
+      if (!places.findRoom(patch)) return {};
+      ++elsewhere;
     }
     places.take(patch);
   }
-  return room;
+  return elsewhere;
 }
 
 /// Puts a foot where its patch is, and no wider than the patch and a part of the quads around it.
@@ -247,12 +225,13 @@ void fit(Patch& patch, const LimbGrid& grid) {
   within(patch.foot.arc_m, patch.foot.half_arc_m, grid.arcs_m[row] - below, grid.arcs_m[end] + above);
 }
 
-}  // namespace
-
 Rim rimOf(const Patch& patch) {
   Rim rim;
   const int m = patch.rows, k = patch.columns, count = 2 * (m + k);
   std::vector<std::pair<int, int>> around;  // (row, column) in the patch, from its far right corner on
+  around.reserve(static_cast<std::size_t>(count));
+  rim.corners.reserve(around.capacity());
+  rim.turns.reserve(around.capacity());
   for (int c = k; c > 0; --c) around.emplace_back(m, c);
   for (int r = m; r > 0; --r) around.emplace_back(r, 0);
   for (int c = 0; c < k; ++c) around.emplace_back(0, c);
@@ -269,6 +248,54 @@ Rim rimOf(const Patch& patch) {
   return rim;
 }
 
+/// Which rings a limb's shape needs whole: between them it is straight, as far as its stations say. The first
+/// and the last among them.
+std::vector<bool> neededWhole(const Limb& limb, const std::vector<double>& arcs) {
+  constexpr double kOffStraight = 0.1;  // of what lines may be off
+  constexpr double kThicker = 0.02;     // of radii
+  const auto straight = [&](double low, double high) {
+    const TubeStation from = stationOn(limb, low), to = stationOn(limb, high);
+    const auto fits = [&](const TubeStation& station, double arc) {
+      const TubeStation wanted = mixed(from, to, (arc - low) / (high - low));
+      return glm::distance(station.centre_m, wanted.centre_m) < kOffStraight * limb.off_m &&
+             std::abs(station.radius_m - wanted.radius_m) < kThicker * station.radius_m;
+    };
+    const auto first = std::upper_bound(limb.arcs_m.begin(), limb.arcs_m.end(), low);
+    for (auto arc = first; arc != limb.arcs_m.end() && *arc < high; ++arc)
+      if (!fits(limb.line[static_cast<std::size_t>(arc - limb.arcs_m.begin())], *arc)) return false;
+    return true;
+  };
+  std::vector<bool> whole(arcs.size(), false);
+  whole.front() = whole.back() = true;
+  for (std::size_t r = 1, last = 0; r + 1 < arcs.size(); ++r) {
+    if (straight(arcs[last], arcs[r + 1])) continue;
+    whole[r] = true;
+    last = r;
+  }
+  return whole;
+}
+
+void leaveOutBesideRims(LimbGrid& grid, const Limb& limb) {
+  if (grid.patches.empty()) return;
+  const std::vector<bool> whole = neededWhole(limb, grid.arcs_m);
+  const auto inside = static_cast<std::ptrdiff_t>(grid.absent.size());
+  auto rim = grid.rim.begin();
+  for (std::size_t r = 0; r < whole.size(); ++r) {
+    if (whole[r]) continue;
+    for (int c = 0; c < grid.sides; ++c) {
+      const std::uint32_t corner = grid.corner(static_cast<int>(r), c);
+      while (rim != grid.rim.end() && rim->corner < corner) ++rim;
+      if (rim != grid.rim.end() && rim->corner == corner) continue;
+      if (!std::binary_search(grid.absent.begin(), grid.absent.begin() + inside, corner))
+        grid.absent.push_back(corner);
+    }
+  }
+  grid.left_out = grid.absent.size() - static_cast<std::size_t>(inside);
+  std::inplace_merge(grid.absent.begin(), grid.absent.begin() + inside, grid.absent.end());
+}
+
+}  // namespace
+
 Vec3 onRim(const Limb& host, const Foot& foot, double turn) {
   const glm::dvec2 circle = sim::unitCircle(turn / (2.0 * kPi));
   return sectionAt(host, foot.arc_m + foot.half_arc_m * circle.x)
@@ -282,25 +309,33 @@ LimbGrid gridOf(const Limb& limb, std::span<const Foot> standing, double error_m
   part(feet);
   grid.arcs_m = ringArcs(limb, feet, error_m);
   const bool fine = limb.line.front().radius_m > kFine * error_m;
-  for (Room room; (room = place(grid, feet)) != Room::all;) {
-    if (fine && 2 * grid.sides <= std::min(kMostSides, 4 * limb.sides)) {
+  const int most_sides = fine ? std::min(kMostSides, 4 * limb.sides) : limb.sides;
+  std::optional<std::size_t> elsewhere;
+  while (!(elsewhere = place(grid, feet))) {
+    if (2 * grid.sides <= most_sides) {
       grid.sides *= 2;
-    } else if (room == Room::elsewhere) {
-      break;
     } else {
       refine(grid.arcs_m);
     }
   }
+  for (LimbGrid finer = grid; *elsewhere > 0 && 2 * finer.sides <= most_sides;) {
+    finer.sides *= 2;
+    const std::optional<std::size_t> then = place(finer, feet);
+    if (!then || *then >= *elsewhere) continue;
+    elsewhere = then;
+    grid = finer;
+  }
 
   const double side = 2.0 * kPi / grid.sides;
   std::vector<RimPoint> wishes;
+  grid.rims.reserve(grid.patches.size());
   for (Patch& patch : grid.patches) {
     fit(patch, grid);
     for (int r = 1; r < patch.rows; ++r) {
       for (int c = 1; c < patch.columns; ++c)
-        grid.inside.push_back(grid.corner(patch.row + r, patch.column + c));
+        grid.absent.push_back(grid.corner(patch.row + r, patch.column + c));
     }
-    const Rim rim = rimOf(patch);
+    const Rim& rim = grid.rims.emplace_back(rimOf(patch));
     for (std::size_t k = 0; k < rim.corners.size(); ++k) {
       const auto [ring, column] = rim.corners[k];
       const glm::dvec2 turn = sim::unitCircle(rim.turns[k] / (2.0 * kPi));
@@ -311,7 +346,7 @@ LimbGrid gridOf(const Limb& limb, std::span<const Foot> standing, double error_m
           {grid.corner(ring, column), patch.foot.arc_m + patch.foot.half_arc_m * turn.x, own + away, {}});
     }
   }
-  std::sort(grid.inside.begin(), grid.inside.end());
+  std::sort(grid.absent.begin(), grid.absent.end());
   std::stable_sort(wishes.begin(), wishes.end(),
                    [](const RimPoint& a, const RimPoint& b) { return a.corner < b.corner; });
   // Where rims meet, their corners lie half way between what they wish for.
@@ -326,12 +361,13 @@ LimbGrid gridOf(const Limb& limb, std::span<const Foot> standing, double error_m
     point.at_m = sectionAt(limb, point.arc_m).surface(point.angle);
     grid.rim.push_back(point);
   }
+  leaveOutBesideRims(grid, limb);
   return grid;
 }
 
 std::uint32_t LimbGrid::pointOf(std::uint32_t corner) const {
   return corner -
-         static_cast<std::uint32_t>(std::lower_bound(inside.begin(), inside.end(), corner) - inside.begin());
+         static_cast<std::uint32_t>(std::lower_bound(absent.begin(), absent.end(), corner) - absent.begin());
 }
 
 const RimPoint& LimbGrid::rimPoint(std::uint32_t corner) const {

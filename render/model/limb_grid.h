@@ -21,21 +21,32 @@ struct RimPoint {
   sim::Vec3 at_m{0.0};
 };
 
+/// The corners of a patch's rim (ring, column), counter-clockwise seen from outside, from the middle of its
+/// far side on; and how far around the rim each is, radians.
+struct Rim {
+  std::vector<std::pair<int, int>> corners;
+  std::vector<double> turns;
+};
+
 /// A limb's surface between its first ring and its last: `sides` columns by rows of quads between rings, with
 /// a patch for each limb that stands on it. A sphere's topology follows from it, whatever the geometry:
 /// every patch is a disc, no two share a quad, and each is filled by a disc, the limb that stands there.
 struct LimbGrid {
   int sides = 0;
-  std::vector<double> arcs_m;         ///< of the rings
-  std::vector<Patch> patches;         ///< of each of the limbs that stand here, in their order
-  std::vector<RimPoint> rim;          ///< by their corners
-  std::vector<std::uint32_t> inside;  ///< corners inside of patches, which are no part of the surface
+  std::vector<double> arcs_m;  ///< of the rings
+  std::vector<Patch> patches;  ///< of each of the limbs that stand here, in their order
+  std::vector<Rim> rims;       ///< of each patch
+  std::vector<RimPoint> rim;   ///< by their corners
+  /// Corners that are no part of the surface, for they are inside of patches or would change nothing: those
+  /// beside rims of rings between which the limb is straight.
+  std::vector<std::uint32_t> absent;
+  std::size_t left_out = 0;  ///< so many of these are not inside of patches
 
   std::uint32_t corner(int ring, int column) const {
     return static_cast<std::uint32_t>(ring * sides + column % sides);
   }
-  /// Points of the surface: corners but those inside of patches.
-  std::size_t points() const { return arcs_m.size() * static_cast<std::size_t>(sides) - inside.size(); }
+  /// Points of the surface: corners but those that are absent.
+  std::size_t points() const { return arcs_m.size() * static_cast<std::size_t>(sides) - absent.size(); }
   /// The number of a corner's point among them.
   std::uint32_t pointOf(std::uint32_t corner) const;
   /// Of a corner on a rim.
@@ -47,14 +58,6 @@ struct LimbGrid {
 /// given their place first, and one whose place is taken stands as near as it can.
 /// `error_m` as for limbsOf.
 LimbGrid gridOf(const Limb& limb, std::span<const Foot> standing, double error_m);
-
-/// The corners of a patch's rim (ring, column), counter-clockwise seen from outside, from the middle of its
-/// far side on; and how far around the rim each is, radians.
-struct Rim {
-  std::vector<std::pair<int, int>> corners;
-  std::vector<double> turns;
-};
-Rim rimOf(const Patch& patch);
 
 /// A place on a foot's rim: `turn` radians counter-clockwise seen from outside from its far end.
 sim::Vec3 onRim(const Limb& host, const Foot& foot, double turn);

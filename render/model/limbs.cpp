@@ -255,7 +255,7 @@ Vec3 Builder::footFor(Limb& limb, const Limb& host, const Leaving& leaving, Vec3
   const double exit_arc = arcOf(host, leaving.place), ring_arc = arcOf(host, leaving.cleared);
   const Section section = sectionAt(host, 0.5 * (exit_arc + ring_arc));
   const auto outOf = [&](Vec3 p, double arc) {
-    const Vec3 out = p - sectionAt(host, arc).centre_m;
+    const Vec3 out = p - stationOn(host, arc).centre_m;
     return out - glm::dot(out, section.frame.along) * section.frame.along;
   };
   Vec3 out = outOf(exit_m, exit_arc) + outOf(ring.centre_m, ring_arc);
@@ -314,7 +314,7 @@ void Builder::finish(Limb& limb, Vec3 across) const {
   limb.sides = sidesFor(typicalRadius(limb.line), error_m_);
   if (tapers(limb)) limb.line.back().radius_m *= kTipRadius;
   std::vector<bool> left_out(limb.line.size(), false);
-  keepRingsApart(limb.line, [&](std::size_t i) { left_out[i] = true; });
+  const std::vector<Vec3> along = keepRingsApart(limb.line, [&](std::size_t i) { left_out[i] = true; });
   std::size_t kept = 0;
   for (std::size_t i = 0; i < limb.params.size(); ++i) {
     if (!left_out[i]) limb.params[kept++] = limb.params[i];
@@ -324,7 +324,7 @@ void Builder::finish(Limb& limb, Vec3 across) const {
   for (std::size_t i = 1; i < limb.line.size(); ++i)
     limb.arcs_m.push_back(limb.arcs_m.back() +
                           glm::distance(limb.line[i].centre_m, limb.line[i - 1].centre_m));
-  limb.frames = rotationMinimizingFrames(limb.line, chordsOverThickness(limb.line), across);
+  limb.frames = rotationMinimizingFrames(limb.line, along, across);
   for (TubeStation& station : limb.line) station.radius_m *= widening(limb.sides);
 }
 

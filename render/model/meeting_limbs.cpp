@@ -54,17 +54,22 @@ bool meet(const std::vector<Limb>& limbs, Stretch p, Stretch q) {
 }  // namespace
 
 std::size_t meetingLimbs(const std::vector<Limb>& limbs) {
-  std::vector<Stretch> stretches;
-  std::vector<Box> boxes;
-  for (std::size_t l = 0; l < limbs.size(); ++l) {
-    for (std::size_t i = 0; i + 1 < limbs[l].line.size(); ++i) {
-      const TubeStation &a = limbs[l].line[i], &b = limbs[l].line[i + 1];
-      const Vec3 thick(std::max(a.radius_m, b.radius_m));
-      stretches.push_back({static_cast<std::uint32_t>(l), static_cast<std::uint32_t>(i)});
-      boxes.push_back(
-          {Vec3f(glm::min(a.centre_m, b.centre_m) - thick), Vec3f(glm::max(a.centre_m, b.centre_m) + thick)});
+  std::vector<std::size_t> begins{0};  // of each limb's stretches
+  for (const Limb& limb : limbs)
+    begins.push_back(begins.back() + std::max<std::size_t>(limb.line.size(), 1) - 1);
+  std::vector<Stretch> stretches(begins.back());
+  std::vector<Box> boxes(begins.back());
+  sim::parallelFor(limbs.size(), [&](std::size_t begin, std::size_t end) {
+    for (std::size_t l = begin; l < end; ++l) {
+      for (std::size_t i = 0; i < begins[l + 1] - begins[l]; ++i) {
+        const TubeStation &a = limbs[l].line[i], &b = limbs[l].line[i + 1];
+        const Vec3 thick(std::max(a.radius_m, b.radius_m));
+        stretches[begins[l] + i] = {static_cast<std::uint32_t>(l), static_cast<std::uint32_t>(i)};
+        boxes[begins[l] + i] = {Vec3f(glm::min(a.centre_m, b.centre_m) - thick),
+                                Vec3f(glm::max(a.centre_m, b.centre_m) + thick)};
+      }
     }
-  }
+  });
   if (boxes.empty()) return 0;
   return Boxes(std::move(boxes))
       .count([&](std::uint32_t a, std::uint32_t b) { return meet(limbs, stretches[a], stretches[b]); },

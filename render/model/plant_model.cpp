@@ -103,6 +103,8 @@ PlantModel modelPlant(const sim::Plant& plant, const sim::Frame& frame, const Mo
   const std::vector<Limb> limbs = limbsOf(curves, data, frame, error_m);
   model.stems = surfaceOf(limbs, kBarkRadii * twig_m, error_m);
   model.meeting_limbs = meetingLimbs(limbs);
+  if (!radii.empty())
+    model.thinnest_m = static_cast<double>(*std::min_element(radii.begin(), radii.end())) * frame.voxel_m;
   model.name = plant.name;
   model.stems.name = plant.name + " stems";
   model.stems.base_colour = plant.stem_colour;

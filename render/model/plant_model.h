@@ -28,6 +28,7 @@ struct ModelOptions {
 struct PlantModel {
   std::string name;
   ModelMesh stems;
+  double thinnest_m = 0.0;           ///< the least radius of its stems
   std::size_t meeting_limbs = 0;     ///< pairs of limbs that run into each other where none leaves the other
   ModelMesh stalks;                  ///< from stems to blades that do not begin on them
   std::vector<ModelMesh> elements;   ///< one for each of the plant's shapes: blades

@@ -4,9 +4,9 @@
 #include <array>
 #include <cmath>
 #include <functional>
-#include <limits>
 
 #include "render/model/collar.h"
+#include "render/model/grid_faces.h"
 #include "render/model/limb_grid.h"
 #include "sim/base/parallel.h"
 #include "sim/base/random.h"
@@ -18,7 +18,6 @@ namespace {
 using sim::Vec3;
 using Triangle = std::array<std::uint32_t, 3>;
 
-constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
 constexpr double kFineCollar = 12.0, kCollar = 4.0;  // errors that a limb's radius is to be worth rings there
 
 /// Where a limb's part of the mesh begins, and how much it is.
@@ -55,12 +54,24 @@ Counts sizeOf(const Skin& skin, std::size_t rim) {
   Counts size;
   size.point = grid.points() + 1 + collars * sides + (rim == 0 ? 1 : 0);
   size.vertex = size.point + grid.arcs_m.size() + collars + (rim > 0 ? rim + 1 : 0);
-  for (const std::uint32_t corner : grid.inside) size.vertex -= corner % sides == 0 ? 1 : 0;
+  for (const std::uint32_t corner : grid.absent) size.vertex -= corner % sides == 0 ? 1 : 0;
   std::size_t quads = sides * (grid.arcs_m.size() - 1) + collars * sides;
   for (const Patch& patch : grid.patches) quads -= static_cast<std::size_t>(patch.rows * patch.columns);
   size.triangle = 2 * quads + 2 * sides + rim;  // the tip's; the root's, or the strip along the rim
+  size.triangle -= 2 * grid.left_out;           // one on each side
   return size;
 }
+
+/// What the work on one limb leaves to the next.
+struct Scratch {
+  std::vector<glm::dvec2> circle;
+  GridFaces faces;
+  std::vector<std::uint32_t> vertices;            // of the grid: sides + 1 a ring
+  std::vector<std::uint32_t> rim;                 // points of the rim that it stands in
+  std::vector<std::uint32_t> outer, inner, next;  // vertices of the rim, and of rings about the joint
+  std::vector<double> turns;
+  std::vector<Foot> feet;
+};
 
 class Sewing {
  public:
@@ -69,13 +80,13 @@ class Sewing {
          std::vector<sim::Vec3f>& normals)
       : limbs_(limbs), skins_(skins), mesh_(mesh), normals_(normals) {}
 
-  void sew(std::size_t l);
+  void sew(std::size_t l, Scratch& scratch);
 
  private:
   struct Part;
-  void addGrid(Part& part) const;
+  void addGrid(Part& part, Scratch& scratch) const;
   void addEnds(Part& part) const;
-  void addJoint(Part& part) const;
+  void addJoint(Part& part, Scratch& scratch) const;
 
   const std::vector<Limb>& limbs_;
   std::vector<Skin>& skins_;
@@ -85,12 +96,15 @@ class Sewing {
 
 /// One limb's part of the mesh while it is filled in.
 struct Sewing::Part {
-  Part(const Limb& of, Skin& its, ModelMesh& whole, std::vector<sim::Vec3f>& sums, std::uint32_t number)
+  Part(const Limb& of, Skin& its, ModelMesh& whole, std::vector<sim::Vec3f>& sums, Scratch& scratch,
+       std::uint32_t number)
       : limb(of),
         skin(its),
         mesh(whole),
         normals(sums),
         piece(number),
+        vertices(scratch.vertices),
+        rim(scratch.rim),
         point(its.begin.point + its.grid.points()),
         vertex(its.begin.vertex),
         triangle(its.begin.triangle) {}
@@ -131,22 +145,24 @@ struct Sewing::Part {
   ModelMesh& mesh;
   std::vector<sim::Vec3f>& normals;
   std::uint32_t piece;
+  std::vector<std::uint32_t>&vertices, &rim;
   std::size_t point, vertex, triangle;
-  Section first, last;                  // rings
-  double v = 0.0;                       // of the last
-  std::vector<std::uint32_t> vertices;  // of the grid: sides + 1 a ring
-  std::vector<std::uint32_t> rim;       // points of the rim that it stands in
+  Section first, last;  // rings
+  double v = 0.0;       // of the last
 };
 
-void Sewing::addGrid(Part& part) const {
+void Sewing::addGrid(Part& part, Scratch& scratch) const {
   const LimbGrid& grid = part.skin.grid;
   const auto sides = static_cast<std::size_t>(grid.sides);
-  std::vector<glm::dvec2> circle;
-  for (std::size_t c = 0; c < sides; ++c)
-    circle.push_back(sim::unitCircle(static_cast<double>(c) / static_cast<double>(sides)));
-  part.vertices.reserve((sides + 1) * grid.arcs_m.size());
+  std::vector<glm::dvec2>& circle = scratch.circle;
+  if (circle.size() != sides) {
+    circle.clear();
+    for (std::size_t c = 0; c < sides; ++c)
+      circle.push_back(sim::unitCircle(static_cast<double>(c) / static_cast<double>(sides)));
+  }
+  part.vertices.clear();
   auto rim = grid.rim.begin();
-  auto inside = grid.inside.begin();
+  auto absent = grid.absent.begin();
   std::uint32_t corner = 0;
   auto at = static_cast<std::uint32_t>(part.skin.begin.point);
   for (std::size_t r = 0; r < grid.arcs_m.size(); ++r) {
@@ -161,9 +177,9 @@ void Sewing::addGrid(Part& part) const {
     const std::uint32_t begin = at;
     const auto first_on_rim = rim;
     for (std::size_t c = 0; c < sides; ++c, ++corner) {
-      if (inside != grid.inside.end() && *inside == corner) {
-        ++inside;
-        part.vertices.push_back(kNone);
+      if (absent != grid.absent.end() && *absent == corner) {
+        ++absent;
+        part.vertices.push_back(kNoVertex);
       } else if (rim != grid.rim.end() && rim->corner == corner) {
         part.vertices.push_back(part.addRimPoint(at++, *rim, r, 0.0));
         ++rim;
@@ -176,8 +192,8 @@ void Sewing::addGrid(Part& part) const {
     }
     // The seam: the first column again, a turn on.
     const std::uint32_t seam = part.vertices[part.vertices.size() - sides];
-    if (seam == kNone) {
-      part.vertices.push_back(kNone);
+    if (seam == kNoVertex) {
+      part.vertices.push_back(kNoVertex);
     } else if (first_on_rim != grid.rim.end() && first_on_rim->corner + sides == corner) {
       part.vertices.push_back(part.addRimPoint(begin, *first_on_rim, r, 1.0));
     } else {
@@ -185,29 +201,8 @@ void Sewing::addGrid(Part& part) const {
           part.addVertex(begin, Vec3(part.mesh.positions_m[seam]), part.skin.repeats, part.v, ring));
     }
   }
-  std::vector<bool> hole(sides * (grid.arcs_m.size() - 1), false);
-  for (const Patch& patch : grid.patches) {
-    for (int r = patch.row; r < patch.row + patch.rows; ++r) {
-      for (int c = patch.column; c < patch.column + patch.columns; ++c)
-        hole[static_cast<std::size_t>(r * grid.sides + c % grid.sides)] = true;
-    }
-  }
-  for (std::size_t r = 0; r + 1 < grid.arcs_m.size(); ++r) {
-    for (std::size_t c = 0; c < sides; ++c) {
-      if (hole[r * sides + c]) continue;
-      const std::uint32_t *low = &part.vertices[r * (sides + 1) + c], *high = low + sides + 1;
-      // Along the shorter diagonal: the sharper one would show where a rim has moved corners.
-      const auto& p = part.mesh.positions_m;
-      const sim::Vec3f rising = p[high[1]] - p[low[0]], falling = p[high[0]] - p[low[1]];
-      if (glm::dot(rising, rising) <= glm::dot(falling, falling) * 1.0001f) {
-        part.addTriangle(low[0], low[1], high[1]);
-        part.addTriangle(low[0], high[1], high[0]);
-      } else {
-        part.addTriangle(low[0], low[1], high[0]);
-        part.addTriangle(low[1], high[1], high[0]);
-      }
-    }
-  }
+  for (const auto& [a, b, c] : scratch.faces.of(grid, part.vertices, part.mesh.positions_m))
+    part.addTriangle(a, b, c);
 }
 
 void Sewing::addEnds(Part& part) const {
@@ -225,11 +220,11 @@ void Sewing::addEnds(Part& part) const {
   for (std::size_t c = 0; c < sides; ++c) part.addTriangle(part.vertices[c + 1], part.vertices[c], root);
 }
 
-void Sewing::addJoint(Part& part) const {
+void Sewing::addJoint(Part& part, Scratch& scratch) const {
   const auto host_number = static_cast<std::size_t>(part.limb.host);
   const Skin& host = skins_[host_number];
   const Patch& patch = host.grid.patches[part.skin.place];
-  const Rim rim = rimOf(patch);
+  const Rim& rim = host.grid.rims[part.skin.place];
   const Section& first = part.first;
   const Collar collar(limbs_[host_number], patch.foot, first);
   const double scale = part.scaleAt(first.radius_m), around = part.skin.repeats / (2.0 * kPi);
@@ -242,8 +237,10 @@ void Sewing::addJoint(Part& part) const {
     part.rim.push_back(static_cast<std::uint32_t>(host.begin.point) +
                        host.grid.pointOf(host.grid.corner(ring, column)));
 
-  std::vector<std::uint32_t> outer;
-  std::vector<double> turns = rim.turns;
+  std::vector<std::uint32_t>&outer = scratch.outer, &inner = scratch.inner, &next = scratch.next;
+  outer.clear();
+  std::vector<double>& turns = scratch.turns;
+  turns = rim.turns;
   turns.push_back(rim.turns.front() + 2.0 * kPi);
   for (std::size_t i = 0; i < turns.size(); ++i) {
     const auto& [ring, column] = rim.corners[i % rim.corners.size()];
@@ -252,25 +249,27 @@ void Sewing::addJoint(Part& part) const {
                                    -far(turns[i]), first));
   }
   const auto sides = static_cast<std::size_t>(part.skin.grid.sides);
-  std::vector<std::vector<std::uint32_t>> rings;
-  for (int r = 1; r <= part.skin.collar_rings; ++r) {
-    const double share = static_cast<double>(r) / (part.skin.collar_rings + 1);
+  const int rings = part.skin.collar_rings + 1;  // the last is the limb's first
+  const auto putRing = [&](int r, std::vector<std::uint32_t>& ring) {
+    if (r == rings) {
+      ring.assign(part.vertices.begin(), part.vertices.begin() + static_cast<std::ptrdiff_t>(sides) + 1);
+      return;
+    }
+    const double share = static_cast<double>(r) / rings;
     std::uint32_t begin = 0;
-    rings.emplace_back();
+    ring.clear();
     for (std::size_t c = 0; c <= sides; ++c) {
       const double turn = 2.0 * kPi * static_cast<double>(c) / static_cast<double>(sides);
       const std::uint32_t at = c < sides ? part.addPoint() : begin;
       if (c == 0) begin = at;
-      rings.back().push_back(part.addVertex(at, collar.at(c < sides ? turn : 0.0, share), around * turn,
-                                            -(1.0 - share) * far(turn), first));
+      ring.push_back(part.addVertex(at, collar.at(c < sides ? turn : 0.0, share), around * turn,
+                                    -(1.0 - share) * far(turn), first));
     }
-  }
-  rings.emplace_back(part.vertices.begin(), part.vertices.begin() + static_cast<std::ptrdiff_t>(sides) + 1);
-
-  const std::vector<std::uint32_t>& inner = rings.front();
+  };
+  putRing(1, inner);
   for (std::size_t i = 0, j = 0; i + 1 < outer.size() || j < sides;) {
-    const double next = 2.0 * kPi * static_cast<double>(j + 1) / static_cast<double>(sides);
-    if (j < sides && (i + 1 == outer.size() || next <= turns[i + 1])) {
+    const double ahead = 2.0 * kPi * static_cast<double>(j + 1) / static_cast<double>(sides);
+    if (j < sides && (i + 1 == outer.size() || ahead <= turns[i + 1])) {
       part.addTriangle(outer[i], inner[j + 1], inner[j]);
       ++j;
     } else {
@@ -278,25 +277,26 @@ void Sewing::addJoint(Part& part) const {
       ++i;
     }
   }
-  for (std::size_t r = 0; r + 1 < rings.size(); ++r) {
+  for (int r = 2; r <= rings; ++r, std::swap(inner, next)) {
+    putRing(r, next);
     for (std::size_t c = 0; c < sides; ++c) {
-      part.addTriangle(rings[r][c], rings[r][c + 1], rings[r + 1][c + 1]);
-      part.addTriangle(rings[r][c], rings[r + 1][c + 1], rings[r + 1][c]);
+      part.addTriangle(inner[c], inner[c + 1], next[c + 1]);
+      part.addTriangle(inner[c], next[c + 1], next[c]);
     }
   }
 }
 
-void Sewing::sew(std::size_t l) {
-  Part part(limbs_[l], skins_[l], mesh_, normals_, static_cast<std::uint32_t>(l));
-  addGrid(part);
+void Sewing::sew(std::size_t l, Scratch& scratch) {
+  Part part(limbs_[l], skins_[l], mesh_, normals_, scratch, static_cast<std::uint32_t>(l));
+  addGrid(part, scratch);
   addEnds(part);
-  if (part.limb.host >= 0) addJoint(part);
+  if (part.limb.host >= 0) addJoint(part, scratch);
 }
 
 /// Adds what the limbs that stand on one add along their rims.
 void addRims(const std::vector<Skin>& skins, const Skin& skin, std::vector<sim::Vec3f>& normals) {
   for (std::size_t i = 0; i < skin.standing.size(); ++i) {
-    const Rim rim = rimOf(skin.grid.patches[i]);
+    const Rim& rim = skin.grid.rims[i];
     const Skin& child = skins[skin.standing[i]];
     for (std::size_t k = 0; k < rim.corners.size(); ++k) {
       const auto [ring, column] = rim.corners[k];
@@ -325,15 +325,17 @@ ModelMesh surfaceOf(const std::vector<Limb>& limbs, double bark_m, double error_
     skins[l].place = standing.size();
     standing.push_back(l);
   }
-  const auto eachLimb = [&](const std::function<void(std::size_t)>& visit) {
+  const auto eachLimb = [&](const auto& visit) {
     sim::parallelFor(limbs.size(), 32, [&](std::size_t begin, std::size_t end) {
+      Scratch scratch;
       for (std::size_t l = begin; l < end; ++l)
-        if (!limbs[l].line.empty()) visit(l);
+        if (!limbs[l].line.empty()) visit(l, scratch);
     });
   };
-  eachLimb([&](std::size_t l) {
+  eachLimb([&](std::size_t l, Scratch& scratch) {
     Skin& skin = skins[l];
-    std::vector<Foot> feet;
+    std::vector<Foot>& feet = scratch.feet;
+    feet.clear();
     for (const std::size_t child : skin.standing) feet.push_back(limbs[child].foot);
     skin.grid = gridOf(limbs[l], feet, error_m);
     skin.collar_rings = collarRings(limbs[l], error_m);
@@ -341,7 +343,7 @@ ModelMesh surfaceOf(const std::vector<Limb>& limbs, double bark_m, double error_
     for (const TubeStation& station : limbs[l].line) thickest = std::max(thickest, station.radius_m);
     skin.repeats = std::max(1.0, std::round(2.0 * kPi * thickest / bark_m));
   });
-  eachLimb([&](std::size_t l) {
+  eachLimb([&](std::size_t l, Scratch&) {
     std::size_t rim = 0;
     if (limbs[l].host >= 0) {
       const Skin& host = skins[static_cast<std::size_t>(limbs[l].host)];
@@ -360,8 +362,8 @@ ModelMesh surfaceOf(const std::vector<Limb>& limbs, double bark_m, double error_
   std::vector<sim::Vec3f> normals(all.point, sim::Vec3f(0.0f));
   resize(mesh, all);
   Sewing sewing(limbs, skins, mesh, normals);
-  eachLimb([&](std::size_t l) { sewing.sew(l); });
-  eachLimb([&](std::size_t l) { addRims(skins, skins[l], normals); });
+  eachLimb([&](std::size_t l, Scratch& scratch) { sewing.sew(l, scratch); });
+  eachLimb([&](std::size_t l, Scratch&) { addRims(skins, skins[l], normals); });
   sim::parallelFor(all.vertex, [&](std::size_t begin, std::size_t end) {
     for (std::size_t v = begin; v < end; ++v) {
       const Vec3 sum(normals[mesh.points[v]]);

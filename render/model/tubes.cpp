@@ -121,9 +121,10 @@ void ease(std::span<TubeStation> line) {
 
 }  // namespace
 
-void keepRingsApart(std::vector<TubeStation>& line, const std::function<void(std::size_t)>& dropped) {
-  if (line.size() < 2) return;
-  const std::vector<Vec3> along = chordsOverThickness(line);
+std::vector<Vec3> keepRingsApart(std::vector<TubeStation>& line,
+                                 const std::function<void(std::size_t)>& dropped) {
+  if (line.size() < 2) return {};
+  std::vector<Vec3> along = chordsOverThickness(line);
   std::vector<std::size_t> kept{0};
   const std::size_t last = line.size() - 1;
   const auto apart = [&](std::size_t a, std::size_t b) {
@@ -149,22 +150,25 @@ void keepRingsApart(std::vector<TubeStation>& line, const std::function<void(std
       dropped(i);
     }
   }
-  for (k = 0; k < kept.size(); ++k) line[k] = line[kept[k]];
-  line.resize(kept.size());
+  if (kept.size() < line.size()) {
+    for (k = 0; k < kept.size(); ++k) line[k] = line[kept[k]];
+    line.resize(kept.size());
+    along = chordsOverThickness(line);
+  }
 
   bool thinned = false;
-  const std::vector<Vec3> ways = chordsOverThickness(line);
   std::vector<double> share(line.size(), 1.0);
   for (std::size_t i = 0; i + 1 < line.size(); ++i) {
-    const double most = std::max(kLeastThinned, shareApart(line[i], ways[i], line[i + 1], ways[i + 1]));
+    const double most = std::max(kLeastThinned, shareApart(line[i], along[i], line[i + 1], along[i + 1]));
     if (most >= 1.0) continue;
     thinned = true;
     share[i] = std::min(share[i], most);
     share[i + 1] = std::min(share[i + 1], most);
   }
-  if (!thinned) return;
+  if (!thinned) return along;
   for (std::size_t i = 0; i < line.size(); ++i) line[i].radius_m *= share[i];
   ease(line);
+  return chordsOverThickness(line);
 }
 
 void appendTube(ModelMesh& mesh, std::span<const TubeStation> line, int sides, std::uint32_t piece) {

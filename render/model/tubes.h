@@ -42,8 +42,10 @@ std::vector<sim::Vec3> chordsOverThickness(std::span<const TubeStation> line);
 
 /// Leaves out stations whose rings would cross their neighbours' (not the ends), thins the tube where that is
 /// not enough, and eases the thinning over its neighbourhood. Where it leaves a station out, `dropped` hears
-/// of its number among those that stood.
-void keepRingsApart(std::vector<TubeStation>& line, const std::function<void(std::size_t)>& dropped = {});
+/// of its number among those that stood. Returns the chordsOverThickness of what is left, none for fewer than
+/// two stations.
+std::vector<sim::Vec3> keepRingsApart(std::vector<TubeStation>& line,
+                                      const std::function<void(std::size_t)>& dropped = {});
 
 /// Appends a tube of `sides` faces, as few as it takes: open where it begins, for there it stands in
 /// something, and coming to a point in its last station, whatever the radius there. UVs without a seam: u

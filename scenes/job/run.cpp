@@ -259,9 +259,13 @@ Report runScene(const Scene& scene, const RunOptions& options, const Keeping& ke
                        sim::writeState(out, inputsOf(scene, site), world, bare, growth);
                      }});
   }
+  std::vector<std::string> late_warnings;
+  if (!growth.cut_short.empty()) late_warnings.push_back(growth.cut_short);
   if (options.pictures) {
     stages.run("drawing", [&] {
-      const Finished finished{site.meshes, world, bare, growth, light, models};
+      ReadTextures textures = texturesFor(drawsVines(scene.images), site.meshes, options, report);
+      late_warnings.insert(late_warnings.end(), textures.unread.begin(), textures.unread.end());
+      const Finished finished{site.meshes, world, bare, growth, light, models, std::move(textures.pictures)};
       auto pictures =
           inScene(scene, [&] { return drawPictures(picturesOf(scene, report.made_by), finished); });
       for (OutputFile& file : pictures) files.push_back(std::move(file));
@@ -272,8 +276,7 @@ Report runScene(const Scene& scene, const RunOptions& options, const Keeping& ke
     if (!keeping.keep) dropState(options.folder);
   });
   writeReport(output, files, report);
-  if (options.strict && !growth.cut_short.empty())
-    throw sim::InputError(scene.file.string() + ": " + growth.cut_short);
+  requireNone(late_warnings, scene.file, options);
   return report;
 }
 
@@ -332,12 +335,17 @@ Report renderScene(Scene scene, const std::filesystem::path& from, const RunOpti
   report.light = light.about;
   const auto models =
       stages.run("modelling", [&] { return modelPlants(site.world.frame(), growth.plants, bare); });
+  std::vector<std::string> unread;
   std::vector<OutputFile> files = stages.run("drawing", [&] {
-    const Finished finished{site.meshes, site.world, bare, growth, light, models};
+    ReadTextures textures = texturesFor(drawsVines(scene.images), site.meshes, options, report);
+    unread = std::move(textures.unread);
+    const Finished finished{
+        site.meshes, site.world, bare, growth, light, models, std::move(textures.pictures)};
     return inScene(scene, [&] { return drawPictures(picturesOf(scene, report.made_by), finished); });
   });
   stages.run("writing", [&] { output.write(files); });
   finishReport(files, report);
+  requireNone(unread, scene.file, options);
   return report;
 }
 

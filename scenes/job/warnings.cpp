@@ -16,4 +16,21 @@ void warn(const std::vector<Problem>& warnings, const std::filesystem::path& sce
   }
 }
 
+ReadTextures texturesFor(bool vines, const std::vector<sim::TiledMesh>& meshes, const RunOptions& options,
+                         Report& report) {
+  if (!vines) return {};
+  ReadTextures textures = readTextures(meshes);
+  for (const std::string& sentence : textures.unread) {
+    if (options.on_warning) options.on_warning("warning: " + sentence);
+    report.warnings.push_back(sentence);
+  }
+  return textures;
+}
+
+void requireNone(const std::vector<std::string>& late_warnings, const std::filesystem::path& scene_file,
+                 const RunOptions& options) {
+  if (options.strict && !late_warnings.empty())
+    throw sim::InputError(scene_file.string() + ": " + late_warnings.front());
+}
+
 }  // namespace espalier::scenes

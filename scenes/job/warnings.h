@@ -4,6 +4,7 @@
 
 #include "scenes/job/report.h"
 #include "scenes/job/run.h"
+#include "scenes/prepare/texture_reader.h"
 #include "scenes/problem.h"
 
 namespace espalier::scenes {
@@ -13,5 +14,13 @@ namespace espalier::scenes {
 /// are errors: throws sim::InputError.
 void warn(const std::vector<Problem>& warnings, const std::filesystem::path& scene_file,
           const RunOptions& options, Report& report);
+
+/// Textures of meshes, for images of vines: none where no image is one. Tells of those that cannot be read,
+/// which are warnings too.
+ReadTextures texturesFor(bool vines, const std::vector<sim::TiledMesh>& meshes, const RunOptions& options,
+                         Report& report);
+/// Of what came up after growth, once all is written: throws sim::InputError in a strict run if there is any.
+void requireNone(const std::vector<std::string>& late_warnings, const std::filesystem::path& scene_file,
+                 const RunOptions& options);
 
 }  // namespace espalier::scenes

@@ -212,6 +212,7 @@ Image Studio::vines(const ImageSpec& image) const {
   render::FinishedScene scene;
   for (const auto& tiled : finished_.meshes) scene.model.meshes.push_back(&tiled.mesh);
   for (const auto& model : finished_.models) scene.model.plants.push_back(&model);
+  scene.pictures = finished_.textures;
   scene.frame = finished_.world.frame();
   scene.occupied = &finished_.world.occupied();
   scene.sky = finished_.light.space_sky.get();

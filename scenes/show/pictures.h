@@ -2,6 +2,7 @@
 #include <string>
 #include <vector>
 
+#include "render/finish/ray_scene.h"
 #include "render/model/plant_model.h"
 #include "render/voxels/panels.h"
 #include "scenes/scene.h"
@@ -47,6 +48,7 @@ struct Finished {
   const sim::Growth& growth;
   const sim::Lighting& light;                     ///< in all of space too, where there is an image of vines
   const std::vector<render::PlantModel>& models;  ///< one a plant
+  render::KnownPictures textures = {};            ///< of the meshes' materials, for images of vines
 };
 
 /// Whether it is one of the panels of render/voxels/panels.h.

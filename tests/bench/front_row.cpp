@@ -11,6 +11,7 @@
 #include "sim/grow/grow.h"
 #include "sim/light/sky.h"
 #include "sim/light/sun.h"
+#include "tests/bench/dome.h"
 #include "tests/bench/kd_tree_peer.h"
 #include "tests/bench/rows.h"
 
@@ -18,20 +19,6 @@ namespace espalier::bench {
 namespace {
 
 using sim::Vec3;
-
-/// The crown of W-dome: y even in [2, 8] m, radii by a cubic Bezier of 6, 6, 3 and 1 m, even in each disc.
-std::vector<Vec3> dome(int count) {
-  std::vector<Vec3> places;
-  for (int i = 0; i < count; ++i) {
-    sim::Draws draws({2007, static_cast<std::uint32_t>(i)}, sim::Purpose::custom);
-    const double t = draws.uniform(), s = 1.0 - t;
-    const double radius = 6.0 * s * s * s + 18.0 * t * s * s + 9.0 * t * t * s + t * t * t;
-    const auto side = sim::unitCircle(draws.uniform());
-    const double r = radius * std::sqrt(draws.uniform());
-    places.emplace_back(r * side.x, 2.0 + 6.0 * t, r * side.y);
-  }
-  return places;
-}
 
 constexpr rules::FrontRules kRules{0.1, 2.5, 0.1};
 constexpr int kNoLimit = 100'000;

@@ -15,6 +15,9 @@ using Work = std::function<void()>;
 /// One timing.
 double secondsOf(const Work& work);
 
+/// What this process has used so far, of all threads.
+double cpuSeconds();
+
 /// The median of five timings, seconds, after one run that warms caches and memory.
 double medianSeconds(const Work& work);
 /// The same for several that are to be compared: they take turns, so that what else the machine does falls on

@@ -29,6 +29,9 @@ void benchForetold(Report& report);
 /// The front of space colonization, bare and in worlds, up to so many attractors, and a kd-tree in its place.
 void benchFront(int most_attractors, Report& report);
 
+/// The stems of a tree of some 100,000 nodes as a surface.
+void benchStems(Report& report);
+
 /// A sky of at least so many directions, of equal weight for equal parts.
 sim::DirectionSet skyOf(int directions);
 

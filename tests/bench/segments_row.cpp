@@ -1,70 +1,19 @@
 #include <fmt/format.h>
-#include <sys/resource.h>
 
 #include <algorithm>
 #include <chrono>
-#include <cmath>
-#include <random>
 
 #include "rules/growth/make_process.h"
-#include "scenes/read/read_rules.h"
-#include "sim/base/error.h"
 #include "sim/base/parallel.h"
 #include "sim/grow/grow.h"
-#include "sim/light/sky.h"
-#include "sim/light/sun.h"
 #include "sim/sweep/lanes.h"
 #include "sim/tile/tiling.h"
 #include "tests/bench/peers.h"
 #include "tests/bench/rows.h"
+#include "tests/bench/vine_wall.h"
 
 namespace espalier::bench {
 namespace {
-
-constexpr double kVoxel_m = 0.02;
-/// A cover of the wall that still grows: so many segments on a square metre.
-constexpr double kSegmentsToASquareMetre = 1000.0;
-constexpr double kSeedsToASquareMetre = 2.0;
-
-double cpuSeconds() {
-  rusage usage{};
-  getrusage(RUSAGE_SELF, &usage);
-  const auto seconds = [](timeval t) {
-    return static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec);
-  };
-  return seconds(usage.ru_utime) + seconds(usage.ru_stime);
-}
-
-/// A wall twice as wide as it is high, 20 cm thick, with half a metre of air before it.
-sim::World wallFor(double segments) {
-  const double height_m = std::sqrt(segments / kSegmentsToASquareMetre / 2.0);
-  const auto voxels = [](double metres) { return static_cast<int>(std::lround(metres / kVoxel_m)); };
-  const sim::Voxel size(voxels(2.0 * height_m), voxels(height_m), voxels(0.7));
-  sim::World world({sim::Vec3(0.0), kVoxel_m, size});
-  const sim::PartId wall = world.addPart({"wall", "brick", sim::PartKind::scene, -1});
-  std::vector<sim::TiledVoxel> row;
-  for (int y = 0; y < size.y; ++y) {
-    row.clear();
-    for (int z = 0; z < voxels(0.2); ++z) {
-      for (int x = 0; x < size.x; ++x) row.push_back({{x, y, z}, {wall, sim::Colour(0.5f), 1.0f}});
-    }
-    world.occupy(row);
-  }
-  world.setLayers(4);
-  return world;
-}
-
-std::vector<sim::Seed> seedsOn(const sim::World& world) {
-  const sim::Voxel size = world.frame().size;
-  const double area_m2 = size.x * size.y * kVoxel_m * kVoxel_m;
-  std::mt19937 random(1989);
-  std::vector<sim::Vec3> places;
-  for (int i = 0; i < std::max(1, static_cast<int>(area_m2 * kSeedsToASquareMetre)); ++i) {
-    const auto x = random() % static_cast<unsigned>(size.x), y = random() % static_cast<unsigned>(size.y);
-    places.emplace_back(x, y, 11.0);
-  }
-  return sim::seedsAt(world.frame(), places);
-}
 
 /// Figure 4's vine with every bias, every requirement, ranges, and a table of the sky.
 rules::RuleSet withEverything(rules::RuleSet rules) {
@@ -85,21 +34,6 @@ rules::RuleSet withEverything(rules::RuleSet rules) {
   rules.bias.toward = range(0.05, 0.1);
   rules.bias.twist = range(-0.2, 0.2);
   return rules;
-}
-
-rules::RuleSet figureFour() {
-  auto rules = scenes::readRules(ESPALIER_SOURCE_DIR "/rules/library/courtyard_vine.yaml");
-  if (!rules) throw sim::InputError(scenes::format(rules.problems()));
-  return **rules;
-}
-
-sim::GrowthSettings settingsFor() {
-  sim::GrowthSettings settings;
-  settings.iterations = 100'000;
-  settings.light.sky = sim::makeSky({.directions = 128}).directions;
-  settings.light.sun = sim::makeSun({20.0, 180.0, 48}).directions;
-  settings.sky_table = [] { return sim::makeSkyTable(9, 36, sim::backgroundOf(sim::Weighting::uniform)); };
-  return settings;
 }
 
 struct Grown {
@@ -127,7 +61,8 @@ std::size_t segmentsInside(const sim::BitVolume& scene, const sim::Growth& growt
 Grown growOn(sim::World& world, const rules::RuleSet& rules, double segments) {
   const sim::BitVolume scene = world.occupied();
   const std::vector<sim::Planting> plantings = {
-      {"vine", rules::makeProcess(std::make_shared<rules::RuleSet>(rules), kVoxel_m), seedsOn(world)}};
+      {"vine", rules::makeProcess(std::make_shared<rules::RuleSet>(rules), world.frame().voxel_m),
+       seedsOn(world)}};
   Grown grown;
   sim::GrowthSettings settings = settingsFor();
   settings.progress = [&](const sim::GrowthProgress& progress) { grown.segments = progress.segments; };

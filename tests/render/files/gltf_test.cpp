@@ -173,7 +173,8 @@ TEST_F(Glb, InstancesStandWhereTheMeshesAre) {
   const std::string bytes = glbBytes({{}, {&placed, &other}});
   EXPECT_LT(bytes.size(), 2 * bytes_.size());
   const auto model = readGlb(bytes);
-  EXPECT_EQ(model.extensionsRequired, std::vector<std::string>{"EXT_mesh_gpu_instancing"});
+  EXPECT_EQ(model.extensionsRequired,
+            (std::vector<std::string>{"EXT_mesh_gpu_instancing", "KHR_mesh_quantization"}));
   EXPECT_EQ(model.extensionsUsed, model.extensionsRequired);
   EXPECT_EQ(model.meshes.size(), 4u);  // two plants' stems, a leaf and a stalk
   for (const auto& [name, mesh] :

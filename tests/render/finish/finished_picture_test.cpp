@@ -115,6 +115,27 @@ TEST_F(FinishedPicture, FragmentsAreLitByTheirVoxels) {
   EXPECT_LT(static_cast<double>(draw(40, 30).at(20, 16)[0]), 0.6 * open);
 }
 
+/// A texture multiplies the colour of its material: one of magenta leaves no green.
+TEST_F(FinishedPicture, ShowsTexturesThatAreKnown) {
+  scene_.model.plants.clear();
+  const auto brickAt = [&] {
+    return Colour(draw(160, 120).at(80, 50)[0], draw(160, 120).at(80, 50)[1], 0.0f);
+  };
+  auto texture = std::make_shared<sim::Texture>();
+  wall_.materials[1].texture = texture;
+  wall_.uvs.assign(wall_.vertices_m.size(), glm::vec2(0.5f));
+  const Colour bare = brickAt();
+  auto picture = std::make_shared<sim::Picture>();
+  picture->width = picture->height = 4;
+  picture->texels.assign(16, {255, 0, 255, 255});
+  scene_.pictures[texture.get()] = picture;
+  const Colour painted = brickAt();
+  EXPECT_NEAR(painted.r / bare.r, 1.0, 0.25);  // not weathered
+  EXPECT_LT(painted.g, 0.05f * bare.g);
+  wall_.uvs.clear();
+  EXPECT_EQ(brickAt(), bare);
+}
+
 TEST_F(FinishedPicture, MissingOrMismatchedFieldsAreRefused) {
   scene_.sky = nullptr;
   EXPECT_THROW(draw(), sim::InputError);

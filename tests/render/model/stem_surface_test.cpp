@@ -2,9 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "render/model/box_pairs.h"
+#include "render/model/limb_grid.h"
 #include "render/model/meeting_limbs.h"
 #include "render/model/plant_model.h"
 #include "render/model/radii.h"
@@ -195,6 +197,38 @@ TEST(StemSurface, NoSkeletonIsTooOdd) {
   }
   tests::addNode(inside, at, {4, 4, 0});
   expectOneSphere(stemsOf(inside));
+}
+
+/// Of rings for a foot alone there is what the foot stands on, and where the limb bends there are whole ones.
+TEST(StemSurface, RingsForFeetAreWholeOnlyWhereTheLimbBends) {
+  for (const bool bent : {false, true}) {
+    SCOPED_TRACE(bent);
+    sim::Skeleton skeleton;
+    const auto add = [&](sim::NodeId parent, Vec3 at) {
+      skeleton.parent.push_back(parent);
+      skeleton.position_vx.push_back(at);
+      skeleton.born.push_back(0);
+      return skeleton.size() - 1;
+    };
+    const sim::NodeId fork = add(add(sim::kNoNode, {0, 0, 0}), {0, 10, 0});
+    add(fork, {bent ? 5.0 : 0.0, 20, 0});
+    add(fork, {0, 10, 3});
+    const std::vector<render::Limb> limbs = limbsIn(skeleton);
+    ASSERT_EQ(limbs.size(), 2u);
+    const std::vector<render::Foot> feet{limbs[1].foot};
+    const render::LimbGrid grid = render::gridOf(limbs[0], feet, 0.4 * sim::StemGirth().twig_vx);
+    ASSERT_EQ(grid.patches.size(), 1u);
+    EXPECT_GT(grid.left_out, 0u);
+    // All that is on rings between the ends besides the rim.
+    const std::size_t ends = 2 * static_cast<std::size_t>(grid.sides);
+    if (bent) {
+      EXPECT_GT(grid.points(), ends + grid.rim.size());
+    } else {
+      EXPECT_EQ(grid.points(), ends + grid.rim.size());
+    }
+    for (std::size_t k = 0; k < grid.rim.size(); ++k)
+      EXPECT_FALSE(std::binary_search(grid.absent.begin(), grid.absent.end(), grid.rim[k].corner));
+  }
 }
 
 TEST(StemSurface, EachSeedHasASurfaceOfItsOwn) {

@@ -1,4 +1,4 @@
-#include "render/finish/leaf_texture.h"
+#include "render/finish/picture_texture.h"
 
 #include <gtest/gtest.h>
 
@@ -27,16 +27,16 @@ LeafPicture flag() {
   return picture;
 }
 
-TEST(LeafTexture, CoversWhereItsAlphaDoes) {
-  const LeafTexture texture(flag());
+TEST(PictureTexture, CoversWhereItsAlphaDoes) {
+  const PictureTexture texture(flag());
   EXPECT_TRUE(texture.covers({0.2f, 0.3f}));
   EXPECT_FALSE(texture.covers({0.8f, 0.3f}));
   EXPECT_TRUE(texture.covers({0.8f, 0.9f})) << "v goes upwards";
   EXPECT_TRUE(texture.covers({-1.0f, 0.3f})) << "its rim goes on";
 }
 
-TEST(LeafTexture, IsLinearAndOfWhatCoversAlone) {
-  const LeafTexture texture(flag());
+TEST(PictureTexture, IsLinearAndOfWhatCoversAlone) {
+  const PictureTexture texture(flag());
   EXPECT_EQ(texture.colour({0.2f, 0.3f}, 0.0f), sim::Colour(1, 0, 0));
   EXPECT_EQ(texture.colour({0.5f, 0.95f}, 0.0f), sim::Colour(0, 1, 0));
   // From far away it is the mean of what covers, in which the clear half's black has no part.
@@ -45,7 +45,37 @@ TEST(LeafTexture, IsLinearAndOfWhatCoversAlone) {
   EXPECT_GT(far.r, 0.2f);
   EXPECT_GT(far.g, 0.2f);
   LeafPicture grey{"grey", 4, 4, std::vector<std::array<std::uint8_t, 4>>(16, {128, 128, 128, 255}), {}};
-  EXPECT_NEAR(LeafTexture(grey).colour({0.5f, 0.5f}, 0.0f).r, sim::linearFromSrgb(128.0f / 255.0f), 1e-6f);
+  EXPECT_NEAR(PictureTexture(grey).colour({0.5f, 0.5f}, 0.0f).r, sim::linearFromSrgb(128.0f / 255.0f), 1e-6f);
+}
+
+TEST(PictureTexture, BeyondItsRimsItTilesOrGoesBackOrGoesOn) {
+  using Wrap = sim::Texture::Wrap;
+  const auto left = sim::Colour(1, 0, 0);
+  const auto at = [](Wrap wrap, float u) {
+    return PictureTexture(flag(), {wrap, Wrap::clamp}, 32).colour({u, 0.3f}, 0.0f);
+  };
+  for (const float u : {0.25f, 1.25f, -0.75f, 6.25f}) EXPECT_EQ(at(Wrap::repeat, u), left) << u;
+  for (const float u : {0.25f, -0.25f, 1.75f, 2.25f, -1.75f}) EXPECT_EQ(at(Wrap::mirror, u), left) << u;
+  for (const float u : {0.25f, -0.25f, -7.0f}) EXPECT_EQ(at(Wrap::clamp, u), left) << u;
+  EXPECT_NE(at(Wrap::mirror, 1.25f), left);
+  EXPECT_NE(at(Wrap::clamp, 1.25f), left);
+  // Along v as well.
+  const PictureTexture upright(flag(), {Wrap::clamp, Wrap::mirror}, 32);
+  EXPECT_EQ(upright.colour({0.2f, 1.1f}, 0.0f), sim::Colour(0, 1, 0));
+  EXPECT_EQ(upright.colour({0.2f, -0.1f}, 0.0f), left);
+}
+
+TEST(PictureTexture, LargerOnesAreHalved) {
+  using Wrap = sim::Texture::Wrap;
+  LeafPicture stripes{"stripes", 64, 64, {}, {}};  // of one texel each: a texel of half the size is grey
+  for (int i = 0; i < 64 * 64; ++i) {
+    const auto value = static_cast<std::uint8_t>(i % 2 == 0 ? 255 : 0);
+    stripes.texels.push_back({value, value, value, 255});
+  }
+  const PictureTexture fine(stripes, {Wrap::repeat, Wrap::repeat}, 64);
+  const PictureTexture coarse(stripes, {Wrap::repeat, Wrap::repeat}, 32);
+  EXPECT_EQ(fine.colour({0.5f / 64.0f, 0.5f}, 0.0f), sim::Colour(1.0f));
+  EXPECT_NEAR(coarse.colour({0.5f + 0.5f / 32.0f, 0.5f}, 0.0f).r, 0.5f, 0.02f);
 }
 
 /// A card of 1 x 1 m in the plane z = 0 that shows the flag.

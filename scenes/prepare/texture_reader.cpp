@@ -1,0 +1,64 @@
+#include "scenes/prepare/texture_reader.h"
+
+#include <fmt/format.h>
+
+#include <set>
+#include <stdexcept>
+
+#include "render/image/oiio.h"
+#include "scenes/clean_text.h"
+#include "scenes/import/guarded_file.h"
+#include "scenes/import/picture_reader.h"
+#include "sim/base/error.h"
+#include "sim/base/stop.h"
+
+namespace espalier::scenes {
+namespace {
+
+sim::Picture decodedTexture(const sim::Texture& texture) {
+  const auto read = texture.mime_type == "image/jpeg" ? render::oiio().read_jpeg : render::oiio().read_png;
+  render::Texels decoded = read(texture.bytes, kMostPicturePixels, kMostPictureSide);
+  sim::Picture picture;
+  picture.width = decoded.width;
+  picture.height = decoded.height;
+  picture.texels = std::move(decoded.rgba);
+  return picture;
+}
+
+std::shared_ptr<const sim::Picture> readTexture(const sim::Texture& texture) {
+  const std::string bytes = readInChild([&] { return packPicture(decodedTexture(texture), 0); },
+                                        limitsFor(texture.bytes.size()), "texture");
+  sim::InputFile unused;
+  try {
+    return std::make_shared<const sim::Picture>(pictureFromChild(bytes, unused));
+  } catch (const std::runtime_error& error) {
+    throw sim::InputError(fmt::format("it is damaged: it confused the picture reader ({})", error.what()));
+  }
+}
+
+}  // namespace
+
+ReadTextures readTextures(const std::vector<sim::TiledMesh>& meshes) {
+  ReadTextures read;
+  std::set<const sim::Texture*> tried;
+  for (const sim::TiledMesh& tiled : meshes) {
+    const sim::Mesh& mesh = tiled.mesh;
+    if (mesh.uvs.empty()) continue;
+    for (const sim::Material& material : mesh.materials) {
+      const sim::Texture* const texture = material.texture.get();
+      if (texture == nullptr || !tried.insert(texture).second) continue;
+      sim::throwIfStopped();
+      render::makeReadyToDraw();  // a child would load it for itself, and say less of why it cannot
+      try {
+        read.pictures[texture] = readTexture(*texture);
+      } catch (const sim::InputError& error) {
+        read.unread.push_back(
+            fmt::format("mesh '{}': its texture '{}' is not drawn, but in its material's colour: {}",
+                        cleanText(mesh.name), cleanText(texture->name), cleanText(error.what())));
+      }
+    }
+  }
+  return read;
+}
+
+}  // namespace espalier::scenes

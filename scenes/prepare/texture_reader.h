@@ -1,0 +1,22 @@
+#pragma once
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "sim/base/picture.h"
+#include "sim/tile/build_world.h"
+
+namespace espalier::scenes {
+
+/// Textures of scene meshes, to be drawn.
+struct ReadTextures {
+  std::map<const sim::Texture*, std::shared_ptr<const sim::Picture>> pictures;
+  std::vector<std::string> unread;  ///< a sentence on each that could not be read
+};
+
+/// Of all materials of meshes that have UVs, each in a child process (scenes/import/guarded_file.h), as PNG
+/// or JPEG by what they say they are, with the bounds of readPicture.
+ReadTextures readTextures(const std::vector<sim::TiledMesh>& meshes);
+
+}  // namespace espalier::scenes

@@ -33,11 +33,11 @@ struct Certificate {
     std::size_t left_out = 0;  ///< drawn, but inside of solids or outside of the world
     int rays = 0;              ///< from each point
     double bias = 0.0, rms = 0.0, median = 0.0, percentile_95 = 0.0;  ///< the last two of the error's size
-    std::size_t on_faces = 0;   ///< points that face as their voxel does, with no gap narrower than a voxel
-    double rms_on_faces = 0.0;  ///< theirs
-    /// What the sky's directions make of the error on faces, and what the voxels: RMS over some of the
-    /// points, by a map with several times as many directions.
-    double rms_of_directions = 0.0, rms_of_voxels = 0.0;
+    std::size_t on_faces = 0;  ///< points that face as their voxel does, with no gap narrower than a voxel
+    double rms_on_faces = 0.0, size_on_faces = 0.0;  ///< of their errors, and the mean of the errors' sizes
+    /// The mean sizes of what the sky's directions make of the error on faces, and of what the voxels make:
+    /// of some of the points, by a map with several times as many directions.
+    double size_of_directions = 0.0, size_of_voxels = 0.0;
     struct Worst {
       sim::Vec3 at_m{0.0};
       std::string object, region;

@@ -15,11 +15,16 @@ std::string inShort(const Certificate& c) {
       sim::nameOf(c.weighting), s.points, s.rays, s.bias, s.rms, s.median, s.percentile_95);
   if (s.on_faces == 0)
     return text + "  none of them on a face as wide as a voxel; smaller voxels would help\n";
-  text +=
-      fmt::format("  on faces ({} points) RMS {:.4f}: {} directions make {:.4f}, voxels of {:.4g} m {:.4f}; ",
-                  s.on_faces, s.rms_on_faces, c.directions, s.rms_of_directions, c.voxel_m, s.rms_of_voxels);
-  const bool voxels = s.rms_of_voxels > s.rms_of_directions || c.directions >= sim::kMostSkyDirections;
-  return text + (voxels ? "smaller voxels would help most\n" : "a finer sky.accuracy would help most\n");
+  text += fmt::format(
+      "  on faces ({} points) RMS {:.4f}: {} directions make {:.4f}, voxels of {:.4g} m {:.4f}; ", s.on_faces,
+      s.rms_on_faces, c.directions, s.size_of_directions, c.voxel_m, s.size_of_voxels);
+  constexpr double kClearly = 1.5;
+  const char* const voxels = "smaller voxels would help most\n";
+  if (c.directions >= sim::kMostSkyDirections || s.size_of_voxels > kClearly * s.size_of_directions)
+    return text + voxels;
+  return text + (s.size_of_directions > kClearly * s.size_of_voxels
+                     ? "a finer sky.accuracy would help most\n"
+                     : "smaller voxels and a finer sky.accuracy would help alike\n");
 }
 
 std::string toText(const Certificate& c) {
@@ -80,8 +85,9 @@ std::string toJson(const Certificate& c) {
                                  {"percentile_95", s.percentile_95},
                                  {"points_on_faces", s.on_faces},
                                  {"rms_on_faces", s.rms_on_faces},
-                                 {"rms_of_directions", s.rms_of_directions},
-                                 {"rms_of_voxels", s.rms_of_voxels},
+                                 {"mean_size_on_faces", s.size_on_faces},
+                                 {"mean_size_of_directions", s.size_of_directions},
+                                 {"mean_size_of_voxels", s.size_of_voxels},
                                  {"worst",
                                   {{"at_m", {s.worst.at_m.x, s.worst.at_m.y, s.worst.at_m.z}},
                                    {"object", s.worst.object},

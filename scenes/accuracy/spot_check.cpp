@@ -192,12 +192,12 @@ void split(const Site& site, const MappedVoxels& map, const std::vector<Point>& 
   double of_directions = 0.0, of_voxels = 0.0;
   for (std::size_t i = 0; i < points.size(); ++i) {
     const double value = valueIn(map, points[i]), better = valueIn(finer, points[i]);
-    of_directions += (value - better) * (value - better);
-    of_voxels += (better - truths[i]) * (better - truths[i]);
+    of_directions += std::abs(value - better);
+    of_voxels += std::abs(better - truths[i]);
   }
   const auto n = static_cast<double>(std::max<std::size_t>(1, points.size()));
-  check.rms_of_directions = std::sqrt(of_directions / n);
-  check.rms_of_voxels = std::sqrt(of_voxels / n);
+  check.size_of_directions = of_directions / n;
+  check.size_of_voxels = of_voxels / n;
 }
 
 /// Whether the point's voxel is its own: one that holds several faces has one value and one normal.
@@ -237,6 +237,7 @@ std::optional<Certificate::SpotCheck> spotCheck(const Site& site, std::uint64_t 
     squares += error * error;
     if (onFace(site, scene, map, points[i])) {
       squares_on_faces += error * error;
+      check.size_on_faces += std::abs(error);
       if (check.on_faces++ % kSplit == 0) {
         some.push_back(points[i]);
         truths_of_some.push_back(truths[i]);
@@ -252,8 +253,9 @@ std::optional<Certificate::SpotCheck> spotCheck(const Site& site, std::uint64_t 
   const auto n = static_cast<double>(points.size());
   check.bias /= n;
   check.rms = std::sqrt(squares / n);
-  check.rms_on_faces =
-      std::sqrt(squares_on_faces / static_cast<double>(std::max<std::size_t>(1, check.on_faces)));
+  const auto faces = static_cast<double>(std::max<std::size_t>(1, check.on_faces));
+  check.rms_on_faces = std::sqrt(squares_on_faces / faces);
+  check.size_on_faces /= faces;
   split(site, map, some, truths_of_some, check);
   std::sort(sizes.begin(), sizes.end());
   check.median = sizes[sizes.size() / 2];

@@ -32,7 +32,8 @@ StageCost lightingCost(const LitWorld& w) {
 }
 
 StageCost certifyingCost(const LitWorld& w) {
-  return {"certifying", {0.65, 0.25 + 3.3e-3 * w.sky_directions}, 170e6, 0.0};
+  return {
+      "certifying", {0.05, 0.5 + 2e-3 * w.sky_directions + 8e-11 * w.voxels * w.sky_directions}, 60e6, 0.0};
 }
 
 StageCost countingCost(const LitWorld& w) {

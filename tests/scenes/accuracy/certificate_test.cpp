@@ -171,11 +171,11 @@ TEST(Certificate, SaysWhatWouldHelp) {
     const Scene scene = courtOf(scratch, voxel_m, accuracy);
     return certify(makeSiteForLight(scene), scene.seed);
   };
-  const Certificate coarse = of(1.0, 0.005), fine = of(0.2, 0.005), exact = of(0.2, 0.002);
+  const Certificate coarse = of(1.0, 0.005), fine = of(0.125, 0.005), exact = of(0.25, 0.002);
   EXPECT_NE(inShort(coarse).find("smaller voxels would help most"), std::string::npos) << inShort(coarse);
   EXPECT_NE(inShort(fine).find("a finer sky.accuracy would help most"), std::string::npos) << inShort(fine);
   EXPECT_LT(fine.spots->rms_on_faces, 0.5 * coarse.spots->rms_on_faces);
-  EXPECT_LT(exact.spots->rms_of_directions, 0.7 * fine.spots->rms_of_directions);
+  EXPECT_LT(exact.spots->size_of_directions, 0.7 * fine.spots->size_of_directions);
 }
 
 /// Between these lines docs/accuracy.md holds what the program says. ESPALIER_UPDATE_DOCS=1 writes it anew.

@@ -75,6 +75,7 @@ TEST(Site, AStrangersMeshIsTheSameWorldHoweverItIsWound) {
   ASSERT_EQ(surfaces.size(), others.size());
   for (std::size_t i = 0; i < surfaces.size(); ++i) {
     ASSERT_EQ(surfaces[i].voxel, others[i].voxel);
+    if (surfaces[i].surface.coverage == 0.0f) continue;  // a corner has no normal of its own
     ASSERT_LT(glm::distance(surfaces[i].surface.normal, others[i].surface.normal), 1e-5f);
   }
   const Site hollow = siteOf(inside_out, false);  // as it is

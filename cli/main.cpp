@@ -8,9 +8,9 @@
 
 #include "cli/commands.h"
 #include "cli/doing.h"
+#include "cli/job_options.h"
 #include "cli/say.h"
 #include "cli/values.h"
-#include "scenes/problem.h"
 #include "sim/base/error.h"
 
 namespace espalier::cli {
@@ -47,12 +47,8 @@ int run(int argc, char** argv) {
   } catch (const sim::Stopped&) {
     say(kStoppedText);
     return kStopped;
-  } catch (const scenes::ManyLines& error) {
-    for (const std::string& line : error.lines()) say(line);
-    return kInputError;
   } catch (const sim::InputError& error) {
-    say(error.what());
-    return kInputError;
+    return sayWrong(error);
   } catch (const std::exception& error) {
     say(error.what());
     return kFailed;

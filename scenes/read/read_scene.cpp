@@ -149,6 +149,8 @@ Scene sceneOf(const Document& document, const fs::path& path, Problems& problems
   }
   for (const SceneMesh& mesh : scene.meshes) scene.read_paths.push_back(mesh.file);
   scene.warnings = loader.warnings().sorted();
+  for (std::size_t i = 0; i < scene.meshes.size(); ++i)
+    scene.meshes[i].place = placeOf({&root}, fmt::format("meshes[{}]", i));
   for (AttractorsSpec& attractors : scene.attractors)
     attractors.place = placeOf({&root}, "attractors." + attractors.name);
   for (FieldSpec& field : scene.fields) {

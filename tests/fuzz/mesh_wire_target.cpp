@@ -29,7 +29,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     const std::string packed = scenes::packMesh(mesh, read);
     fuzz::require(scenes::packMesh(scenes::meshFromChild(packed, again), read) == packed,
                   "a mesh that is packed otherwise");
-    mesh = scenes::placeMesh(std::move(mesh), 0.5, {0.0, 45.0, 0.0}, {0.25, 0.0, 0.0});
+    mesh = scenes::placeMesh(std::move(mesh),
+                             {.scale = 0.5, .rotate_deg = {0.0, 45.0, 0.0}, .translate_m = {0.25, 0.0, 0.0}});
     sim::buildWorld({sim::Vec3(-3.5), 1.0, {8, 8, 8}}, {{mesh, size % 2 == 1}}, 1);
   } catch (const sim::InputError&) {
   }

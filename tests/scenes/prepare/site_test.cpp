@@ -49,8 +49,8 @@ TEST(Site, KeepsItsMeshesAsPlaced) {
   SceneMesh mesh;
   mesh.name = "slab";
   mesh.file = scratch.write("slab.obj", "v 0 0 0\nv 1 0 0\nv 1 0 1\ng top\nf 1 3 2\n");
-  mesh.scale = 2.0;
-  mesh.translate_m = {-1, 0.25, -1};
+  mesh.placement.scale = 2.0;
+  mesh.placement.translate_m = {-1, 0.25, -1};
   scene.meshes.push_back(mesh);
   const Site site = makeSite(scene);
   ASSERT_EQ(site.meshes.size(), 1u);

@@ -162,7 +162,8 @@ std::shared_ptr<const Table> plantKeys() {
           [](const PlantSpec& p) {
             return p.rules ? Datum{RuleReference{p.rules_file.string(), p.rules}} : Datum{};
           },
-          {.meaning = "How it grows: a rule file, or rule keys in place.", .required = true})
+          {.meaning = "How it grows: a rule file, one of the library by its name, or rule keys in place.",
+           .required = true})
       .name("name", &PlantSpec::name,
             {.meaning = "What reports and outputs call it; without it, plant_1, plant_2 and so on."})
       .list<SeedSpec>("seeds", Kind::entries, &PlantSpec::seeds, seedKeys(),

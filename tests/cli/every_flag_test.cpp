@@ -313,6 +313,7 @@ TEST_F(EveryFlag, OfTheOthersChangesWhatIsSaid) {
   cli::addCheck(app_, status_);
   cli::addCertify(app_, status_);
   cli::addSchema(app_, status_);
+  cli::addRules(app_, status_);
   const std::string scene = scratch_.path("scene.yaml").string();
   const auto said = [](const std::string& arguments) { return tests::espalier(arguments).output; };
 
@@ -330,6 +331,10 @@ TEST_F(EveryFlag, OfTheOthersChangesWhatIsSaid) {
 
   EXPECT_EQ(optionsOf(*app_.get_subcommand("schema")), (std::set<std::string>{"kind"}));
   EXPECT_NE(said("schema rules"), said("schema scene"));
+
+  EXPECT_EQ(optionsOf(*app_.get_subcommand("rules")), (std::set<std::string>{"name"}));
+  EXPECT_EQ(said("rules ivy"), tests::fileText(tests::sourceFolder() / "rules/library/ivy.yaml"));
+  EXPECT_NE(said("rules").find("ivy"), std::string::npos);
 }
 
 TEST_F(EveryFlag, OfTheProgramItselfAndEverySubcommandIsAmongThese) {
@@ -342,7 +347,7 @@ TEST_F(EveryFlag, OfTheProgramItselfAndEverySubcommandIsAmongThese) {
   for (std::getline(lines, line); std::getline(lines, line);) {
     if (line.starts_with("  ") && line[2] != ' ') told.insert(line.substr(2, line.find(' ', 2) - 2));
   }
-  EXPECT_EQ(told, (std::set<std::string>{"certify", "check", "expose", "grow", "render", "schema"}));
+  EXPECT_EQ(told, (std::set<std::string>{"certify", "check", "expose", "grow", "render", "rules", "schema"}));
   EXPECT_EQ(help.substr(0, help.find("Subcommands:")).find("--", help.find("--version") + 2),
             std::string::npos)
       << "an option of the program itself that no test knows:\n"

@@ -27,6 +27,7 @@ int parse(int argc, char** argv) {
   addExpose(app, exit_status);
   addCheck(app, exit_status);
   addCertify(app, exit_status);
+  addInspect(app, exit_status);
   addRules(app, exit_status);
   addSchema(app, exit_status);
   try {

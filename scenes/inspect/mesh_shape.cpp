@@ -12,8 +12,15 @@ double MeshShape::longest() const {
   return std::max({size().x, size().y, size().z});
 }
 
+double areaOf(const sim::Mesh& mesh, std::size_t triangle) {
+  const auto& [a, b, c] = mesh.triangles[triangle];
+  return 0.5 * glm::length(glm::cross(mesh.vertices_m[b] - mesh.vertices_m[a],
+                                      mesh.vertices_m[c] - mesh.vertices_m[a]));
+}
+
 MeshShape shapeOf(const sim::Mesh& mesh) {
   constexpr double kAlong = 0.985, kBeside = 0.174;  // cosine and sine of 10 degrees
+  constexpr double kRather = 0.707;
   MeshShape shape;
   for (const auto& [a, b, c] : mesh.triangles) {
     const sim::Vec3 &p = mesh.vertices_m[a], &q = mesh.vertices_m[b], &r = mesh.vertices_m[c];
@@ -27,12 +34,13 @@ MeshShape shapeOf(const sim::Mesh& mesh) {
     for (int axis = 0; axis < 3; ++axis) {
       const auto k = static_cast<std::size_t>(axis);
       if (std::abs(twice[axis]) >= kAlong * length) shape.across[k] += 0.5 * length;
+      if (std::abs(twice[axis]) >= kRather * length) shape.level[k] += 0.5 * length;
       if (std::abs(twice[axis]) <= kBeside * length) shape.beside[k] += 0.5 * length;
     }
   }
   shape.net /= shape.area;
   shape.middle /= shape.area;
-  for (auto* const shares : {&shape.across, &shape.beside}) {
+  for (auto* const shares : {&shape.across, &shape.beside, &shape.level}) {
     for (double& share : *shares) share /= shape.area;
   }
   return shape;
@@ -59,8 +67,12 @@ std::vector<UnitReading> likelyUnits(double longest) {
   return likely;
 }
 
+std::string inDigits(double number) {
+  return number >= 100.0 ? fmt::format("{:.0f}", number) : fmt::format("{:.3g}", number);
+}
+
 std::string sizeText(const sim::Vec3& size_m) {
-  return fmt::format("{:.3g} x {:.3g} x {:.3g} m", size_m.x, size_m.y, size_m.z);
+  return fmt::format("{} x {} x {} m", inDigits(size_m.x), inDigits(size_m.y), inDigits(size_m.z));
 }
 
 }  // namespace espalier::scenes

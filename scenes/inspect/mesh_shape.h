@@ -17,6 +17,7 @@ struct MeshShape {
   double area = 0.0;
   std::array<double, 3> across{};  ///< shares of the area that look along x, y and z, to 10 degrees
   std::array<double, 3> beside{};  ///< shares that stand along x, y and z, likewise: walls, for y
+  std::array<double, 3> level{};   ///< shares that look rather along x, y and z than across: to 45 degrees
   sim::Vec3 middle{0.0};           ///< of the area
   sim::Vec3 net{0.0};              ///< mean normal by area: of a closed surface none
 
@@ -25,6 +26,8 @@ struct MeshShape {
 };
 
 MeshShape shapeOf(const sim::Mesh& mesh);
+
+double areaOf(const sim::Mesh& mesh, std::size_t triangle);
 
 /// Nothing that plants grow on is longer than that, but for towns and terrain.
 inline constexpr double kLarge_m = 200.0;
@@ -41,7 +44,9 @@ struct UnitReading {
 /// the one that comes nearest to 10 m first. `longest`: in the file's own numbers.
 std::vector<UnitReading> likelyUnits(double longest);
 
-/// "8.8 x 6.1 x 5.8 m"; metres as far as they can be read, then with a power of ten.
+/// "8.78", "1900": three digits, or all of a whole number.
+std::string inDigits(double number);
+/// "8.8 x 6.1 x 5.8 m".
 std::string sizeText(const sim::Vec3& size_m);
 
 }  // namespace espalier::scenes

@@ -17,5 +17,7 @@ void addCertify(CLI::App& app, int& exit_status);
 void addInspect(CLI::App& app, int& exit_status);
 void addRules(CLI::App& app, int& exit_status);
 void addSchema(CLI::App& app, int& exit_status);
+void addInit(CLI::App& app, int& exit_status);
+void addExplain(CLI::App& app, int& exit_status);
 
 }  // namespace espalier::cli

@@ -30,6 +30,8 @@ int parse(int argc, char** argv) {
   addInspect(app, exit_status);
   addRules(app, exit_status);
   addSchema(app, exit_status);
+  addInit(app, exit_status);
+  addExplain(app, exit_status);
   try {
     app.parse(argc, argv);
   } catch (const CLI::Success& asked) {  // --help and --version

@@ -77,6 +77,45 @@ TEST_F(Strangers, FileThatIsNoMeshIsAnErrorAndNoSceneIsMade) {
   refused("inspect " + at("none.obj"));
 }
 
+TEST_F(Strangers, FirstProjectIsCheckedAndGrows) {
+  done("init " + at("garden"));
+  EXPECT_EQ(done("check " + at("garden/ivy_here.yaml")).output, "");
+  done("check " + at("garden/scene.yaml"));
+  done("grow " + at("garden/scene.yaml") + " --quiet --no-pictures -o " + at("out"));
+  EXPECT_GT(segments("out"), 200);
+  EXPECT_TRUE(report("out")["warnings"].empty());
+  for (const char* const file : {"scene.yaml", "ivy_here.yaml"}) {
+    const std::string text = tests::fileText(scratch_.path("garden") / file);
+    const std::string schema =
+        text.substr(text.find("$schema=") + 8, text.find('\n') - text.find("$schema=") - 8);
+    EXPECT_TRUE(nlohmann::json::accept(tests::fileText(scratch_.path("garden") / schema))) << schema;
+  }
+  const auto settings = nlohmann::json::parse(tests::fileText(scratch_.path("garden/.vscode/settings.json")));
+  for (const auto& [schema, files] : settings["yaml.schemas"].items())
+    EXPECT_TRUE(fs::exists(scratch_.path("garden") / schema)) << schema;
+}
+
+TEST_F(Strangers, FirstProjectIsMadeInNoFolderThatHoldsAnything) {
+  scratch_.write("full/notes.txt", "mine");
+  EXPECT_NE(refused("init " + at("full")).output.find("not empty"), std::string::npos);
+  EXPECT_FALSE(fs::exists(at("full/scene.yaml")));
+  refused("init " + at("full/notes.txt"));
+  fs::create_directories(at("empty"));
+  done("init " + at("empty"));
+}
+
+TEST_F(Strangers, KeysAreExplainedByPathLastWordAndGreenesName) {
+  const std::string up = done("explain bias.up").output;
+  for (const char* const part :
+       {"bias.up, in rule files", "value: ", "range: ", "default: ", "  bias:\n    up: ...\n"})
+    EXPECT_NE(up.find(part), std::string::npos) << part << " is not in\n" << up;
+  EXPECT_NE(done("explain voxel").output.find("world.voxel, in scene files"), std::string::npos);
+  EXPECT_NE(done("explain seekprox").output.find("prefer.proximity"), std::string::npos);
+  EXPECT_EQ(done("explain 'elements[].size'").output, done("explain elements.size").output);
+  EXPECT_NE(done("explain elements.size").output.find("  elements:\n    - size: ...\n"), std::string::npos);
+  EXPECT_NE(refused("explain voxle").output.find("did you mean 'voxel'?"), std::string::npos);
+}
+
 TEST_F(Strangers, CommandsAndRuleSetsHaveNearNames) {
   EXPECT_NE(refused("inspekt a.obj").output.find("did you mean 'inspect'?"), std::string::npos);
   EXPECT_NE(refused("rules ivi").output.find("did you mean 'ivy'?"), std::string::npos);

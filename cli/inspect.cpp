@@ -15,6 +15,7 @@
 #include "cli/say.h"
 #include "scenes/job/inspect.h"
 #include "sim/base/error.h"
+#include "sim/base/stop.h"
 #include "sim/base/whole_file.h"
 
 namespace espalier::cli {
@@ -44,6 +45,7 @@ void requireNewScene(const InspectArguments& arguments) {
 
 int inspect(const InspectArguments& arguments) {
   const Interrupt interrupt;
+  const sim::StopScope stoppable(interrupt.token());
   requireNewScene(arguments);
   std::vector<scenes::Inspected> meshes;
   for (const std::string& mesh : arguments.meshes) {
@@ -55,7 +57,13 @@ int inspect(const InspectArguments& arguments) {
   }
   return doing(arguments.meshes.front(), "making a scene of it", [&] {
     const std::string file = arguments.scene.empty() ? "scene.yaml" : arguments.scene;
-    const scenes::InScene scene = scenes::sceneWith(meshes, file, interrupt.token());
+    scenes::InScene scene;
+    try {
+      scene = scenes::sceneWith(meshes, file);
+    } catch (const sim::InputError&) {  // the meshes are told of all the same
+      if (arguments.json) printJson(scenes::toJson(meshes, {}));
+      throw;
+    }
     if (arguments.json) {
       printJson(scenes::toJson(meshes, scene));
     } else {

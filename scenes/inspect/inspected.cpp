@@ -1,10 +1,13 @@
 #include "scenes/inspect/inspected.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
 #include "scenes/import/mesh_import.h"
 #include "scenes/import/placing.h"
+#include "sim/base/error.h"
 
 namespace espalier::scenes {
 namespace {
@@ -40,6 +43,10 @@ Inspected inspectMesh(const std::filesystem::path& file) {
   found.triangles = mesh.triangles.size();
   found.degenerate = mesh.degenerate_dropped;
   found.shape = shapeOf(mesh);
+  if (!isOfALength(found.shape)) {
+    throw sim::InputError(fmt::format("{}: it is {:.3g} long in its own numbers; expected {:.0g} to {:.0g}",
+                                      file.string(), found.shape.longest(), kLeastLength, kMostLength));
+  }
   found.up = upOf(found.shape, isGltf(file));
   found.unit = unitOf(found.shape, found.up.up, isGltf(file));
   found.surface = surfaceOf(mesh);

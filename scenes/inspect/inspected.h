@@ -32,7 +32,8 @@ struct Inspected {
       0.0;  ///< how far it lay where it is brought nearer (placement.translate_m); 0: it is not
 };
 
-/// Reads a mesh as scenes do (scenes/import/mesh_import.h), and looks at it. Throws sim::InputError.
+/// Reads a mesh as scenes do (scenes/import/mesh_import.h), and looks at it. Throws sim::InputError,
+/// also for one whose areas no number could hold.
 Inspected inspectMesh(const std::filesystem::path& file);
 
 }  // namespace espalier::scenes

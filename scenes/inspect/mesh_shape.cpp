@@ -46,6 +46,10 @@ MeshShape shapeOf(const sim::Mesh& mesh) {
   return shape;
 }
 
+bool isOfALength(const MeshShape& shape) {
+  return shape.longest() >= kLeastLength && shape.longest() <= kMostLength && shape.area > 0.0;
+}
+
 bool isTooHighForAHouse(const MeshShape& shape_m, UpAxis up) {
   constexpr double kWalls = 0.2;
   const int axis = up == UpAxis::z ? 2 : 1;

@@ -27,6 +27,10 @@ struct MeshShape {
 
 MeshShape shapeOf(const sim::Mesh& mesh);
 
+/// Lengths between which areas are numbers, and not 0.
+inline constexpr double kLeastLength = 1e-9, kMostLength = 1e12;
+bool isOfALength(const MeshShape& shape);
+
 double areaOf(const sim::Mesh& mesh, std::size_t triangle);
 
 /// Nothing that plants grow on is longer than that, but for towns and terrain.

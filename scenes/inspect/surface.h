@@ -42,7 +42,7 @@ struct Surface {
   std::vector<SurfacePart> regions;  ///< as the mesh has them
 };
 
-/// For a mesh with triangles. Of winding numbers as many are found as take a second or so.
+/// For a mesh that isOfALength(). Of winding numbers as many are found as take a second or so.
 Surface surfaceOf(const sim::Mesh& mesh);
 
 }  // namespace espalier::scenes

@@ -8,7 +8,6 @@
 #include "scenes/job/expose.h"
 #include "scenes/job/starter_scene.h"
 #include "sim/base/error.h"
-#include "sim/base/stop.h"
 
 namespace espalier::scenes {
 namespace {
@@ -41,10 +40,8 @@ VoxelChoice choiceOf(Scene scene, double voxel_m) {
 
 }  // namespace
 
-InScene sceneWith(const std::vector<Inspected>& meshes, const std::filesystem::path& scene_file,
-                  std::stop_token stop) {
-  constexpr double kAlong = 200.0, kFarthest_m = 1e6;
-  const sim::StopScope stoppable(stop);
+InScene sceneWith(const std::vector<Inspected>& meshes, const std::filesystem::path& scene_file) {
+  constexpr double kAlong = 200.0;
   std::vector<SceneMesh> lines;
   sim::Vec3 low(INFINITY), high(-INFINITY);
   for (const Inspected& mesh : meshes) {

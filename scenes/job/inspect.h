@@ -1,7 +1,6 @@
 #pragma once
 #include <filesystem>
 #include <optional>
-#include <stop_token>
 #include <string>
 #include <vector>
 
@@ -17,14 +16,16 @@ struct VoxelChoice {
   std::string refused;
 };
 
+/// From the origin.
+inline constexpr double kFarthest_m = 1e6;
+
 /// A scene that would use these meshes, at voxels that give its longest side about 200, and what voxels twice
 /// as wide, so wide and half as wide would take. Throws sim::InputError; sim::Stopped.
 struct InScene {
   std::vector<VoxelChoice> choices;
   std::string text;  ///< of a scene file
 };
-InScene sceneWith(const std::vector<Inspected>& meshes, const std::filesystem::path& scene_file,
-                  std::stop_token stop);
+InScene sceneWith(const std::vector<Inspected>& meshes, const std::filesystem::path& scene_file);
 
 /// What a person wants to know of it, in lines.
 std::string toText(const Inspected& mesh);

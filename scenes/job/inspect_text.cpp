@@ -92,8 +92,9 @@ std::string soundness(const Inspected& mesh) {
 std::string placeText(const Inspected& mesh) {
   constexpr double kFloat = 6e-8, kNoticed = 1e-3;
   const double off_m = kFloat * mesh.from_origin_m;
-  std::string text =
-      fmt::format("  place: {:.4g} m from the origin; translate brings it there", mesh.from_origin_m);
+  std::string text = fmt::format(
+      "  place: {} m from the origin; {}", inDigits(mesh.from_origin_m),
+      mesh.from_origin_m > kFarthest_m ? "farther than a scene reaches" : "translate brings it there");
   if (off_m > kNoticed * glm::length(mesh.high_m - mesh.low_m)) {
     text += fmt::format(
         ". So far out its corners may be off by {:.1g} m: better move it in the program that it "

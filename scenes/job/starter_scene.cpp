@@ -18,7 +18,7 @@
 namespace espalier::scenes {
 namespace {
 
-constexpr int kMargin_vx = 10, kSeeds = 3;
+constexpr int kMargin_vx = 10, kSeeds = 3, kLeastRise_vx = 3;
 
 /// Of the library: ivy has its own size, which finer or coarser voxels would not show.
 const char* ruleSetFor(double voxel_m) {
@@ -109,14 +109,13 @@ std::vector<sim::Voxel> placesOn(const sim::World& world) {
   return places;
 }
 
-/// Free voxels beside something that rises by three, as low as such places are, in the order (y, z, x).
-std::vector<sim::Voxel> feetIn(const sim::World& world) {
-  constexpr int kRise = 3;
+/// Free voxels beside something that rises so far, as low as such places are, in the order (y, z, x).
+std::vector<sim::Voxel> feetIn(const sim::World& world, int rise_vx) {
   const sim::BitVolume& occupied = world.occupied();
   const sim::Voxel size = occupied.size();
   std::vector<sim::Voxel> feet;
   const auto rises = [&](sim::Voxel v) {
-    for (int up = 0; up < kRise; ++up) {
+    for (int up = 0; up < rise_vx; ++up) {
       if (!occupied.at(v + sim::Voxel(0, up, 0))) return false;
     }
     return true;
@@ -195,7 +194,9 @@ StarterScene starterScene(const std::vector<SceneMesh>& meshes, const std::array
     return sceneText(meshes, box_m, voxel_m, scene_file, seeds);
   };
   const Site site = makeSite(parsed(textWith({place(box_m[0], voxel_m)}), scene_file));
-  std::vector<sim::Voxel> feet = spreadOver(feetIn(site.world), kTried);
+  std::vector<sim::Voxel> feet;  // of walls, not of the slab that they stand on
+  for (int rise_vx = site.world.frame().size.y / 6; feet.empty() && rise_vx >= kLeastRise_vx; rise_vx /= 2)
+    feet = spreadOver(feetIn(site.world, rise_vx), kTried);
   if (feet.empty()) feet = spreadOver(placesOn(site.world), kTried);  // nothing rises: on the ground
   std::vector<std::string> all, seeds;
   for (const sim::Voxel& v : feet)

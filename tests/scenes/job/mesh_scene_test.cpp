@@ -33,7 +33,7 @@ class MeshScene : public testing::Test {
   InScene sceneOf(const std::vector<std::filesystem::path>& files) {
     std::vector<Inspected> meshes;
     for (const auto& file : files) meshes.push_back(inspectMesh(file));
-    return sceneWith(meshes, scratch_.path("scene.yaml"), {});
+    return sceneWith(meshes, scratch_.path("scene.yaml"));
   }
   /// Writes the scene, and lets it grow.
   Report grown(const InScene& made) {

@@ -27,8 +27,7 @@ int foretell(const scenes::Scene& scene, const scenes::RunOptions& options) {
   } catch (const scenes::MeshMissing& missing) {
     saySkipped(missing);
   } catch (const sim::InputError& error) {
-    say(error.what());
-    return kInputError;
+    return sayWrong(error);
   }
   return 0;
 }

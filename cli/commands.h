@@ -14,6 +14,10 @@ void addRender(CLI::App& app, int& exit_status);
 void addExpose(CLI::App& app, int& exit_status);
 void addCheck(CLI::App& app, int& exit_status);
 void addCertify(CLI::App& app, int& exit_status);
+void addInspect(CLI::App& app, int& exit_status);
+void addRules(CLI::App& app, int& exit_status);
 void addSchema(CLI::App& app, int& exit_status);
+void addInit(CLI::App& app, int& exit_status);
+void addExplain(CLI::App& app, int& exit_status);
 
 }  // namespace espalier::cli

@@ -92,6 +92,13 @@ int sayProblems(const std::vector<scenes::Problem>& problems) {
   return kInputError;
 }
 
+int sayWrong(const sim::InputError& error) {
+  const auto* const many = dynamic_cast<const scenes::ManyLines*>(&error);
+  if (!many) say(error.what());
+  for (const std::string& line : many ? many->lines() : std::vector<std::string>()) say(line);
+  return kInputError;
+}
+
 void saySkipped(const scenes::MeshMissing& missing) {
   say(fmt::format("{}; skipped, as the scene calls it optional", missing.what()));
 }

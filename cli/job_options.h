@@ -28,6 +28,8 @@ void addStrict(CLI::App& command, JobOptions& options);
 
 /// Says each, and gives kInputError back.
 int sayProblems(const std::vector<scenes::Problem>& problems);
+/// Says what is wrong, in as many lines as it takes, and gives kInputError back.
+int sayWrong(const sim::InputError& error);
 /// Says that a scene is skipped, which is no failure.
 void saySkipped(const scenes::MeshMissing& missing);
 

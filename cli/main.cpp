@@ -8,9 +8,9 @@
 
 #include "cli/commands.h"
 #include "cli/doing.h"
+#include "cli/job_options.h"
 #include "cli/say.h"
 #include "cli/values.h"
-#include "scenes/problem.h"
 #include "sim/base/error.h"
 
 namespace espalier::cli {
@@ -27,7 +27,11 @@ int parse(int argc, char** argv) {
   addExpose(app, exit_status);
   addCheck(app, exit_status);
   addCertify(app, exit_status);
+  addInspect(app, exit_status);
+  addRules(app, exit_status);
   addSchema(app, exit_status);
+  addInit(app, exit_status);
+  addExplain(app, exit_status);
   try {
     app.parse(argc, argv);
   } catch (const CLI::Success& asked) {  // --help and --version
@@ -47,12 +51,8 @@ int run(int argc, char** argv) {
   } catch (const sim::Stopped&) {
     say(kStoppedText);
     return kStopped;
-  } catch (const scenes::ManyLines& error) {
-    for (const std::string& line : error.lines()) say(line);
-    return kInputError;
   } catch (const sim::InputError& error) {
-    say(error.what());
-    return kInputError;
+    return sayWrong(error);
   } catch (const std::exception& error) {
     say(error.what());
     return kFailed;

@@ -2,6 +2,22 @@
 
 namespace espalier::scenes {
 
+std::string_view nameOf(LengthUnit unit) {
+  switch (unit) {
+    case LengthUnit::m:
+      return "m";
+    case LengthUnit::cm:
+      return "cm";
+    case LengthUnit::mm:
+      return "mm";
+    case LengthUnit::in:
+      return "in";
+    case LengthUnit::ft:
+      return "ft";
+  }
+  return "";
+}
+
 std::string_view nameOf(ImageKind kind) {
   switch (kind) {
     case ImageKind::sun_exposure:

@@ -28,6 +28,22 @@ inline constexpr int kMostLayers = 64;
 
 enum class RegionsFrom { group, material };
 
+/// What a file's numbers may count, and which of its axes may point up.
+enum class LengthUnit { m, cm, mm, in, ft };
+enum class UpAxis { y, z };
+
+/// The unit's name in scene files.
+std::string_view nameOf(LengthUnit unit);
+
+/// How what a file holds is placed in world space (scenes/import/placing.h).
+struct Placement {
+  std::optional<LengthUnit> unit = {};  ///< of the file's numbers; without one, metres
+  UpAxis up = UpAxis::y;                ///< what points up in the file
+  double scale = 1.0;
+  sim::Vec3 rotate_deg{0.0};  ///< about x, then y, then z
+  sim::Vec3 translate_m{0.0};
+};
+
 /// A mesh, a polyline or points, to be tiled into the world.
 struct SceneMesh {
   std::string name;  ///< defaults to the file's stem
@@ -37,10 +53,9 @@ struct SceneMesh {
   std::optional<bool> solid;                      ///< fill the inside; unset: where the mesh is closed
   bool tiled = true;      ///< false: no part of the world, a shape for attractors alone
   bool optional = false;  ///< a missing file skips the scene instead of being an error
-  double scale = 1.0;
-  sim::Vec3 rotate_deg{0.0};  ///< about x, then y, then z
-  sim::Vec3 translate_m{0.0};
+  Placement placement;
   std::optional<sim::Colour> colour;  ///< instead of the file's materials; linear RGB
+  Place place = {};                   ///< where a scene file has it; without a path where none does
 };
 
 struct WorldSpec {
@@ -132,9 +147,7 @@ struct PointTable {
 struct SkeletonSpec {
   std::filesystem::path file;
   std::string told;  ///< what reports call the file
-  double scale = 1.0;
-  sim::Vec3 rotate_deg{0.0};  ///< about x, then y, then z
-  sim::Vec3 translate_m{0.0};
+  Placement placement;
 };
 
 struct PlantSpec {

@@ -36,7 +36,7 @@ const std::map<std::string, Setting>& settings() {
       {"scenes",
        {{{"job", "read", "yaml"},
          {"job", "read", "import"},
-         {"job", "accuracy", "prepare", "import"},
+         {"job", "accuracy", "prepare", "inspect", "import"},
          {"job", "foretell", "prepare"},
          {"job", "foretell", "show", "write"}},
         {0.955f, 0.905f, 0.885f},

@@ -164,9 +164,9 @@ std::string expectation(const Key& key) {
     case Kind::file:
       return "a path, relative to this file";
     case Kind::base:
-      return "the path of a rule file, relative to this file";
+      return "the path of a rule file, relative to this file, or the name of one of the library";
     case Kind::rules:
-      return "the path of a rule file, or a mapping of rule keys";
+      return "the path of a rule file, the name of one of the library, or a mapping of rule keys";
     case Kind::regions:
       return fmt::format(
           "a mapping from region names (or {}) to 'forbid', {{rules: file.yaml}} or rule keys that "

@@ -162,7 +162,7 @@ class TableOf {
     return finish(key);
   }
 
-  /// Choices in the order in which they are shown.
+  /// Choices in the order in which they are shown; an optional field may have none.
   template <class E, class A>
   TableOf& choice(std::string name, A access, std::vector<std::pair<std::string, E>> choices, About about) {
     Key& key = added(std::move(name), Kind::choice, std::move(about));
@@ -177,7 +177,7 @@ class TableOf {
       const auto& now = std::invoke(access, *static_cast<const T*>(t));
       const auto at =
           std::find_if(choices.begin(), choices.end(), [&](const auto& c) { return c.second == now; });
-      return at->first;
+      return at == choices.end() ? Datum{} : Datum{at->first};
     };
     return finish(key);
   }

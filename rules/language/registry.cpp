@@ -235,7 +235,8 @@ Table makeTable() {
       .header(
           {.meaning = "The kind of this file and, if wanted, the version of the language: rules or rules/1."})
       .text("name", &RuleSet::name, {.meaning = "A name for people."})
-      .base({.meaning = "A rule file to build on: what it says holds wherever this file is silent."})
+      .base({.meaning = "A rule file to build on, or one of the library by its name: what it says holds "
+                        "wherever this file is silent."})
       .choice<Propagate>("propagate", &RuleSet::propagate,
                          {{"random_tree", Propagate::random_tree}, {"colonization", Propagate::colonization}},
                          {.meaning = "The process that grows the plant."})

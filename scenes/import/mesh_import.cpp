@@ -4,13 +4,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <glm/gtc/constants.hpp>
-#include <glm/mat3x3.hpp>
 
 #include "scenes/clean_text.h"
 #include "scenes/import/assimp_reader.h"
 #include "scenes/import/guarded_file.h"
 #include "scenes/import/mesh_wire.h"
+#include "scenes/import/placing.h"
 #include "sim/base/error.h"
 
 namespace espalier::scenes {
@@ -81,33 +80,6 @@ sim::Mesh checked(sim::Mesh mesh) {
   throw sim::InputError(fmt::format("all {} triangles in the file are degenerate", mesh.degenerate_dropped));
 }
 
-/// Sine and cosine that are exact for quarter turns and the same on every machine: of the double functions in
-/// glibc only the square root is. The float sine's error turns the mesh by less than 1e-7.
-std::pair<double, double> sineAndCosine(double degrees) {
-  const double quarters = std::nearbyint(degrees / 90.0);
-  const auto rest_deg = static_cast<float>(degrees - 90.0 * quarters);
-  const double s = std::sin(rest_deg * (glm::pi<float>() / 180.0f));
-  const double c = std::sqrt(1.0 - s * s);
-  switch (static_cast<int>(std::fmod(quarters, 4.0) + 4.0) % 4) {
-    case 0:
-      return {s, c};
-    case 1:
-      return {c, -s};
-    case 2:
-      return {-s, -c};
-    default:
-      return {-c, s};
-  }
-}
-
-/// glm's matrices are written column by column.
-glm::dmat3 turnAbout(int axis, double degrees) {
-  const auto [s, c] = sineAndCosine(degrees);
-  if (axis == 0) return {{1, 0, 0}, {0, c, s}, {0, -s, c}};
-  if (axis == 1) return {{c, 0, -s}, {0, 1, 0}, {s, 0, c}};
-  return {{c, s, 0}, {-s, c, 0}, {0, 0, 1}};
-}
-
 }  // namespace
 
 sim::Mesh meshFromChild(std::string_view bytes, MeshSources& sources) {
@@ -137,14 +109,10 @@ sim::Mesh importMesh(const std::filesystem::path& file, RegionsFrom regions_from
   }
 }
 
-glm::dmat3 turnBy(const sim::Vec3& rotate_deg) {
-  return turnAbout(2, rotate_deg.z) * turnAbout(1, rotate_deg.y) * turnAbout(0, rotate_deg.x);
-}
-
-sim::Mesh placeMesh(sim::Mesh mesh, double scale, const sim::Vec3& rotate_deg, const sim::Vec3& translate_m) {
-  const glm::dmat3 turn = turnBy(rotate_deg);
-  for (auto& p : mesh.vertices_m) p = turn * (p * scale) + translate_m;
-  for (auto& normal : mesh.normals) normal = sim::unitOrNone(turn * sim::Vec3(normal));
+sim::Mesh placeMesh(sim::Mesh mesh, const Placement& placement) {
+  const Placing placing(placement);
+  for (auto& p : mesh.vertices_m) p = placing.point(p);
+  for (auto& normal : mesh.normals) normal = sim::unitOrNone(placing.direction(sim::Vec3(normal)));
   requireFinite(mesh);
   return mesh;
 }

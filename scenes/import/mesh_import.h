@@ -1,7 +1,6 @@
 #pragma once
 #include <cstdint>
 #include <filesystem>
-#include <glm/mat3x3.hpp>
 #include <optional>
 #include <string_view>
 #include <vector>
@@ -53,11 +52,7 @@ sim::Mesh importMesh(const std::filesystem::path& file, RegionsFrom regions_from
 /// bytes are not trusted. Throws sim::InputError, without the file's name.
 sim::Mesh meshFromChild(std::string_view bytes, MeshSources& sources);
 
-/// A turn about the x, then the y, then the z axis. Quarter turns are exact.
-glm::dmat3 turnBy(const sim::Vec3& rotate_deg);
-
-/// The mesh scaled about the origin, turned (turnBy), then moved. Throws sim::InputError where the result is
-/// not finite.
-sim::Mesh placeMesh(sim::Mesh mesh, double scale, const sim::Vec3& rotate_deg, const sim::Vec3& translate_m);
+/// The mesh in world space. Throws sim::InputError where the result is not finite.
+sim::Mesh placeMesh(sim::Mesh mesh, const Placement& placement);
 
 }  // namespace espalier::scenes

@@ -10,7 +10,7 @@
 
 #include "scenes/clean_text.h"
 #include "scenes/import/guarded_file.h"
-#include "scenes/import/mesh_import.h"
+#include "scenes/import/placing.h"
 #include "scenes/import/wire.h"
 #include "sim/base/error.h"
 #include "sim/base/hasher.h"
@@ -101,12 +101,11 @@ std::vector<FileTree> readSkeletons(const std::filesystem::path& file, sim::Inpu
   }
 }
 
-void placeSkeletons(std::vector<FileTree>& trees, double scale, const sim::Vec3& rotate_deg,
-                    const sim::Vec3& translate_m) {
-  const glm::dmat3 turn = turnBy(rotate_deg);
+void placeSkeletons(std::vector<FileTree>& trees, const Placement& placement) {
+  const Placing placing(placement);
   for (FileTree& tree : trees) {
-    for (sim::Vec3& place : tree.position) place = turn * (place * scale) + translate_m;
-    for (float& radius : tree.radius) radius = static_cast<float>(radius * scale);
+    for (sim::Vec3& place : tree.position) place = placing.point(place);
+    for (float& radius : tree.radius) radius = static_cast<float>(placing.length(radius));
   }
 }
 

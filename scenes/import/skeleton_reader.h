@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "scenes/import/skeleton_forest.h"
+#include "scenes/scene.h"
 #include "sim/base/provenance.h"
 
 namespace espalier::scenes {
@@ -27,8 +28,7 @@ std::string packSkeletons(const std::vector<FileTree>& trees, std::uint64_t hash
 /// What the reading child sent, unpacked and checked; the bytes are not trusted. Throws std::runtime_error.
 std::vector<FileTree> skeletonsFromChild(std::string_view bytes, sim::InputFile& read);
 
-/// Metres from the file's unit, turned and moved as scenes place meshes (placeMesh); radii with them.
-void placeSkeletons(std::vector<FileTree>& trees, double scale, const sim::Vec3& rotate_deg,
-                    const sim::Vec3& translate_m);
+/// In world space, as scenes place meshes; radii with them.
+void placeSkeletons(std::vector<FileTree>& trees, const Placement& placement);
 
 }  // namespace espalier::scenes

@@ -23,6 +23,7 @@ class Naming {
   NamedPoints clipped(const sim::PointSet& points) const {
     NamedPoints kept{name_, {}, {}};
     std::size_t outside = 0, blocked = 0;
+    std::string hollow;  // what else could be done
     for (std::size_t i = 0; i < points.at.size(); ++i) {
       const sim::Vec3 at_vx = freed(sim::voxelFromWorld(world_.frame(), points.at[i]), points.normal[i]);
       const sim::Voxel v = voxelOf(at_vx);
@@ -30,6 +31,7 @@ class Naming {
         ++outside;
       } else if (world_.occupied().at(v)) {
         ++blocked;
+        if (hollow.empty()) hollow = sim::orLeaveHollow(world_.part(world_.partAt(v)));
       } else {
         kept.at_vx.push_back(at_vx);
         kept.normal.push_back(points.normal[i]);
@@ -37,7 +39,8 @@ class Naming {
     }
     const std::string lost = fmt::format("of {} points {} lie beyond the world and {} in what stands there",
                                          points.at.size(), outside, blocked);
-    if (kept.at_vx.empty()) fail(lost + ": none is left; expected a place in the open, inside the world");
+    if (kept.at_vx.empty())
+      fail(lost + ": none is left; expected a place in the open, inside the world" + hollow);
     if (outside > 0) warn(lost);
     return kept;
   }

@@ -15,6 +15,7 @@
 #include "scenes/import/world_of.h"
 #include "scenes/lights.h"
 #include "scenes/prepare/in_scene.h"
+#include "scenes/prepare/unit_hints.h"
 #include "sim/base/error.h"
 #include "sim/base/parallel.h"
 
@@ -66,8 +67,7 @@ Meshes readMeshes(const Scene& scene, MeshFiles& files, std::vector<Problem>& wa
   Meshes meshes;
   for (const SceneMesh& spec : scene.meshes) {
     MeshSources read;
-    sim::Mesh mesh = placeMesh(importMesh(spec.file, spec.regions_from, std::nullopt, &read), spec.scale,
-                               spec.rotate_deg, spec.translate_m);
+    sim::Mesh mesh = placeMesh(importMesh(spec.file, spec.regions_from, std::nullopt, &read), spec.placement);
     addFiles(spec, read.files, files);
     for (Problem& warning : read.warnings) {  // of materials, which nobody sees under a colour of the scene's
       if (spec.tiled && !spec.colour &&
@@ -113,7 +113,7 @@ std::vector<std::vector<FileTree>> readPlaced(const Scene& scene, MeshFiles& fil
     const SkeletonSpec& spec = *plant.skeleton;
     sim::InputFile read;
     all.back() = readSkeletons(spec.file, read);
-    placeSkeletons(all.back(), spec.scale, spec.rotate_deg, spec.translate_m);
+    placeSkeletons(all.back(), spec.placement);
     addFile(spec.file, spec.told, std::move(read), files);
   }
   return all;
@@ -175,6 +175,29 @@ sim::World worldFor(const Scene& scene, const std::vector<sim::TiledMesh>& meshe
   return sim::buildWorld(frame, meshes, layers(frame), &fills);
 }
 
+/// The scene's meshes in its own order.
+std::vector<const sim::Mesh*> inOrder(const Scene& scene, const Meshes& meshes) {
+  std::vector<const sim::Mesh*> all;
+  std::size_t tiled = 0, shapes = 0;
+  for (const SceneMesh& spec : scene.meshes)
+    all.push_back(spec.tiled ? &meshes.tiled[tiled++].mesh : &meshes.shapes[shapes++]);
+  return all;
+}
+
+/// As inScene; where there is no world to be had, a mesh in another unit may be why.
+template <typename Work>
+auto withUnitHints(const Scene& scene, const Meshes& meshes, Work work) {
+  try {
+    return inScene(scene, work);
+  } catch (const sim::InputError& error) {
+    const std::vector<Problem> hints = unitHints(scene, inOrder(scene, meshes), WorldMade::no);
+    if (hints.empty()) throw;
+    std::vector<std::string> lines{error.what()};
+    for (const Problem& hint : hints) lines.push_back(format(hint));
+    throw ManyLines(std::move(lines));
+  }
+}
+
 }  // namespace
 
 Site makeSite(const Scene& scene) {
@@ -184,7 +207,7 @@ Site makeSite(const Scene& scene) {
   std::vector<std::vector<sim::Vec3>> listed_m = readListed(scene, files);
   std::vector<std::vector<FileTree>> skeletons = readPlaced(scene, files);
   std::vector<FieldVolume> fields = readFields(scene, files, warnings);
-  Site made = inScene(scene, [&]() -> Site {
+  Site made = withUnitHints(scene, meshes, [&]() -> Site {
     std::vector<FacingReport> facings = findFacing(meshes.tiled);
     std::vector<sim::FillReport> fills;
     std::optional<sim::World> world;
@@ -195,6 +218,8 @@ Site makeSite(const Scene& scene) {
                           sky = sim::makeSky(skySettings(scene.sky));
                           sun = makeSun(scene.sun);
                         });
+    for (Problem& hint : unitHints(scene, inOrder(scene, meshes), WorldMade::yes))
+      warnings.push_back(std::move(hint));
     return {std::move(meshes.tiled), std::move(meshes.shapes),
             std::move(listed_m),     std::move(skeletons),
             std::move(fields),       std::move(facings),
@@ -257,9 +282,9 @@ void requireCamerasInTheOpen(const Scene& scene, const sim::World& world) {
     const sim::PartId part =
         world.partAt(sim::voxelAt(sim::voxelFromWorld(world.frame(), camera.camera.eye_m)));
     if (part == sim::kFree) continue;
-    throw sim::InputError(fmt::format("{}: camera '{}' stands inside '{}' ({}); move its eye into the open",
+    throw sim::InputError(fmt::format("{}: camera '{}' stands inside '{}' ({}); move its eye into the open{}",
                                       scene.file.string(), camera.name, world.part(part).object,
-                                      world.part(part).region));
+                                      world.part(part).region, sim::orLeaveHollow(world.part(part))));
   }
 }
 

@@ -7,6 +7,7 @@
 
 #include "scenes/clean_text.h"
 #include "scenes/yaml/yaml_text.h"
+#include "sim/base/hasher.h"
 
 namespace espalier::scenes {
 namespace {
@@ -108,8 +109,15 @@ Document readDocument(const std::string& path, const Place& asker, std::optional
   std::uint64_t hash = 0;
   const auto text = readText(path, asker, problems, &hash);
   if (!text) return {};
-  const auto look = lookAt(*text);
-  const auto root = look.ours ? parseYaml(*text, path, problems) : nullptr;
+  Document document = documentOf(*text, path, asker, expected, problems);
+  document.hash = hash;  // of the bytes, with a byte order mark
+  return document;
+}
+
+Document documentOf(const std::string& text, const std::string& path, const Place& asker,
+                    std::optional<FileKind> expected, Problems& problems) {
+  const auto look = lookAt(text);
+  const auto root = look.ours ? parseYaml(text, path, problems) : nullptr;
   if (look.ours && !root) return {};
   if (!root || !root->entry(kHeader)) {
     refuseAsForeign(path, asker, look.line, problems);
@@ -117,7 +125,7 @@ Document readDocument(const std::string& path, const Place& asker, std::optional
   }
   // A damaged header is no reason not to read on.
   const auto kind = headerOf(*root, problems);
-  if (!kind || !expected || *kind == *expected) return {root, hash};
+  if (!kind || !expected || *kind == *expected) return {root, sim::hashOf(text)};
   problems.add(root->entry("espalier")->value.place,
                *kind == FileKind::scene ? "this is a scene file; expected a rule file (espalier: rules)"
                                         : "this is a rule file; expected a scene file (espalier: scene)");

@@ -29,6 +29,10 @@ Document readDocument(const std::string& path, const Place& asker, std::optional
 Document readDocument(const std::filesystem::path& path, std::optional<FileKind> expected,
                       Problems& problems);
 
+/// The same for a text that was read already, or stands in no file; `path` is what messages call it.
+Document documentOf(const std::string& text, const std::string& path, const Place& asker,
+                    std::optional<FileKind> expected, Problems& problems);
+
 /// The kind that a root's header, which must be there, names, or nothing after a problem was reported.
 std::optional<FileKind> headerOf(const YamlNode& root, Problems& problems);
 

@@ -11,6 +11,7 @@
 #include "scenes/read/document.h"
 #include "scenes/read/read_table.h"
 #include "scenes/read/registry.h"
+#include "scenes/read/rule_library.h"
 #include "scenes/read/rule_loader.h"
 
 namespace espalier::scenes {
@@ -121,8 +122,7 @@ Scene sceneOf(const Document& document, const fs::path& path, Problems& problems
   reading.special = [&](const YamlNode& node, const rules::Key& key, void* target, const std::string& at) {
     if (key.kind != rules::Kind::rules) return;
     const bool in_file = node.kind == YamlNode::Kind::scalar;
-    rules::RuleReference reference{in_file ? beside(node, node.text).string() : "",
-                                   loader.reference(node, at, {})};
+    rules::RuleReference reference{in_file ? ruleFileOf(node).string() : "", loader.reference(node, at, {})};
     if (reference.rules) {
       key.set(target, reference);
     } else {
@@ -144,11 +144,15 @@ Scene sceneOf(const Document& document, const fs::path& path, Problems& problems
   scene.read_files.push_back({cleanText(path.filename().string()), "scene", document.hash});
   scene.read_paths.push_back(path);
   for (const auto& read : loader.readFiles()) {
-    scene.read_files.push_back({toldFrom(path, read.path, read.from_root), read.kind, read.hash});
-    scene.read_paths.push_back(read.path);
+    const bool of_library = isLibraryPath(read.path.string());
+    scene.read_files.push_back(
+        {of_library ? read.path.string() : toldFrom(path, read.path, read.from_root), read.kind, read.hash});
+    if (!of_library) scene.read_paths.push_back(read.path);
   }
   for (const SceneMesh& mesh : scene.meshes) scene.read_paths.push_back(mesh.file);
   scene.warnings = loader.warnings().sorted();
+  for (std::size_t i = 0; i < scene.meshes.size(); ++i)
+    scene.meshes[i].place = placeOf({&root}, fmt::format("meshes[{}]", i));
   for (AttractorsSpec& attractors : scene.attractors)
     attractors.place = placeOf({&root}, "attractors." + attractors.name);
   for (FieldSpec& field : scene.fields) {
@@ -165,15 +169,24 @@ Scene sceneOf(const Document& document, const fs::path& path, Problems& problems
   return scene;
 }
 
-}  // namespace
-
-Result<Scene> readScene(const fs::path& path) {
-  Problems problems;
-  const Document document = readDocument(path, FileKind::scene, problems);
+Result<Scene> sceneOrProblems(const Document& document, const fs::path& path, Problems& problems) {
   if (!document.root) return problems.sorted();
   auto scene = sceneOf(document, path, problems);
   if (!problems.empty()) return problems.sorted();
   return scene;
+}
+
+}  // namespace
+
+Result<Scene> readScene(const fs::path& path) {
+  Problems problems;
+  return sceneOrProblems(readDocument(path, FileKind::scene, problems), path, problems);
+}
+
+Result<Scene> readSceneText(const std::string& text, const fs::path& path) {
+  Problems problems;
+  const Place whole{std::make_shared<const std::string>(path.string()), 0, 0};
+  return sceneOrProblems(documentOf(text, path.string(), whole, FileKind::scene, problems), path, problems);
 }
 
 Result<std::optional<Scene>> readRulesOrScene(const fs::path& path) {

@@ -33,12 +33,13 @@ How values are written:
 - *polygons*: lists of corners `[x, y, z]`, all of an element's in voxel widths or all with units, `[0, 6 cm, -5 mm]`; 0
   needs none.
 - *colour*: `"#4f7a2c"`, in quotes, for an unquoted `#` begins a comment; or `[r, g, b]` from 0 to 1. Both sRGB.
-- *rule set*: a rule file's path, relative to this file; or a mapping of keys that change the rule set around it.
+- *rule set*: a rule file's path, relative to this file; the name of one of the library (`espalier rules` lists them); or
+  a mapping of keys that change the rule set around it.
 
-`base: other.yaml` builds on another file: whatever is not said here is as it is there. Lists (`elements`) are replaced
+`base: other.yaml` builds on another file, `base: ivy` on a rule set of the library: whatever is not said here is as it is there. Lists (`elements`) are replaced
 as a whole, regions one by one.
 
-`regions` maps the names of the scene's regions to `forbid`, to a rule set's file, to `{rules: file.yaml}`, or to keys
+`regions` maps the names of the scene's regions to `forbid`, to a rule set's file or name, to `{rules: file.yaml}`, or to keys
 that differ there: `regions: {wall: {bias: {up: 0.2}}, others: forbid}`. `others` stands for every region that is not
 named. A region that a scene does not have is a warning when something grows there.
 
@@ -59,7 +60,8 @@ How values are written:
 - *colour*: `"#a05f46"`, in quotes, for an unquoted `#` begins a comment; or `[r, g, b]` from 0 to 1. Both sRGB.
 - *date*: `2026-06-21`; or `06-21`, of 2017, the year of the common tables of the sun.
 - *name*: letters, digits, `_`, `-` and `.`: it may become part of a file's name.
-- *rule set*: a rule file's path, or a mapping of the keys of one (see the page of rule files).
+- *rule set*: a rule file's path; the name of one of the library (`espalier rules` lists them); or a mapping of the keys
+  of one (see the page of rule files).
 
 `world` needs either a voxel size or a resolution. An entry of `meshes` may be just a path, one of `images` just its
 kind, one of `seeds` just its place.

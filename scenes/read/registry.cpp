@@ -26,15 +26,24 @@ constexpr std::size_t kMostEntries = 1000;
 /// How what a file holds is placed.
 template <class Placed>
 void addPlacement(TableOf<Placed>& table) {
+  std::vector<std::pair<std::string, LengthUnit>> units;
+  for (const auto unit : {LengthUnit::m, LengthUnit::cm, LengthUnit::mm, LengthUnit::in, LengthUnit::ft})
+    units.emplace_back(nameOf(unit), unit);
   table
+      .template choice<LengthUnit>(
+          "unit", [](auto& p) -> auto& { return p.placement.unit; }, units,
+          {.meaning = "What the file's numbers count: they become metres first of all; without it, metres."})
+      .template choice<UpAxis>(
+          "up", [](auto& p) -> auto& { return p.placement.up; }, {{"y", UpAxis::y}, {"z", UpAxis::z}},
+          {.meaning = "Which way is up in the file: z is turned to y, and y to -z, before anything else "
+                      "turns it."})
       .number(
-          "scale", &Placed::scale,
-          {.unit = "factor", .limits = kPositive, .meaning = "Metres for a unit of the file; applied first."})
-      .point("rotate", &Placed::rotate_deg,
-             {.unit = kDegrees,
-              .limits = {-360.0, 360.0},
-              .meaning = "About x, then y, then z; applied second."})
-      .place("translate", &Placed::translate_m,
+          "scale", [](auto& p) -> auto& { return p.placement.scale; },
+          {.unit = "factor", .limits = kPositive, .meaning = "How many times as large; after unit and up."})
+      .point(
+          "rotate", [](auto& p) -> auto& { return p.placement.rotate_deg; },
+          {.unit = kDegrees, .limits = {-360.0, 360.0}, .meaning = "About x, then y, then z; after scale."})
+      .place("translate", [](auto& p) -> auto& { return p.placement.translate_m; },
              {.unit = kMetres, .limits = kCoordinate, .meaning = "Applied last."});
 }
 
@@ -155,7 +164,8 @@ std::shared_ptr<const Table> plantKeys() {
           [](const PlantSpec& p) {
             return p.rules ? Datum{RuleReference{p.rules_file.string(), p.rules}} : Datum{};
           },
-          {.meaning = "How it grows: a rule file, or rule keys in place.", .required = true})
+          {.meaning = "How it grows: a rule file, one of the library by its name, or rule keys in place.",
+           .required = true})
       .name("name", &PlantSpec::name,
             {.meaning = "What reports and outputs call it; without it, plant_1, plant_2 and so on."})
       .list<SeedSpec>("seeds", Kind::entries, &PlantSpec::seeds, seedKeys(),

@@ -14,6 +14,7 @@
 #include "scenes/import/picture_reader.h"
 #include "scenes/read/document.h"
 #include "scenes/read/read_table.h"
+#include "scenes/read/rule_library.h"
 #include "sim/base/error.h"
 
 namespace espalier::scenes {
@@ -58,7 +59,19 @@ std::string canonicalOf(const fs::path& path) {
   return error ? path.string() : canonical.string();
 }
 
+/// A word that names no file beside the one in which it stands. Rule sets of the library know only each
+/// other.
+bool meansLibrary(const YamlNode& node) {
+  if (isLibraryPath(*node.place.path)) return true;
+  std::error_code error;
+  return node.text.find_first_of("./\\") == std::string::npos && !fs::exists(beside(node, node.text), error);
+}
+
 }  // namespace
+
+fs::path ruleFileOf(const YamlNode& node) {
+  return meansLibrary(node) ? fs::path(libraryPath(node.text)) : beside(node, node.text);
+}
 
 RulesPointer RuleLoader::file(const fs::path& path, const Document& document) {
   return countOne(document.root->place) ? take(path, document, false).rules : nullptr;
@@ -71,14 +84,23 @@ RulesPointer RuleLoader::reference(const YamlNode& node, const std::string& path
     return file ? file->rules : nullptr;
   }
   if (node.kind == YamlNode::Kind::map) return inPlace(node, enclosing);
-  problems_.add(node.place,
-                fmt::format("{} is {}; expected the path of a rule file, or a mapping of rule keys", path,
-                            described(node)));
+  problems_.add(node.place, fmt::format("{} is {}; expected the path of a rule file, the name of one of the "
+                                        "library, or a mapping of rule keys",
+                                        path, described(node)));
   return nullptr;
 }
 
 const RuleLoader::File* RuleLoader::load(const YamlNode& node) {
-  return load(beside(node, node.text), node.place, fs::path(node.text).is_absolute());
+  const fs::path path = ruleFileOf(node);
+  if (!isLibraryPath(path.string()) || libraryRules(node.text))
+    return load(path, node.place, fs::path(node.text).is_absolute());
+  problems_.add(
+      node.place,
+      fmt::format("there is no file {0} here, and no rule set of that name in the library; expected the path "
+                  "of a rule file, or one of {1}{2}",
+                  inQuotes(node.text), listed(libraryNames(), node.text),
+                  didYouMean(node.text, libraryNames())));
+  return nullptr;
 }
 
 const RuleLoader::File* RuleLoader::load(const fs::path& path, const Place& asker, bool from_root) {
@@ -96,7 +118,10 @@ const RuleLoader::File* RuleLoader::load(const fs::path& path, const Place& aske
   }
   if (const auto known = files_.find(canonical); known != files_.end()) return &known->second;
   if (!countOne(asker)) return nullptr;
-  const Document document = readDocument(shown, asker, FileKind::rules, problems_);
+  const LibraryRules* const of_library = libraryRules(nameInLibrary(shown));
+  const Document document =
+      of_library ? documentOf(std::string(of_library->text), shown, asker, FileKind::rules, problems_)
+                 : readDocument(shown, asker, FileKind::rules, problems_);
   if (!document.root) return nullptr;
   from_root = from_root || std::any_of(read_files_.begin(), read_files_.end(), [&](const ReadFile& read) {
                 return read.from_root && read.path == *asker.path;
@@ -292,13 +317,14 @@ void RuleLoader::warnOfFront(const YamlNode& node, const std::string& path) {
 rules::RegionRule RuleLoader::region(const YamlNode& node, const std::string& path,
                                      const RuleSet& enclosing) {
   if (node.kind == YamlNode::Kind::scalar && node.text == "forbid") return {true, nullptr};
-  const bool is_word =
-      node.kind == YamlNode::Kind::scalar && node.text.find_first_of("./") == std::string::npos;
-  if (is_word && !node.refused) {
-    problems_.add(
-        node.place,
-        fmt::format("{} is {}; expected 'forbid', the path of a rule file, or a mapping of rule keys{}", path,
-                    described(node), didYouMean(node.text, {"forbid"})));
+  const bool is_word = node.kind == YamlNode::Kind::scalar && meansLibrary(node);
+  if (is_word && !node.refused && !libraryRules(node.text)) {
+    std::vector<std::string> words = libraryNames();
+    words.emplace_back("forbid");
+    problems_.add(node.place,
+                  fmt::format("{} is {}; expected 'forbid', the path of a rule file, the name of one of the "
+                              "library, or a mapping of rule keys{}",
+                              path, described(node), didYouMean(node.text, words)));
     return {};
   }
   const auto* whole = node.entry("rules");

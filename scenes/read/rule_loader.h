@@ -17,6 +17,10 @@
 
 namespace espalier::scenes {
 
+/// The file that a word in place of a rule set means, from where the word's own file lies; or the path of one
+/// of the library (scenes/read/rule_library.h), where the word is a name and no file is called so.
+std::filesystem::path ruleFileOf(const YamlNode& node);
+
 /// Reads rule sets, each file once. Problems go to the list that it was given; where there were some, the
 /// rule sets that it returns are not to be used, or null.
 class RuleLoader {
@@ -37,7 +41,7 @@ class RuleLoader {
     std::uint64_t hash = 0;      ///< of its bytes
     std::string kind = "rules";  ///< or picture
   };
-  /// Every file that could be read so far, in the order of reading.
+  /// Every file that could be read so far, and rule sets of the library, in the order of reading.
   const std::vector<ReadFile>& readFiles() const { return read_files_; }
   /// What was written so far and has no effect where it stands.
   const Problems& warnings() const { return warnings_; }

@@ -18,9 +18,10 @@ void requireFree(const World& world, const Planting& planting, Vec3 seed_vx) {
                                  planting.name, m.x, m.y, m.z));
   }
   if (const PartId part = world.partAt(v); part != kFree && !planting.anywhere) {
-    throw InputError(
-        fmt::format("a seed of '{}' at [{:.3f}, {:.3f}, {:.3f}] lies inside '{}' ({}); move it into the open",
-                    planting.name, m.x, m.y, m.z, world.part(part).object, world.part(part).region));
+    throw InputError(fmt::format(
+        "a seed of '{}' at [{:.3f}, {:.3f}, {:.3f}] lies inside '{}' ({}); move it into the open{}",
+        planting.name, m.x, m.y, m.z, world.part(part).object, world.part(part).region,
+        orLeaveHollow(world.part(part))));
   }
 }
 

@@ -266,6 +266,7 @@ World buildWorld(const Frame& frame, const std::vector<TiledMesh>& meshes, int l
     const FillReport report = m.turned.empty()
                                   ? add(world, m, first_part)
                                   : add(world, {asItFaces(m), m.solid, m.where_closed}, first_part);
+    if (report.found && report.filled > 0) world.setFoundClosed(m.mesh.name);
     if (fills != nullptr && (m.solid || report.filled > 0)) fills->push_back(report);
   }
   world.setLayers(layers);

@@ -118,6 +118,17 @@ PartId World::addPart(Part part) {
   return static_cast<PartId>(parts_.size());
 }
 
+void World::setFoundClosed(const std::string& object) {
+  for (Part& part : parts_) {
+    if (part.object == object && part.kind == PartKind::scene) part.found_closed = true;
+  }
+}
+
+std::string orLeaveHollow(const Part& part) {
+  if (!part.found_closed) return "";
+  return fmt::format(", or leave '{}' hollow with solid: false: it is closed, and was filled", part.object);
+}
+
 void World::keep(const TiledVoxel& tiled) {
   const auto& [voxel, surface] = tiled;
   if (!contains(frame_.size, voxel)) {

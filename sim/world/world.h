@@ -25,7 +25,13 @@ struct Part {
   std::string region;  ///< the region's or the element's name
   PartKind kind = PartKind::scene;
   int plant = -1;  ///< the plant's number for stems and elements
+  /// Of a scene object that nobody called solid: it is closed, at least in part, and was filled.
+  bool found_closed = false;
 };
+
+/// What else could be done about something that lies inside of a part, to end a sentence with: to leave
+/// hollow what was found to be closed; or nothing.
+std::string orLeaveHollow(const Part& part);
 
 /// What an occupied voxel knows.
 struct Surface {
@@ -114,6 +120,8 @@ class World {
   std::uint64_t version() const { return version_; }
 
   PartId addPart(Part part);
+  /// Says it of all parts of a scene object.
+  void setFoundClosed(const std::string& object);
   /// Occupies voxels. Scene voxels take all light. Throws BrokenContract for a voxel outside the world.
   /// One that is occupied already
   /// - by the scene, or now by the scene: keeps what it has;

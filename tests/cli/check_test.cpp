@@ -1,4 +1,5 @@
 // espalier check: what it names, and how often it looks.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <sys/inotify.h>
@@ -72,6 +73,22 @@ TEST_F(Check, ReadsEachFileOnce) {
     EXPECT_EQ(ran.status, status) << ran.output;
     EXPECT_EQ(openings.counted(), read) << asked;
   }
+}
+
+/// A house in centimetres: the voxel size that would fit is no cure, and the unit is named on a line of its
+/// own.
+TEST_F(Check, NamesTheUnitOfAMeshThatIsFarTooLarge) {
+  std::string mesh;
+  for (int corner = 0; corner < 8; ++corner)
+    mesh += fmt::format("v {} {} {}\n", (corner & 1) * 880, (corner & 2) * 305, (corner & 4) * 145);
+  scratch_.write("plot.obj", mesh + "f 1 2 6 5\nf 1 3 4 2\nf 5 6 8 7\nf 1 5 7 3\nf 2 4 8 6\n");
+  const std::string scene =
+      scratch_.write("house.yaml", "espalier: scene\nmeshes: [plot.obj]\nworld: {voxel: 1 cm}\n").string();
+  const auto ran = tests::espalier("check " + scene);
+  EXPECT_EQ(ran.status, 2);
+  EXPECT_TRUE(ran.output.starts_with(scene + ": a world of ")) << ran.output;
+  EXPECT_NE(ran.output.find("would fit\n" + scene + ":2:10: the mesh 'plot'"), std::string::npos)
+      << ran.output;
 }
 
 }  // namespace

@@ -313,6 +313,8 @@ TEST_F(EveryFlag, OfTheOthersChangesWhatIsSaid) {
   cli::addCheck(app_, status_);
   cli::addCertify(app_, status_);
   cli::addSchema(app_, status_);
+  cli::addRules(app_, status_);
+  cli::addExplain(app_, status_);
   const std::string scene = scratch_.path("scene.yaml").string();
   const auto said = [](const std::string& arguments) { return tests::espalier(arguments).output; };
 
@@ -330,6 +332,36 @@ TEST_F(EveryFlag, OfTheOthersChangesWhatIsSaid) {
 
   EXPECT_EQ(optionsOf(*app_.get_subcommand("schema")), (std::set<std::string>{"kind"}));
   EXPECT_NE(said("schema rules"), said("schema scene"));
+
+  EXPECT_EQ(optionsOf(*app_.get_subcommand("rules")), (std::set<std::string>{"name"}));
+  EXPECT_EQ(said("rules ivy"), tests::fileText(tests::sourceFolder() / "rules/library/ivy.yaml"));
+  EXPECT_NE(said("rules").find("ivy"), std::string::npos);
+
+  EXPECT_EQ(optionsOf(*app_.get_subcommand("explain")), (std::set<std::string>{"key"}));
+  EXPECT_NE(said("explain voxel"), said("explain bias.up"));
+}
+
+TEST_F(EveryFlag, OfInspectAndInitChangesWhatIsMade) {
+  cli::addInspect(app_, status_);
+  cli::addInit(app_, status_);
+  const auto ran_with = [](const std::string& arguments) { return tests::espalier(arguments); };
+  EXPECT_EQ(optionsOf(*app_.get_subcommand("inspect")),
+            (std::set<std::string>{"mesh", "scene", "force", "json"}));
+  const std::string mesh = scratch_.path("plot.obj").string(), made = scratch_.path("made.yaml").string();
+  const std::string other = scratch_.write("other.obj", "v 0 0 0\nv 9 0 0\nv 9 4 0\nf 1 2 3\n").string();
+  EXPECT_NE(ran_with("inspect " + mesh).output, ran_with("inspect " + other).output);
+  EXPECT_TRUE(nlohmann::json::accept(ran_with("inspect --json " + mesh).output));
+  EXPECT_FALSE(fs::exists(made));
+  EXPECT_EQ(ran_with("inspect " + mesh + " --scene " + made).status, 0);
+  const std::string before = bytes("made.yaml");
+  EXPECT_EQ(ran_with("inspect " + other + " --scene " + made).status, 2);
+  EXPECT_EQ(bytes("made.yaml"), before);
+  EXPECT_EQ(ran_with("inspect " + other + " --force --scene " + made).status, 0);
+  EXPECT_NE(bytes("made.yaml"), before);
+
+  EXPECT_EQ(optionsOf(*app_.get_subcommand("init")), (std::set<std::string>{"folder"}));
+  ran_with("init " + scratch_.path("project").string());
+  EXPECT_TRUE(fs::exists(scratch_.path("project/scene.yaml")));
 }
 
 TEST_F(EveryFlag, OfTheProgramItselfAndEverySubcommandIsAmongThese) {
@@ -342,7 +374,8 @@ TEST_F(EveryFlag, OfTheProgramItselfAndEverySubcommandIsAmongThese) {
   for (std::getline(lines, line); std::getline(lines, line);) {
     if (line.starts_with("  ") && line[2] != ' ') told.insert(line.substr(2, line.find(' ', 2) - 2));
   }
-  EXPECT_EQ(told, (std::set<std::string>{"certify", "check", "expose", "grow", "render", "schema"}));
+  EXPECT_EQ(told, (std::set<std::string>{"certify", "check", "explain", "expose", "grow", "init", "inspect",
+                                         "render", "rules", "schema"}));
   EXPECT_EQ(help.substr(0, help.find("Subcommands:")).find("--", help.find("--version") + 2),
             std::string::npos)
       << "an option of the program itself that no test knows:\n"

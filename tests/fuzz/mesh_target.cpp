@@ -119,7 +119,11 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     sim::Mesh mesh_read = scenes::importMesh(file, regions, limits, &read);
     fuzz::require(!read.files.empty() && !mesh_read.triangles.empty(), "a mesh of nothing");
     sim::contentHash(mesh_read);
-    scenes::placeMesh(std::move(mesh_read), 2.0, {30.0, -90.0, 360.0}, {1.0, 2.0, 3.0});
+    scenes::placeMesh(std::move(mesh_read), {.unit = scenes::LengthUnit::ft,
+                                             .up = scenes::UpAxis::z,
+                                             .scale = 2.0,
+                                             .rotate_deg = {30.0, -90.0, 360.0},
+                                             .translate_m = {1.0, 2.0, 3.0}});
   } catch (const sim::InputError& error) {
     const std::string_view text = error.what();
     fuzz::require(text.find(' ') != text.npos, "an error without a sentence");

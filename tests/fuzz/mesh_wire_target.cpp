@@ -2,6 +2,8 @@
 // checked, placed and tiled.
 #include "scenes/import/mesh_import.h"
 #include "scenes/import/mesh_wire.h"
+#include "scenes/inspect/looks.h"
+#include "scenes/inspect/surface.h"
 #include "sim/base/error.h"
 #include "sim/tile/build_world.h"
 #include "tests/fuzz/target.h"
@@ -29,7 +31,15 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     const std::string packed = scenes::packMesh(mesh, read);
     fuzz::require(scenes::packMesh(scenes::meshFromChild(packed, again), read) == packed,
                   "a mesh that is packed otherwise");
-    mesh = scenes::placeMesh(std::move(mesh), 0.5, {0.0, 45.0, 0.0}, {0.25, 0.0, 0.0});
+    mesh = scenes::placeMesh(std::move(mesh),
+                             {.scale = 0.5, .rotate_deg = {0.0, 45.0, 0.0}, .translate_m = {0.25, 0.0, 0.0}});
+    if (const scenes::MeshShape shape = scenes::shapeOf(mesh); scenes::isOfALength(shape)) {
+      const scenes::Surface surface = scenes::surfaceOf(mesh);
+      fuzz::require(surface.flipped <= mesh.triangles.size() && surface.duplicates < mesh.triangles.size() &&
+                        std::isfinite(surface.winding),
+                    "a surface that cannot be");
+      scenes::unitOf(shape, scenes::upOf(shape, false).up, false);
+    }
     sim::buildWorld({sim::Vec3(-3.5), 1.0, {8, 8, 8}}, {{mesh, size % 2 == 1}}, 1);
   } catch (const sim::InputError&) {
   }

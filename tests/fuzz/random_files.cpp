@@ -148,6 +148,13 @@ void RandomFiles::knowSpecials() {
   };
   text("meshes[].file", [this] { return writeMesh(); });
   text("meshes[].scale", [=, this] { return fmt::format("{}", longest * world_.voxel_m); });
+  // In another unit, or lying, there is seldom anything left of it in the world.
+  for (const std::string of : {"meshes[].", "plants[].skeleton."}) {
+    text(of + "unit", [this] {
+      return std::string(numbers_.chance(0.85) ? "m" : numbers_.pick(std::array{"cm", "mm", "in", "ft"}));
+    });
+    text(of + "up", [this] { return std::string(numbers_.chance(0.85) ? "y" : "z"); });
+  }
   text("meshes[].translate",
        [this] { return ValueDrawer::point(world_.middle_m.x, world_.middle_m.y, world_.middle_m.z); });
   text("meshes[].tiled",

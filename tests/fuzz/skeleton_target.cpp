@@ -66,7 +66,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
       const std::string packed = scenes::packSkeletons(trees, read.hash);
       fuzz::require(scenes::packSkeletons(scenes::skeletonsFromChild(packed, read), read.hash) == packed,
                     "skeletons that are packed otherwise");
-      scenes::placeSkeletons(trees, 0.5, {0.0, 45.0, 0.0}, {0.25, 0.0, 0.0});
+      scenes::placeSkeletons(trees,
+                             {.scale = 0.5, .rotate_deg = {0.0, 45.0, 0.0}, .translate_m = {0.25, 0.0, 0.0}});
     } else {
       fuzz::requireTrees(fuzz::kFormat == "json" ? scenes::skeletonsInJson(text)
                                                  : scenes::skeletonsInObj(text));

@@ -80,7 +80,7 @@ TEST_F(MeshErrors, NumbersThatAreNotFinite) {
   std::memcpy(buffer.data() + 12, &infinite, 4);
   expectRefused(write("inf.glb", glb(gltfDocument(), buffer)), "not a finite number");
   const auto mesh = importMesh(write("t.obj", std::string(kTriangle) + "f 1 2 3\n"), RegionsFrom::group);
-  EXPECT_THROW(placeMesh(mesh, 1e308, {0, 0, 0}, {1e308, 0, 0}), sim::InputError);
+  EXPECT_THROW(placeMesh(mesh, {.scale = 1e308, .translate_m = {1e308, 0, 0}}), sim::InputError);
 }
 
 TEST_F(MeshErrors, IndicesOutOfRange) {

@@ -213,17 +213,49 @@ TEST_F(MeshImport, ACubeOfOneMillimetreKeepsItsTwelveTriangles) {
 
 TEST_F(MeshImport, PlacingScalesTurnsAboutXThenYThenZAndMoves) {
   const auto mesh = importMesh(write("t.obj", "v 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 2 3\n"), RegionsFrom::group);
-  const auto quarter = placeMesh(mesh, 2.0, {90, 90, 0}, {10, 20, 30});
+  const auto quarter =
+      placeMesh(mesh, {.scale = 2.0, .rotate_deg = {90, 90, 0}, .translate_m = {10, 20, 30}});
   EXPECT_EQ(quarter.vertices_m[0], sim::Vec3(10, 20, 28));  // x stays x, then becomes -z: exactly
   EXPECT_EQ(quarter.vertices_m[1], sim::Vec3(12, 20, 30));  // y becomes z, then x
   EXPECT_EQ(quarter.vertices_m[2], sim::Vec3(10, 18, 30));  // z becomes -y
-  const auto slanted = placeMesh(mesh, 1.0, {0, 0, 30}, {0, 0, 0});
+  const auto slanted = placeMesh(mesh, {.rotate_deg = {0, 0, 30}});
   expectNear(slanted.vertices_m[0], {std::sqrt(3.0) / 2, 0.5, 0}, 1e-7);
   for (const double turn : {-270.0, 450.0, 810.0}) {
-    EXPECT_EQ(placeMesh(mesh, 1.0, {0, 0, turn}, {0, 0, 0}).vertices_m,
-              placeMesh(mesh, 1.0, {0, 0, 90}, {0, 0, 0}).vertices_m);
+    EXPECT_EQ(placeMesh(mesh, {.rotate_deg = {0, 0, turn}}).vertices_m,
+              placeMesh(mesh, {.rotate_deg = {0, 0, 90}}).vertices_m);
   }
-  EXPECT_NEAR(glm::length(placeMesh(mesh, 1.0, {11, 22, 33}, {0, 0, 0}).vertices_m[0]), 1.0, 1e-15);
+  EXPECT_NEAR(glm::length(placeMesh(mesh, {.rotate_deg = {11, 22, 33}}).vertices_m[0]), 1.0, 1e-15);
+}
+
+TEST_F(MeshImport, UnitsBecomeMetresExactlyAndBeforeAnythingElse) {
+  const auto mesh = importMesh(write("t.obj", "v 4 0 0\nv 0 -7 0\nv 0 0 12\nf 1 2 3\n"), RegionsFrom::group);
+  const std::vector<std::pair<LengthUnit, sim::Vec3>> known = {{LengthUnit::m, {4, -7, 12}},
+                                                               {LengthUnit::cm, {0.04, -0.07, 0.12}},
+                                                               {LengthUnit::mm, {0.004, -0.007, 0.012}},
+                                                               {LengthUnit::in, {0.1016, -0.1778, 0.3048}},
+                                                               {LengthUnit::ft, {1.2192, -2.1336, 3.6576}}};
+  for (const auto& [unit, metres] : known) {
+    const auto placed = placeMesh(mesh, {.unit = unit});
+    EXPECT_EQ(placed.vertices_m[0].x, metres.x) << nameOf(unit);
+    EXPECT_EQ(placed.vertices_m[1].y, metres.y) << nameOf(unit);
+    EXPECT_EQ(placed.vertices_m[2].z, metres.z) << nameOf(unit);
+  }
+  const auto all = placeMesh(mesh, {.unit = LengthUnit::cm, .scale = 2.0, .translate_m = {1, 0, 0}});
+  EXPECT_EQ(all.vertices_m[0], sim::Vec3(1.08, 0, 0));
+}
+
+TEST_F(MeshImport, WhatIsUpInTheFileBecomesYWithoutAMirror) {
+  const auto mesh = importMesh(write("t.obj", "v 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 2 3\n"), RegionsFrom::group);
+  EXPECT_EQ(placeMesh(mesh, {.up = UpAxis::y}).vertices_m, mesh.vertices_m);
+  const auto up = placeMesh(mesh, {.up = UpAxis::z}).vertices_m;
+  EXPECT_EQ(up[0], sim::Vec3(1, 0, 0));
+  EXPECT_EQ(up[1], sim::Vec3(0, 0, -1));
+  EXPECT_EQ(up[2], sim::Vec3(0, 1, 0));
+  EXPECT_EQ(glm::dot(glm::cross(up[0], up[1]), up[2]), 1.0);
+  // Turned about y, which is z in the file.
+  const auto turned = placeMesh(mesh, {.up = UpAxis::z, .rotate_deg = {0, 90, 0}}).vertices_m;
+  EXPECT_EQ(turned[2], sim::Vec3(0, 1, 0));
+  EXPECT_EQ(turned[0], sim::Vec3(0, 0, -1));
 }
 
 struct RealMesh {

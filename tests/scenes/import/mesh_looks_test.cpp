@@ -287,7 +287,8 @@ TEST_F(MeshLooks, NormalsTurnWithTheMesh) {
   sim::Mesh mesh;
   mesh.vertices_m = {{1, 0, 0}};
   mesh.normals = {{1, 0, 0}};
-  const sim::Mesh placed = placeMesh(mesh, 3.0, {0, 90, 0}, {5, 0, 0});
+  const sim::Mesh placed =
+      placeMesh(mesh, {.scale = 3.0, .rotate_deg = {0, 90, 0}, .translate_m = {5, 0, 0}});
   EXPECT_EQ(placed.normals[0], Vec3f(0, 0, -1));
   EXPECT_LT(glm::distance(placed.vertices_m[0], sim::Vec3(5, 0, -3)), 1e-12);
 }

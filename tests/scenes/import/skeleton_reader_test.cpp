@@ -235,7 +235,7 @@ TEST_F(Skeletons, AreTheSameInWhateverOrderTheirNodesStand) {
 
 TEST_F(Skeletons, ArePlacedAsMeshesAre) {
   auto trees = read("tree.json", kPlain);
-  placeSkeletons(trees, 2.0, {0, 0, 90}, {10, 0, 0});
+  placeSkeletons(trees, {.scale = 2.0, .rotate_deg = {0, 0, 90}, .translate_m = {10, 0, 0}});
   EXPECT_EQ(trees[0].position[1], Vec3(8, 0, 0));
   EXPECT_EQ(trees[0].position[3], Vec3(6, 2, 1));
   EXPECT_EQ(trees[0].radius[1], 0.5f);

@@ -57,6 +57,12 @@ Change strewn(const std::string& attractors, const std::string& from, const std:
           {from, to}};
 }
 
+/// The same where what is closed in the scene is left hollow: attractors lie in it.
+Change hollow(Change change) {
+  change.before.push_back({"name: plot, regions: group}", "name: plot, regions: group, solid: false}"});
+  return change;
+}
+
 /// Attractors in a solid.
 Change crown(const std::string& solid, const std::string& from, const std::string& to) {
   return {"state_hash",
@@ -97,6 +103,8 @@ const std::map<std::string, Change>& changes() {
       {"meshes[].tiled", {"world.vdb", {}, {", regions: group}", ", tiled: false}"}}},
       {"meshes[].optional",
        {"error", {{"plot.obj", "none.obj"}}, {"regions: group", "regions: group, optional: true"}}},
+      {"meshes[].unit", {"world.vdb", {}, {"regions: group", "regions: group, unit: ft"}}},
+      {"meshes[].up", {"world.vdb", {}, {"regions: group", "regions: group, up: z"}}},
       {"meshes[].scale", {"world.vdb", {}, {"regions: group", "regions: group, scale: 0.7"}}},
       {"meshes[].rotate", {sun, {}, {"regions: group", "regions: group, rotate: [0, 30, 0]"}}},
       {"meshes[].translate",
@@ -150,6 +158,8 @@ const std::map<std::string, Change>& changes() {
         {{"{name: vine,", "{name: vine, points: typed.csv, type: 1,"}},
         {"type: 1", "type: 2"}}},
       {"plants[].skeleton.file", given("sticks.obj", "others.obj")},
+      {"plants[].skeleton.unit", given("scale: 0.5", "scale: 0.5, unit: ft")},
+      {"plants[].skeleton.up", given("scale: 0.5", "scale: 0.5, up: z")},
       {"plants[].skeleton.scale", given("scale: 0.5", "scale: 0.6")},
       {"plants[].skeleton.rotate", given("rotate: [0, 0", "rotate: [0, 90")},
       {"plants[].skeleton.translate", given("translate: [0, 0", "translate: [0, 5 cm")},
@@ -177,7 +187,7 @@ const std::map<std::string, Change>& changes() {
        crown("revolution: [[0, 0.3], [0.1, 0.3], [0.2, 0.2], [0.5, 0.1]]", "0.3], [0.2", "0.4], [0.2")},
       {"attractors.<name>.at", crown("sphere: 30 cm", "at: [0, 0.5", "at: [0.2, 0.5")},
       {"attractors.<name>.surface", strewn("surface: plot", "surface: plot", "surface: shape")},
-      {"attractors.<name>.inside", strewn("inside: shape", "inside: shape", "inside: other_shape")},
+      {"attractors.<name>.inside", hollow(strewn("inside: shape", "inside: shape", "inside: other_shape"))},
       {"attractors.<name>.points", strewn("points: listed.csv", "listed.csv", "other.csv")},
       {"attractors.<name>.type", strewn("points: typed.csv, type: 1", "type: 1", "type: 2")},
       {"attractors.<name>.count", strewn("surface: plot, count: 20", "count: 20", "count: 30")},

@@ -78,7 +78,12 @@ TEST(Site, AStrangersMeshIsTheSameWorldHoweverItIsWound) {
     if (surfaces[i].surface.coverage == 0.0f) continue;  // a corner has no normal of its own
     ASSERT_LT(glm::distance(surfaces[i].surface.normal, others[i].surface.normal), 1e-5f);
   }
+  const sim::Part& part =
+      a.world.part(a.world.partAt(sim::voxelAt(sim::voxelFromWorld(a.world.frame(), {0, 1, 0}))));
+  EXPECT_EQ(sim::orLeaveHollow(part),
+            ", or leave 'house' hollow with solid: false: it is closed, and was filled");
   const Site hollow = siteOf(inside_out, false);  // as it is
+  EXPECT_EQ(sim::orLeaveHollow(hollow.world.parts().front()), "");
   EXPECT_TRUE(hollow.fills.empty() && hollow.facings.empty());
   EXPECT_LT(hollow.world.occupied().count(), a.world.occupied().count());
 }
@@ -89,8 +94,8 @@ TEST(Site, KeepsItsMeshesAsPlaced) {
   SceneMesh mesh;
   mesh.name = "slab";
   mesh.file = scratch.write("slab.obj", "v 0 0 0\nv 1 0 0\nv 1 0 1\ng top\nf 1 3 2\n");
-  mesh.scale = 2.0;
-  mesh.translate_m = {-1, 0.25, -1};
+  mesh.placement.scale = 2.0;
+  mesh.placement.translate_m = {-1, 0.25, -1};
   scene.meshes.push_back(mesh);
   const Site site = makeSite(scene);
   ASSERT_EQ(site.meshes.size(), 1u);

@@ -279,13 +279,26 @@ const std::vector<BadFile> kBadRules = {
     {"a section that is a word", "bias: up\n", {"2:7: bias is 'up'; expected a mapping"}},
     {"otherwise nothing",
      "otherwise:\n",
-     {"2:1: otherwise is nothing; expected the path of a rule file, or a mapping of rule keys"}},
+     {"2:1: otherwise is nothing; expected the path of a rule file, the name of one of the library, or a "
+      "mapping of rule keys"}},
     {"otherwise a missing file",
      "otherwise: none.yaml\n",
      {"2:12: none.yaml: cannot be opened (No such file or directory)"}},
+    {"a rule set that the library does not have",
+     "base: ivi\n",
+     {"2:7: there is no file 'ivi' here, and no rule set of that name in the library; expected the path of a "
+      "rule "
+      "file, or one of bare_tree, "}},
+    {"one that it nearly has",
+     "otherwise: hornbaem\n",
+     {"2:12: there is no file 'hornbaem' here, and no rule set"}},
+    {"one that it nearly has, in a region",
+     "regions: {wall: ivi}\n",
+     {"2:17: regions.wall is 'ivi'; expected"}},
     {"a base that is a mapping",
      "base: {name: x}\n",
-     {"2:7: base is a mapping; expected the path of a rule file, relative to this file"}},
+     {"2:7: base is a mapping; expected the path of a rule file, relative to this file, or the name of one "
+      "of the library"}},
     {"a base that is a scene",
      "base: scene.yaml\n",
      {"scene.yaml:1:11: this is a scene file; expected a rule file (espalier: rules)"}},
@@ -294,8 +307,8 @@ const std::vector<BadFile> kBadRules = {
      {"2:10: regions is a list of 1; expected a mapping from region names (or others) to 'forbid'"}},
     {"a region that is forbiden",
      "regions: {wall: forbiden}\n",
-     {"2:17: regions.wall is 'forbiden'; expected 'forbid', the path of a rule file, or a mapping of rule "
-      "keys; did you mean 'forbid'?"}},
+     {"2:17: regions.wall is 'forbiden'; expected 'forbid', the path of a rule file, the name of one of the "
+      "library, or a mapping of rule keys; did you mean 'forbid'?"}},
     {"others that are forbiden",
      "regions: {others: forbiden}\n",
      {"2:19: regions.others is 'forbiden'; expected"}},

@@ -147,7 +147,8 @@ const std::vector<BadFile> kBadScenes = {
       "shadow_hour: "}},
     {"a plant without rules",
      "plants: [{seeds: [[0, 0, 0]]}]\n",
-     {"3:10: the key 'rules' is missing here; expected the path of a rule file, or a mapping of rule keys"}},
+     {"3:10: the key 'rules' is missing here; expected the path of a rule file, the name of one of the "
+      "library, or a mapping of rule keys"}},
     {"a plant without seeds",
      "plants: [{rules: {}}]\n",
      {"3:10: a plant without seeds; expected seeds: [[x, y, z], ...], scatter"}},

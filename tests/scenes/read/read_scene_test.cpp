@@ -75,9 +75,9 @@ images:
   EXPECT_EQ(ruin.name, "ruin");
   EXPECT_EQ(ruin.regions_from, RegionsFrom::material);
   EXPECT_TRUE(ruin.solid && ruin.optional);
-  EXPECT_EQ(ruin.scale, 0.01);
-  EXPECT_EQ(ruin.rotate_deg, sim::Vec3(0, 90, 0));
-  EXPECT_EQ(ruin.translate_m, sim::Vec3(1, 0.2, -3));
+  EXPECT_EQ(ruin.placement.scale, 0.01);
+  EXPECT_EQ(ruin.placement.rotate_deg, sim::Vec3(0, 90, 0));
+  EXPECT_EQ(ruin.placement.translate_m, sim::Vec3(1, 0.2, -3));
   EXPECT_EQ(rules::hexFromLinear(*ruin.colour), "#ffffff");
   EXPECT_EQ(scene.world.resolution, 200);
   EXPECT_FALSE(scene.world.voxel_m || scene.world.bounds_m);

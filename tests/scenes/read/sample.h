@@ -101,11 +101,11 @@ inline std::vector<std::string> goodTexts(const rules::Key& key) {
     case Kind::file:
       return {"mesh.obj", "sub/mesh.obj"};
     case Kind::base:
-      return {"other.yaml"};
+      return {"other.yaml", "ivy"};
     case Kind::rules:
-      return {"other.yaml", "{name: x}", "{}"};
+      return {"other.yaml", "ivy", "{name: x}", "{base: ivy}", "{}"};
     case Kind::regions:
-      return {"{a: forbid, b: other.yaml, c: {rules: other.yaml}, d: {name: x}}", "{others: forbid}", "{}"};
+      return {"{a: forbid, b: other.yaml, c: {rules: ivy}, d: {name: x}, e: ivy}", "{others: forbid}", "{}"};
     case Kind::section:
       return withBrief({goodMapping(*key.child)}, key, "{}");
     case Kind::entries:

@@ -1,0 +1,55 @@
+#pragma once
+#include <array>
+#include <cstdint>
+#include <numeric>
+#include <utility>
+#include <vector>
+
+#include "sim/tile/mesh.h"
+
+namespace espalier::scenes {
+
+/// Internal to the wing: how a mesh's triangles hang together.
+
+/// Sets that grow together.
+class Sets {
+ public:
+  explicit Sets(std::size_t count) : over_(count) { std::iota(over_.begin(), over_.end(), 0u); }
+  std::uint32_t of(std::uint32_t item) {
+    while (over_[item] != item) item = over_[item] = over_[over_[item]];
+    return item;
+  }
+  void join(std::uint32_t a, std::uint32_t b) { over_[of(a)] = of(b); }
+
+ private:
+  std::vector<std::uint32_t> over_;
+};
+
+/// A side of a triangle, on corners a < b.
+struct Side {
+  std::uint32_t a, b, triangle;
+  bool forward;  ///< the triangle goes from a to b
+};
+
+struct Joined {
+  std::vector<std::array<std::uint32_t, 3>> triangles;  ///< on corners at different places
+  std::size_t places = 0;   ///< as many as numbers of corners, of corners of no triangle too
+  std::size_t corners = 0;  ///< of triangles
+  std::vector<Side> sides;  ///< those on the same edge beside each other
+};
+
+Joined joined(const sim::Mesh& mesh);
+
+/// Calls for each edge with its sides.
+template <class Visit>
+void forEachEdge(const Joined& mesh, Visit visit) {
+  const std::vector<Side>& sides = mesh.sides;
+  for (std::size_t first = 0, end = 0; first < sides.size(); first = end) {
+    for (end = first + 1;
+         end < sides.size() && sides[end].a == sides[first].a && sides[end].b == sides[first].b;)
+      ++end;
+    visit(sides.data() + first, end - first);
+  }
+}
+
+}  // namespace espalier::scenes

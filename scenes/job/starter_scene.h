@@ -1,0 +1,24 @@
+#pragma once
+#include <array>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "scenes/scene.h"
+
+namespace espalier::scenes {
+
+/// A scene to begin with.
+struct StarterScene {
+  std::string text;  ///< of its file
+  Scene scene;       ///< what that says
+};
+
+/// The scene of some meshes, that grows a vine of the library from the feet of their walls. `box_m`: around
+/// all of them, as placed. Paths are written from where `scene_file` will lie. The meshes are tiled to find
+/// places for seeds: in the open, beside something that rises, and the brightest of some; where nothing
+/// rises, on top. Throws sim::InputError.
+StarterScene starterScene(const std::vector<SceneMesh>& meshes, const std::array<sim::Vec3, 2>& box_m,
+                          double voxel_m, const std::filesystem::path& scene_file);
+
+}  // namespace espalier::scenes

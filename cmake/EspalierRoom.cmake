@@ -58,6 +58,7 @@ function(espalier_room name)
   set_target_properties(espalier_${name} PROPERTIES EXPORT_NAME ${name})
   target_include_directories(espalier_${name} PUBLIC
     $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}> $<INSTALL_INTERFACE:include/espalier>)
+  target_compile_features(espalier_${name} PUBLIC cxx_std_20)
   target_link_libraries(espalier_${name} PUBLIC ${ROOM_SEES} PRIVATE ${ROOM_USES} $<BUILD_INTERFACE:espalier_flags>)
   espalier_join(espalier_${name})
 endfunction()

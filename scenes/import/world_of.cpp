@@ -8,13 +8,14 @@
 
 namespace espalier::scenes {
 
-sim::World worldOf(const std::filesystem::path& mesh, double voxel_m, std::optional<double> margin_m) {
+sim::World worldOf(const std::filesystem::path& mesh, const MeshWorld& made) {
   std::vector<sim::TiledMesh> meshes(1);
   meshes[0].mesh = importMesh(mesh, RegionsFrom::group);
   meshes[0].mesh.name = mesh.stem().string();
-  meshes[0].where_closed = true;
+  meshes[0].solid = made.solid.value_or(false);
+  meshes[0].where_closed = !made.solid;
   findFacing(meshes);
-  return worldAround(meshes, voxel_m, margin_m, [](const sim::Frame&) { return 0; });
+  return worldAround(meshes, made.voxel_m, made.margin_m, [](const sim::Frame&) { return 0; });
 }
 
 sim::World worldAround(const std::vector<sim::TiledMesh>& meshes, double voxel_m,

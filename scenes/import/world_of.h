@@ -9,11 +9,18 @@
 
 namespace espalier::scenes {
 
-/// The world of a mesh file on disk (scenes/import/mesh_import.h), its groups as regions, in voxels of
-/// `voxel_m` metres, with `margin_m` of free space around it, as for worldAround. It is filled where it is
-/// closed, and its faces turn to the light (scenes/import/facing.h). Throws sim::InputError.
-sim::World worldOf(const std::filesystem::path& mesh, double voxel_m,
-                   std::optional<double> margin_m = std::nullopt);
+/// How the world of a mesh file is made.
+struct MeshWorld {
+  double voxel_m = 0.1;            ///< edge of a voxel
+  std::optional<double> margin_m;  ///< free space around the mesh, as for worldAround
+  /// Fill the mesh's inside, or leave it hollow and its faces as they are wound. Unset: it is filled where it
+  /// is closed, and faces turn to the light (scenes/import/facing.h).
+  std::optional<bool> solid;
+};
+
+/// The world of a mesh file on disk (scenes/import/mesh_import.h), its groups as regions. Throws
+/// sim::InputError.
+sim::World worldOf(const std::filesystem::path& mesh, const MeshWorld& made);
 
 /// A world around meshes with `margin_m` of free space on every side: with three voxels of it where the world
 /// would be thinner than that, as that of a wall without thickness, or leave room for light before no surface

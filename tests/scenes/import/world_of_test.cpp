@@ -19,7 +19,7 @@ TEST_F(WorldOf, AWallWithoutThicknessHasRoomOnBothSides) {
   for (const char* const face : {"f 1 2 3 4\n", "f 4 3 2 1\n"}) {
     const auto wall = write("wall.obj", std::string(kWall) + face);
     for (const auto margin_m : {std::optional<double>(), std::optional(0.0)}) {
-      const sim::World world = worldOf(wall, 0.1, margin_m);
+      const sim::World world = worldOf(wall, {.margin_m = margin_m});
       EXPECT_EQ(world.frame().size, margin_m ? sim::Voxel(26, 16, 6) : sim::Voxel(27, 14, 7));
       const sim::SurfaceSensors sensors = sim::surfaceSensors(world);
       EXPECT_EQ(sensors.surfaces.size(), world.occupied().count());
@@ -44,7 +44,7 @@ TEST_F(WorldOf, SoHasABoxThatFillsItsWorld) {
 
 TEST_F(WorldOf, WithoutAMarginAllWallsAreLitAndTheUndersideIsNot) {
   const auto box = write("box.obj", tests::kCubeObj);
-  const sim::World world = worldOf(box, 0.1);
+  const sim::World world = worldOf(box, {});
   EXPECT_EQ(world.frame().size, sim::Voxel(27, 24, 27));
   std::map<std::string, std::size_t> lit;
   for (const sim::TiledVoxel& tiled : sim::surfaceSensors(world).surfaces) {
@@ -58,12 +58,20 @@ TEST_F(WorldOf, WithoutAMarginAllWallsAreLitAndTheUndersideIsNot) {
   for (const auto& [way, voxels] : lit) EXPECT_GT(voxels, 300u) << way;
 }
 
+TEST_F(WorldOf, ABoxIsFilledUnlessItShallBeHollow) {
+  const auto box = write("box.obj", tests::kCubeObj);
+  const sim::Voxel middle(13, 10, 13);
+  EXPECT_TRUE(worldOf(box, {}).occupied().at(middle));
+  EXPECT_TRUE(worldOf(box, {.solid = true}).occupied().at(middle));
+  EXPECT_FALSE(worldOf(box, {.solid = false}).occupied().at(middle));
+}
+
 TEST_F(WorldOf, AWorldInWhichSomethingIsLitKeepsItsSize) {
   const auto corner = write("corner.obj", std::string(kWall) + "v 0 0 1\nv 2 0 1\nf 1 2 3 4\nf 1 5 6 2\n");
-  EXPECT_EQ(worldOf(corner, 0.1, 0.0).frame().size, sim::Voxel(21, 11, 11));
-  EXPECT_EQ(worldOf(corner, 0.1, 0.2).frame().size, sim::Voxel(24, 14, 14));
+  EXPECT_EQ(worldOf(corner, {.margin_m = 0.0}).frame().size, sim::Voxel(21, 11, 11));
+  EXPECT_EQ(worldOf(corner, {.margin_m = 0.2}).frame().size, sim::Voxel(24, 14, 14));
   const auto wall = write("wall.obj", std::string(kWall) + "f 1 2 3 4\n");
-  EXPECT_EQ(worldOf(wall, 0.1, 0.2).frame().size.z, 4);  // two voxels of margin are room enough
+  EXPECT_EQ(worldOf(wall, {.margin_m = 0.2}).frame().size.z, 4);  // two voxels of margin are room enough
 }
 
 }  // namespace

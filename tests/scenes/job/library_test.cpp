@@ -44,6 +44,8 @@ TEST(Readme, ShowsTheFirstRuleFileAsItIs) {
 
 TEST(Readme, ShowsTheLibrarysUserAsTheTestsBuildIt) {
   const std::string readme = tests::fileText(tests::sourceFolder() / "README.md");
+  EXPECT_NE(readme.find(tests::fileText(tests::sourceFolder() / "tests/house/consumer/CMakeLists.txt")),
+            std::string::npos);
   EXPECT_NE(readme.find(tests::fileText(tests::sourceFolder() / "tests/house/consumer/main.cpp")),
             std::string::npos);
 }

@@ -57,7 +57,7 @@ bool RandomFiles::regions(Drawn& drawn) {
 /// A new rule file, or one that was written before: none that is still being drawn, so that no circle closes.
 std::string RandomFiles::ruleFile() {
   constexpr std::size_t kMostFiles = 6;
-  if (!colonizes_ && numbers_.chance(0.05)) return "flat_walk";  // of the library
+  if (odd_ && !colonizes_ && odd_numbers_.chance(0.2)) return "flat_walk";  // of the library
   if (!files_.empty() && (files_.size() >= kMostFiles || numbers_.chance(0.4)))
     return numbers_.pick(files_).name;
   if (depth_ >= 2) return "";

@@ -84,6 +84,8 @@ RandomFiles::RandomFiles(std::uint64_t seed, std::filesystem::path folder)
       folder_(std::move(folder)),
       world_(drawWorld(numbers_)),
       colonizes_(numbers_.chance(0.35)),
+      odd_numbers_(~seed),
+      odd_(odd_numbers_.chance(0.25)),
       values_(numbers_, world_.voxel_m) {
   std::filesystem::create_directories(folder_);
   knowSpecials();
@@ -148,12 +150,11 @@ void RandomFiles::knowSpecials() {
   };
   text("meshes[].file", [this] { return writeMesh(); });
   text("meshes[].scale", [=, this] { return fmt::format("{}", longest * world_.voxel_m); });
-  // In another unit, or lying, there is seldom anything left of it in the world.
   for (const std::string of : {"meshes[].", "plants[].skeleton."}) {
     text(of + "unit", [this] {
-      return std::string(numbers_.chance(0.85) ? "m" : numbers_.pick(std::array{"cm", "mm", "in", "ft"}));
+      return std::string(odd_numbers_.pick(std::array{"m", "m", "m", "cm", "mm", "in", "ft"}));
     });
-    text(of + "up", [this] { return std::string(numbers_.chance(0.85) ? "y" : "z"); });
+    text(of + "up", [this] { return std::string(odd_numbers_.pick(std::array{"y", "y", "z"})); });
   }
   text("meshes[].translate",
        [this] { return ValueDrawer::point(world_.middle_m.x, world_.middle_m.y, world_.middle_m.z); });
@@ -243,6 +244,7 @@ bool RandomFiles::wanted(const rules::Key& key, const std::string& path) {
   if (key.required || key.kind == Kind::header) return true;
   if (kAlways.contains(path)) return true;
   if (path == "scene:meshes") return world_.meshes;
+  if (path.starts_with("scene:") && (path.ends_with(".unit") || path.ends_with(".up"))) return odd_;
   if (colonizes_ && kOfFronts.contains(path)) return true;
   if (path == "scene:plants[].skeleton") return numbers_.chance(0.15);
   if (path == "scene:plants[].scatter" || path == "scene:meshes[].rotate")

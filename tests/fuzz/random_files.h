@@ -67,7 +67,9 @@ class RandomFiles {
   tests::Numbers numbers_;
   std::filesystem::path folder_;
   World world_;
-  bool colonizes_;  // its plants
+  bool colonizes_;              // its plants
+  tests::Numbers odd_numbers_;  ///< of strangers' files, so that all others stay as they are
+  bool odd_;                    ///< in another unit, lying, on rules of the library
   ValueDrawer values_;
   std::map<std::string, Special>
       specials_;             ///< keys that must agree with the world or with each other, by path

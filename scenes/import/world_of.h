@@ -11,11 +11,11 @@ namespace espalier::scenes {
 
 /// How the world of a mesh file is made.
 struct MeshWorld {
-  double voxel_m = 0.1;            ///< edge of a voxel
-  std::optional<double> margin_m;  ///< free space around the mesh, as for worldAround
+  double voxel_m = 0.1;                           ///< edge of a voxel
+  std::optional<double> margin_m = std::nullopt;  ///< free space around the mesh, as for worldAround
   /// Fill the mesh's inside, or leave it hollow and its faces as they are wound. Unset: it is filled where it
   /// is closed, and faces turn to the light (scenes/import/facing.h).
-  std::optional<bool> solid;
+  std::optional<bool> solid = std::nullopt;
 };
 
 /// The world of a mesh file on disk (scenes/import/mesh_import.h), its groups as regions. Throws

@@ -63,7 +63,7 @@ TEST_F(Meshes, AWallWithoutThicknessAndMarginIsLit) {
   scratch_.write("wall.obj", std::string(kWall) + "f 4 3 2 1\n");
   const auto ran = run("expose", "wall.obj");
   EXPECT_EQ(ran.status, 0) << ran.output;
-  EXPECT_NE(ran.output.find("wild: 26 x 16 x 6 voxels"), std::string::npos) << ran.output;
+  EXPECT_NE(ran.output.find("wild: 27 x 14 x 7 voxels"), std::string::npos) << ran.output;
   const json table = json::parse(tests::fileText(scratch_.path("out/exposure.json")));
   EXPECT_NEAR(table["total"]["sky_exposure"]["mean"].get<double>(), 0.5, 0.02);  // half of the sky
   EXPECT_EQ(run("grow", "wall.obj").status, 0);

@@ -9,7 +9,7 @@ set_target_properties(espalier PROPERTIES INSTALL_RPATH "$ORIGIN/../lib/espalier
 foreach(room sim rules render scenes)
   install(DIRECTORY ${room} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/espalier FILES_MATCHING PATTERN "*.h")
 endforeach()
-install(FILES espalier.h DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/espalier)
+install(FILES cmake/espalier.h DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/espalier)
 install(DIRECTORY rules/library DESTINATION ${CMAKE_INSTALL_DATADIR}/espalier/rules)
 install(DIRECTORY scenes/library scenes/meshes scenes/skeletons DESTINATION ${CMAKE_INSTALL_DATADIR}/espalier/scenes)
 install(EXPORT espalier NAMESPACE espalier:: DESTINATION ${package_folder} FILE espalierTargets.cmake)

@@ -19,6 +19,7 @@ using sim::Vec3;
 using sim::Vec3f;
 
 constexpr int kFewestPoints = 4, kMostPoints = 64, kAllPoints = 20'000;  // of a patch, and of all
+constexpr std::size_t kMostPatches = 50'000;  // are judged, the largest: more are a cloud of leaves
 constexpr int kDirections = 32;
 constexpr double kDark = 0.02, kLit = 0.05;  // of what an open sky gives level ground
 constexpr double kTimes = 10.0;              // as much light on the other side
@@ -67,6 +68,7 @@ std::vector<Edge> edgesOf(const sim::Mesh& mesh) {
 /// of the patch.
 struct Patches {
   std::vector<std::vector<std::uint32_t>> triangles;
+  std::vector<double> areas;
   std::vector<bool> against;  // by triangle
 };
 
@@ -116,8 +118,20 @@ Patches patchesOf(const sim::Mesh& mesh) {
     }
     std::sort(patch.begin(), patch.end());
     patches.triangles.push_back(std::move(patch));
+    patches.areas.push_back(area);
   }
   return patches;
+}
+
+/// The numbers of those that are judged.
+std::vector<std::size_t> largestOf(const Patches& patches) {
+  std::vector<std::size_t> largest(patches.areas.size());
+  std::iota(largest.begin(), largest.end(), std::size_t{0});
+  if (largest.size() <= kMostPatches) return largest;
+  std::stable_sort(largest.begin(), largest.end(),
+                   [&](std::size_t a, std::size_t b) { return patches.areas[a] > patches.areas[b]; });
+  largest.resize(kMostPatches);
+  return largest;
 }
 
 /// What comes to the two sides of a patch's triangles, of an open sky's light on level ground.
@@ -197,12 +211,15 @@ std::vector<FacingReport> findFacing(std::vector<sim::TiledMesh>& meshes) {
     if (!tiled.where_closed) continue;
     const sim::Mesh& mesh = tiled.mesh;
     Patches patches = patchesOf(mesh);
+    const std::vector<std::size_t> judged = largestOf(patches);
     const int points =
-        std::clamp(kAllPoints / static_cast<int>(patches.triangles.size() + 1), kFewestPoints, kMostPoints);
+        std::clamp(kAllPoints / static_cast<int>(judged.size() + 1), kFewestPoints, kMostPoints);
     std::vector<std::uint8_t> away(patches.triangles.size());
-    sim::parallelFor(away.size(), 1, [&](std::size_t begin, std::size_t end) {
-      for (std::size_t i = begin; i < end; ++i)
-        away[i] = facesAway(lightOn(mesh, patches.triangles[i], patches.against, scene, sky, points, step_m));
+    sim::parallelFor(judged.size(), 1, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t i = begin; i < end; ++i) {
+        away[judged[i]] = facesAway(
+            lightOn(mesh, patches.triangles[judged[i]], patches.against, scene, sky, points, step_m));
+      }
     });
     FacingReport report{mesh.name};
     double area = 0.0;

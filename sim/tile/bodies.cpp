@@ -21,14 +21,14 @@ void forEachWord(const Run& run, Visit visit) {
 
 }  // namespace
 
-Bodies::Bodies(const BitVolume& voxels, int foot) {
+Bodies::Bodies(const BitVolume& voxels, const BitVolume& but, int foot) {
   const Voxel size = voxels.size();
   for (int y = foot; y < size.y; ++y) {
     throwIfStopped();
     for (int z = 0; z < size.z; ++z) {
       const std::size_t row_begin = runs_.size();
       for (int w = 0; w < voxels.rowWords() - 1; ++w) {
-        std::uint64_t left = voxels.row(y, z)[w];
+        std::uint64_t left = voxels.row(y, z)[w] & ~but.row(y, z)[w];
         while (left != 0) {
           const int begin = std::countr_zero(left), length = std::countr_one(left >> begin);
           const int x = w * BitVolume::kWordBits + begin;

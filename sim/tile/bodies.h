@@ -17,8 +17,8 @@ struct Run {
 /// The bodies that a volume's voxels make up where they touch by faces, as runs: there are few of them.
 class Bodies {
  public:
-  /// Of the voxels from `foot` on along y.
-  explicit Bodies(const BitVolume& voxels, int foot = 0);
+  /// Of all but some voxels, from `foot` on along y.
+  Bodies(const BitVolume& voxels, const BitVolume& but, int foot = 0);
 
   /// In (y, z, x) order.
   const std::vector<Run>& runs() const { return runs_; }

@@ -80,19 +80,9 @@ void judgeSlab(const Triangles& triangles, const VoxelBox& slab, Judged& judged)
   });
 }
 
-/// All but some voxels.
-BitVolume without(BitVolume voxels, const BitVolume& some) {
-  for (int y = 0; y < voxels.size().y; ++y) {
-    for (int z = 0; z < voxels.size().z; ++z) {
-      for (int w = 0; w < voxels.rowWords() - 1; ++w) voxels.row(y, z)[w] &= ~some.row(y, z)[w];
-    }
-  }
-  return voxels;
-}
-
 /// Adds bodies most of which the mesh winds around.
 void addWound(const Judged& judged, const BitVolume& surface, BitVolume& inside) {
-  Bodies bodies(without(judged.likely, surface));
+  Bodies bodies(judged.likely, surface);
   struct Counted {
     std::size_t voxels = 0, enclosed = 0;
   };
@@ -109,14 +99,22 @@ void addWound(const Judged& judged, const BitVolume& surface, BitVolume& inside)
   }
 }
 
+bool anyAt(const BitVolume& voxels, int y) {
+  const std::uint64_t* const first = voxels.row(y, 0);
+  const std::size_t words =
+      static_cast<std::size_t>(voxels.rowWords()) * static_cast<std::size_t>(voxels.size().z);
+  return std::any_of(first, first + words, [](std::uint64_t word) { return word != 0; });
+}
+
 /// Adds what no way leads to that does not cross the surface's voxels or come from below its foot.
 void addCavities(const BitVolume& surface, const VoxelBox& box, BitVolume& inside) {
   BitVolume air(surface.size());
-  const int foot = std::min(box.first.y + 1, box.last.y);  // the box is wider than the mesh by a voxel
+  int foot = box.first.y;
+  while (foot < box.last.y && !anyAt(surface, foot)) ++foot;
   for (int y = foot; y <= box.last.y; ++y) {
     for (int z = box.first.z; z <= box.last.z; ++z) setRun(air, {y, z, box.first.x, box.last.x});
   }
-  Bodies bodies(without(std::move(air), surface), foot);
+  Bodies bodies(air, surface, foot);
   std::vector<bool> open(bodies.runs().size());
   for (std::size_t i = 0; i < open.size(); ++i) {
     const Run& run = bodies.runs()[i];
@@ -129,25 +127,26 @@ void addCavities(const BitVolume& surface, const VoxelBox& box, BitVolume& insid
   }
 }
 
-/// The surface's voxels whose centres may be inside, where what they are a surface of is.
-void addSkins(const Judged& judged, const BitVolume& surface, BitVolume& inside) {
+/// Adds the surface's voxels whose centres may be inside, where what they are a surface of is. Of what may be
+/// inside only they are left: a world has many voxels, and no other volume is needed.
+void addSkins(Judged& judged, const BitVolume& surface, BitVolume& inside) {
   const Voxel size = surface.size();
-  const BitVolume bodies = inside;
   parallelForEach(static_cast<std::size_t>(size.y), [&](std::size_t slice) {
     const int y = static_cast<int>(slice);
     for (int z = 0; z < size.z; ++z) {
+      const std::uint64_t* const row = inside.row(y, z);
       for (int w = 0; w < surface.rowWords() - 1; ++w) {
-        std::uint64_t beside = bodies.row(y, z)[w] << 1 | bodies.row(y, z)[w - 1] >> 63 |
-                               bodies.row(y, z)[w] >> 1 | bodies.row(y, z)[w + 1] << 63;
-        if (y > 0) beside |= bodies.row(y - 1, z)[w];
-        if (y + 1 < size.y) beside |= bodies.row(y + 1, z)[w];
-        if (z > 0) beside |= bodies.row(y, z - 1)[w];
-        if (z + 1 < size.z) beside |= bodies.row(y, z + 1)[w];
-        const std::uint64_t skin = surface.row(y, z)[w];
-        inside.row(y, z)[w] |= skin & (judged.enclosed.row(y, z)[w] | (judged.likely.row(y, z)[w] & beside));
+        std::uint64_t beside = row[w] << 1 | row[w - 1] >> 63 | row[w] >> 1 | row[w + 1] << 63;
+        if (y > 0) beside |= inside.row(y - 1, z)[w];
+        if (y + 1 < size.y) beside |= inside.row(y + 1, z)[w];
+        if (z > 0) beside |= inside.row(y, z - 1)[w];
+        if (z + 1 < size.z) beside |= inside.row(y, z + 1)[w];
+        std::uint64_t& skin = judged.likely.row(y, z)[w];
+        skin = surface.row(y, z)[w] & (judged.enclosed.row(y, z)[w] | (skin & beside));
       }
     }
   });
+  inside.add(judged.likely);
 }
 
 }  // namespace
@@ -157,6 +156,7 @@ BitVolume enclosedBy(const Triangles& triangles_vx, const BitVolume& surface) {
   BitVolume inside(size);
   const VoxelBox box = boxOf(triangles_vx, size);
   if (box.empty()) return inside;
+  addCavities(surface, box, inside);
   Judged judged{BitVolume(size), BitVolume(size)};
   forEachSlab(box, [&](int first, int last) {
     VoxelBox slab = box;
@@ -165,7 +165,6 @@ BitVolume enclosedBy(const Triangles& triangles_vx, const BitVolume& surface) {
     judgeSlab(triangles_vx, slab, judged);
   });
   addWound(judged, surface, inside);
-  addCavities(surface, box, inside);
   addSkins(judged, surface, inside);
   return inside;
 }

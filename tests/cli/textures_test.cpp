@@ -16,26 +16,12 @@ class TexturedPlot : public tests::Plot {
     std::string scene = tests::kPlotScene;
     scene = scene.substr(0, scene.find("images:")) + "images: [vines]\n";
     scratch_.write("scene.yaml", scene.replace(scene.find("iterations: 14"), 14, "iterations: 2"));
-    scratch_.write("plot.obj", R"(mtllib plot.mtl
-v -1 0 -1
-v 1 0 -1
-v 1 0 1
-v -1 0 1
-v -1 0 0
-v 1 0 0
-v 1 1 0
-v -1 1 0
-vt 0 0
-vt 1 0
-vt 1 1
-vt 0 1
-g ground
-usemtl bare
-f 1 4 3 2
-g wall
-usemtl painted
-f 5/1 6/2 7/3 8/4
-)");
+    std::string mesh = std::string("mtllib plot.mtl") + tests::kPlotMesh;
+    const auto before = [&](const char* what, const char* text) { mesh.insert(mesh.find(what), text); };
+    before("g ground", "vt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\n");
+    before("f 1 4 3 2", "usemtl bare\n");
+    before("f 5 6 7 8", "usemtl painted\n");
+    scratch_.write("plot.obj", mesh.replace(mesh.find("f 5 6 7 8"), 9, "f 5/1 6/2 7/3 8/4"));
   }
 
   void paint(const std::string& texture) {

@@ -45,6 +45,10 @@ TEST(Closed, AHouseWithoutAFloorStandsOnTheGround) {
   const World world = found(tests::without(boxMesh(kLow, kHigh), [](Vec3 p) { return p.y < 4.0; }), kWorld);
   EXPECT_TRUE(world.opaque().at(kInside));
   EXPECT_FALSE(world.opaque().at(kOutside));
+  // To the ground, also where that is the world's own floor.
+  const World low =
+      found(tests::without(boxMesh({4.5, -0.5, 4.5}, kHigh), [](Vec3 p) { return p.y < 0.0; }), kWorld);
+  EXPECT_TRUE(low.opaque().at(Voxel(14, 0, 12)));
 }
 
 TEST(Closed, WhatIsOpenToTheSkyOrToASideStaysOpen) {
@@ -131,7 +135,7 @@ TEST(Bodies, AreWhatHangsTogetherByFaces) {
       if (v.x + k < size.x) voxels.set(v + Voxel(k, 0, 0));
     }
   }
-  sim::Bodies bodies(voxels, 1);
+  sim::Bodies bodies(voxels, BitVolume(size), 1);
   std::vector<int> of_voxel(static_cast<std::size_t>(size.x * size.y * size.z), -1);
   const auto at = [&](Voxel v) -> int& {
     return of_voxel[static_cast<std::size_t>((v.y * size.z + v.z) * size.x + v.x)];

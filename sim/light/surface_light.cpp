@@ -26,10 +26,14 @@ Amount operator+(const Amount& a, const Amount& b) {
   return {a[0] + b[0], a[1] + b[1], a[2] + b[2], a[3] + b[3]};
 }
 
+/// What a direction gives a receiver in whose plane it lies. The sun's stands for a step of its way, in half
+/// of which the sun is before the receiver.
+enum class Along { nothing, half };
+
 /// Directions with what each gives.
 class Givers {
  public:
-  Givers(const DirectionSet& directions, const std::vector<Amount>& amounts) {
+  Givers(const DirectionSet& directions, const std::vector<Amount>& amounts, Along along) : along_(along) {
     for (const LatticeDirection& d : directions) units_.push_back(Vec3f(glm::normalize(Vec3(d.v))));
     sums_.resize((directions.size() + 7) / 8);
     for (std::size_t byte = 0; byte < sums_.size(); ++byte) {
@@ -44,22 +48,39 @@ class Givers {
 
   std::size_t words() const { return (units_.size() + 63) / 64; }
 
-  /// The directions in front of a receiver: a bit for each. Those along its plane give nothing.
+  /// The directions in front of a receiver, a bit for each; and behind them, from words() on, those along its
+  /// plane that give half.
   void front(Vec3f normal, std::uint64_t* mask) const {
     constexpr float kAlong = 1e-6f;
     for (std::size_t w = 0; w < words(); ++w) {
       const std::size_t last = std::min(units_.size() - 64 * w, std::size_t{64});
-      std::uint64_t bits = 0;
+      std::uint64_t before = 0, along = 0;
       for (std::size_t i = 0; i < last; ++i) {
         const Vec3f& u = units_[64 * w + i];
         const float cosine = u.x * normal.x + u.y * normal.y + u.z * normal.z;
-        bits |= static_cast<std::uint64_t>(cosine > kAlong) << i;
+        before |= static_cast<std::uint64_t>(cosine > kAlong) << i;
+        along |= static_cast<std::uint64_t>(std::abs(cosine) <= kAlong) << i;
       }
-      mask[w] = bits;
+      mask[w] = before;
+      mask[words() + w] = along_ == Along::half ? along : 0;
     }
   }
 
+  /// Of the open directions, by what front() says.
   float given(const std::uint64_t* open, const std::uint64_t* mask, Vec3f normal) const {
+    const float before = ofThose(open, mask, normal);
+    const std::uint64_t* const along = mask + words();
+    const bool any = std::any_of(along, along + words(), [](std::uint64_t word) { return word != 0; });
+    return any ? before + 0.5f * ofThose(open, along, normal) : before;
+  }
+  /// Where nothing stands in the way.
+  float most(const std::uint64_t* mask, Vec3f normal) const {
+    const std::vector<std::uint64_t> all(words(), ~std::uint64_t{0});
+    return given(all.data(), mask, normal);
+  }
+
+ private:
+  float ofThose(const std::uint64_t* open, const std::uint64_t* mask, Vec3f normal) const {
     Amount sum{};
     for (std::size_t byte = 0; byte < sums_.size(); ++byte) {
       const std::uint64_t word = open[byte / 8] & mask[byte / 8];
@@ -68,16 +89,20 @@ class Givers {
     return sum[0] + sum[1] * normal.x + sum[2] * normal.y + sum[3] * normal.z;
   }
 
- private:
   std::vector<Vec3f> units_;
   std::vector<std::array<Amount, 256>> sums_;
+  Along along_;
 };
 
 /// Judges surfaces one after the other.
 class Judge {
  public:
   Judge(const OpenTable& open, const Givers& givers)
-      : open_(open), givers_(givers), fronts_(kFronts), masks_(kFronts * givers.words()), known_(kKnown) {}
+      : open_(open),
+        givers_(givers),
+        fronts_(kFronts),
+        masks_(kFronts * 2 * givers.words()),
+        known_(kKnown) {}
 
   struct Light {
     float received;  ///< by the taps' weights; beyond the bounds where the line was followed too far
@@ -86,12 +111,12 @@ class Judge {
 
   Light at(std::span<const Tap> taps, Vec3f normal) {
     const std::size_t hash = hashOf(normal), slot = hash % kFronts;
-    std::uint64_t* const mask = masks_.data() + slot * givers_.words();
+    std::uint64_t* const mask = masks_.data() + slot * 2 * givers_.words();
     Front& front = fronts_[slot];
     if (front.normal != normal) {
       front.normal = normal;
       givers_.front(normal, mask);
-      front.most = givers_.given(mask, mask, normal);
+      front.most = givers_.most(mask, normal);
     }
     // The weights add up to 1 but for rounding: what is missing is counted, so that nothing missing is exact.
     float missing = 0.0f;
@@ -152,7 +177,7 @@ std::vector<float> summed(const SurfaceSensors& sensors, const OpenTable& open,
   std::vector<Amount> amounts;
   for (std::size_t d = 0; d < directions.size(); ++d)
     amounts.push_back({static_cast<float>(amount(d)), 0.0f, 0.0f, 0.0f});
-  return gathered(sensors, open, {directions, amounts}, [](const Judge::Light& light, Vec3f) {
+  return gathered(sensors, open, {directions, amounts, Along::half}, [](const Judge::Light& light, Vec3f) {
     return std::clamp(light.received, 0.0f, light.most);
   });
 }
@@ -177,11 +202,12 @@ std::vector<float> surfaceSky(const SurfaceSensors& sensors, const OpenTable& op
       amounts.push_back({0.0f, b.x, b.y, b.z});
     }
   }
-  return gathered(sensors, open, {sky.directions, amounts}, [&](const Judge::Light& light, Vec3f normal) {
-    if (light.most <= 0.0f) return 0.0f;
-    const float share_of_open = std::clamp(light.received / light.most, 0.0f, 1.0f);
-    return share_of_open * static_cast<float>(openSky(sky.weighting, Vec3(normal)));
-  });
+  return gathered(sensors, open, {sky.directions, amounts, Along::nothing},
+                  [&](const Judge::Light& light, Vec3f normal) {
+                    if (light.most <= 0.0f) return 0.0f;
+                    const float share_of_open = std::clamp(light.received / light.most, 0.0f, 1.0f);
+                    return share_of_open * static_cast<float>(openSky(sky.weighting, Vec3(normal)));
+                  });
 }
 
 std::vector<float> surfaceSun(const SurfaceSensors& sensors, const OpenTable& open, const Sun& sun) {

@@ -23,6 +23,7 @@
 #include "sim/tile/fill.h"
 
 #include <algorithm>
+#include <bit>
 #include <cstring>
 #include <glm/common.hpp>
 
@@ -152,8 +153,11 @@ class Slab {
     parallelForEach(static_cast<std::size_t>(box_.size().y), [&](std::size_t row) {
       const int y = box_.first.y + static_cast<int>(row);
       for (int z = box_.first.z; z <= box_.last.z; ++z) {
-        for (int x = box_.first.x; x <= box_.last.x; ++x) {
-          if (inside.at({x, y, z})) inside_[box_.index({x, y, z})] = kInside;
+        for (int w = 0; w < inside.rowWords() - 1; ++w) {
+          for (std::uint64_t word = inside.row(y, z)[w]; word != 0; word &= word - 1) {
+            const Voxel v(w * BitVolume::kWordBits + std::countr_zero(word), y, z);
+            if (box_.has(v)) inside_[box_.index(v)] = kInside;
+          }
         }
       }
     });

@@ -176,6 +176,33 @@ TEST(SurfaceSensors, OfSomeAreThoseOfAll) {
   EXPECT_EQ(surfaceSky(sensors, sweepOpen(world.opaque(), sky.directions, sensors.places), sky), expected);
 }
 
+/// A step of the sun's way that leads through a wall's plane is before it for half of its time.
+TEST(SurfaceSun, AWallInTheSunsPlaneSeesHalfOfTheStep) {
+  const World world =
+      buildWorld(tests::unitFrame(Voxel(48)), {{tests::boxMesh(Vec3(14.5), Vec3(33.5)), true}}, 0);
+  Sun sun;
+  sun.directions = directionSet({{-1, 1, 0}, {0, 1, 0}, {1, 1, 0}}, {2.0, 1.0, 2.0}, ExposureField::kWhole);
+  sun.hours = {2.0, 1.0, 2.0};
+  const SurfaceSensors sensors = surfaceSensors(world);
+  const OpenTable open = sweepOpen(world.opaque(), sun.directions, sensors.places);
+  const auto hours = surfaceSunHours(sensors, open, sun), shares = surfaceSun(sensors, open, sun);
+  std::size_t walls = 0, roof = 0;
+  for (std::size_t i = 0; i < hours.size(); ++i) {
+    const TiledVoxel& t = sensors.surfaces[i];
+    const Vec3f size = glm::abs(t.surface.normal);
+    if (std::max({size.x, size.y, size.z}) < 0.999f || glm::distance(Vec3(t.voxel), Vec3(24)) > 13.0)
+      continue;
+    if (t.surface.normal.y < -0.9f) continue;
+    const bool is_roof = t.surface.normal.y > 0.9f;
+    ++(is_roof ? roof : walls);
+    // Walls to x lie in the plane at noon, walls to z all day.
+    ASSERT_NEAR(hours[i], is_roof ? 5.0f : 2.5f, 1e-4f);
+    ASSERT_NEAR(shares[i], is_roof ? 1.0f : 0.5f, 1e-4f);
+  }
+  EXPECT_GT(roof, 50u);
+  EXPECT_GT(walls, 200u);
+}
+
 /// What the tables add up to, in double precision and one by one.
 TEST(SurfaceLight, IsThePlainSum) {
   const World world = garden();
@@ -199,14 +226,16 @@ TEST(SurfaceLight, IsThePlainSum) {
         for (const auto& tap : sensors.of(i)) sum += open.open(tap.place, d) ? tap.weight * amount : 0.0;
       }
       for (std::size_t d = 0; d < sun.directions.size(); ++d) {
-        if (glm::dot(glm::normalize(Vec3(sun.directions[d].v)), normal) <= 1e-6) continue;
-        const double amount = sun.directions[d].weight / 65535.0;
+        const double before = glm::dot(glm::normalize(Vec3(sun.directions[d].v)), normal);
+        if (before < -1e-6) continue;
+        const double part = before > 1e-6 ? 1.0 : 0.5;  // half of a step through the surface's own plane
+        const double amount = part * sun.directions[d].weight / 65535.0;
         sun_most += amount;
-        hour_most += sun.hours[d];
+        hour_most += part * sun.hours[d];
         for (const auto& tap : sensors.of(i)) {
           if (!sunny.open(tap.place, d)) continue;
           sun_sum += tap.weight * amount;
-          hour_sum += tap.weight * sun.hours[d];
+          hour_sum += part * tap.weight * sun.hours[d];
         }
       }
       const double part = most > 0.0 ? std::clamp(sum / most, 0.0, 1.0) : 0.0;

@@ -16,8 +16,10 @@ std::string inShort(const Certificate& c) {
   if (s.on_faces == 0)
     return text + "  none of them on a face as wide as a voxel; smaller voxels would help\n";
   text += fmt::format(
-      "  on faces ({} points) RMS {:.4f}: {} directions make {:.4f}, voxels of {:.4g} m {:.4f}; ", s.on_faces,
-      s.rms_on_faces, c.directions, s.size_of_directions, c.voxel_m, s.size_of_voxels);
+      "  on faces ({} points) RMS {:.4f}, on average {:.4f}: {} directions make {:.4f}, voxels of {:.4g} m "
+      "{:.4f}; ",
+      s.on_faces, s.rms_on_faces, s.size_on_faces, c.directions, s.size_of_directions, c.voxel_m,
+      s.size_of_voxels);
   constexpr double kClearly = 1.5;
   const char* const voxels = "smaller voxels would help most\n";
   if (c.directions >= sim::kMostSkyDirections || s.size_of_voxels > kClearly * s.size_of_directions)
@@ -39,9 +41,8 @@ std::string toText(const Certificate& c) {
   }
   if (c.lines.empty()) return text;
   text += fmt::format(
-      "{}known shapes of such voxels under such a sky, {} weighting, {} directions, voxels of {:.4g} m; "
-      "errors "
-      "in shares of the whole sky\n"
+      "{}known shapes of such voxels under such a sky, {} weighting, {} directions, voxels of {:.4g} m;\n"
+      "errors in shares of the whole sky\n"
       "walls as high as streets and courts are wide, pits as deep as their radius\n\n",
       text.empty() ? "" : "\n", sim::nameOf(c.weighting), c.directions, c.voxel_m);
   text += fmt::format("{:<34} {:<20} {:>9} {:>7} {:>7} {:>7} {:>8} {:>7}\n", "shape", "place", "width",

@@ -14,7 +14,7 @@ namespace {
 
 constexpr std::array<LineDirection, 3> kWays{{{0, 0, 0}, {1, 0, 0}, {2, 0, 0}}};
 constexpr int kEnds = 5;          // of lines through a centre, without the one that leads down
-constexpr int kMostEnds = 3;      // of these agree where it may be inside
+constexpr int kLikelyEnds = 3;    // of these agree where it may be inside
 constexpr double kMostOf = 0.75;  // of a body's centres that may be inside are enclosed
 
 /// What the ends found of a voxel: how many of them the winding number that the first did (low four bits),
@@ -79,7 +79,7 @@ void judgeSlab(const Triangles& triangles, const VoxelBox& slab, Judged& judged)
           continue;
         }
         const int ends = agreeing(found[slab.index(v)]);
-        if (ends >= kMostEnds) judged.likely.set(v);
+        if (ends >= kLikelyEnds) judged.likely.set(v);
         if (ends == kEnds) judged.enclosed.set(v);
       }
     }

@@ -6,6 +6,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "tests/support/meshes.h"
 #include "tests/support/process.h"
 #include "tests/support/scratch.h"
 
@@ -67,6 +68,28 @@ TEST_F(Meshes, AWallWithoutThicknessAndMarginIsLit) {
   const json table = json::parse(tests::fileText(scratch_.path("out/exposure.json")));
   EXPECT_NEAR(table["total"]["sky_exposure"]["mean"].get<double>(), 0.5, 0.02);  // half of the sky
   EXPECT_EQ(run("grow", "wall.obj").status, 0);
+}
+
+TEST_F(Meshes, WhatWasFoundOfAStrangersMeshIsTold) {
+  std::string obj = tests::kCubeObj;  // inside out
+  for (const auto& [from, to] : std::vector<std::pair<std::string, std::string>>{{"f 1 2 3 4", "f 4 3 2 1"},
+                                                                                 {"f 5 8 7 6", "f 6 7 8 5"},
+                                                                                 {"f 1 5 6 2", "f 2 6 5 1"},
+                                                                                 {"f 2 6 7 3", "f 3 7 6 2"},
+                                                                                 {"f 3 7 8 4", "f 4 8 7 3"},
+                                                                                 {"f 4 8 5 1", "f 1 5 8 4"}})
+    obj.replace(obj.find(from), from.size(), to);
+  scratch_.write("house.obj", obj);
+  const auto ran = run("expose", "house.obj");
+  EXPECT_EQ(ran.status, 0) << ran.output;
+  for (const char* said : {"note: 12 triangles of 'house', 100 % of its area, face the other way",
+                           "note: 'house' is closed, or nearly, and was filled"})
+    EXPECT_NE(ran.output.find(said), std::string::npos) << said << '\n' << ran.output;
+  const json world = json::parse(tests::fileText(scratch_.path("out/report.json")))["world"];
+  EXPECT_EQ(world["turned"][0]["turned_triangles"], 12);
+  EXPECT_EQ(world["fills"][0]["found"], true);
+  const json table = json::parse(tests::fileText(scratch_.path("out/exposure.json")));
+  EXPECT_GT(table["total"]["sky_exposure"]["mean"].get<double>(), 0.4);  // not black
 }
 
 TEST_F(Meshes, BoundsThatLeaveNoRoomAreTold) {

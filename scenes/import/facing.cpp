@@ -4,12 +4,11 @@
 #include <cmath>
 #include <numbers>
 #include <numeric>
-#include <tuple>
 
 #include "render/finish/ray_scene.h"
+#include "scenes/import/joined.h"
 #include "sim/base/parallel.h"
 #include "sim/base/random.h"
-#include "sim/base/stop.h"
 #include "sim/light/sky.h"
 
 namespace espalier::scenes {
@@ -29,95 +28,23 @@ Vec3 crossOf(const sim::Mesh& mesh, std::size_t triangle) {
   return glm::cross(mesh.vertices_m[b] - mesh.vertices_m[a], mesh.vertices_m[c] - mesh.vertices_m[a]);
 }
 
-/// The number of each vertex's place: vertices in one place have one.
-std::vector<std::uint32_t> placesOf(const sim::Mesh& mesh) {
-  const auto& at = mesh.vertices_m;
-  std::vector<std::uint32_t> order(at.size()), place(at.size());
-  std::iota(order.begin(), order.end(), 0u);
-  const auto key = [&](std::uint32_t i) { return std::tie(at[i].x, at[i].y, at[i].z); };
-  std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) { return key(a) < key(b); });
-  for (std::size_t i = 0; i < order.size(); ++i)
-    place[order[i]] = i > 0 && key(order[i - 1]) == key(order[i]) ? place[order[i - 1]] : order[i];
-  return place;
-}
-
-/// A triangle's side, from the lower place to the higher if `up`.
-struct Edge {
-  std::uint32_t low, high, triangle;
-  bool up;
-};
-
-std::vector<Edge> edgesOf(const sim::Mesh& mesh) {
-  const std::vector<std::uint32_t> place = placesOf(mesh);
-  std::vector<Edge> edges;
-  edges.reserve(3 * mesh.triangles.size());
-  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
-    for (std::size_t k = 0; k < 3; ++k) {
-      const std::uint32_t from = place[mesh.triangles[t][k]], to = place[mesh.triangles[t][(k + 1) % 3]];
-      if (from == to) continue;
-      edges.push_back({std::min(from, to), std::max(from, to), static_cast<std::uint32_t>(t), from < to});
-    }
-  }
-  std::sort(edges.begin(), edges.end(), [](const Edge& a, const Edge& b) {
-    return std::tie(a.low, a.high, a.triangle) < std::tie(b.low, b.high, b.triangle);
-  });
-  return edges;
-}
-
-/// Triangles that hang together by edges of two of them, and which of those are wound against the larger part
-/// of the patch.
-struct Patches {
-  std::vector<std::vector<std::uint32_t>> triangles;
+/// Which triangles are wound against the larger part of what they hang together with, and how large that is.
+struct Patches : WoundPatches {
   std::vector<double> areas;
-  std::vector<bool> against;  // by triangle
 };
 
 Patches patchesOf(const sim::Mesh& mesh) {
-  const std::size_t count = mesh.triangles.size();
-  const std::vector<Edge> edges = edgesOf(mesh);
-  struct Neighbour {
-    std::uint32_t triangle;
-    bool against;  // wound the other way round
-  };
-  std::vector<std::array<Neighbour, 3>> beside(count);
-  std::vector<std::uint8_t> sides(count);
-  for (std::size_t first = 0, last = 0; first < edges.size(); first = last) {
-    while (last < edges.size() && edges[last].low == edges[first].low &&
-           edges[last].high == edges[first].high)
-      ++last;
-    if (last - first != 2) continue;  // no other side, or several sheets that meet: nothing follows
-    const Edge &a = edges[first], &b = edges[first + 1];
-    if (a.triangle == b.triangle) continue;
-    beside[a.triangle][sides[a.triangle]++] = {b.triangle, a.up == b.up};
-    beside[b.triangle][sides[b.triangle]++] = {a.triangle, a.up == b.up};
-  }
-  Patches patches;
-  patches.against.resize(count);
-  std::vector<bool> met(count);
-  for (std::size_t seed = 0; seed < count; ++seed) {
-    if (met[seed]) continue;
-    sim::throwIfStopped();
-    met[seed] = true;
-    std::vector<std::uint32_t> patch{static_cast<std::uint32_t>(seed)};
+  Patches patches{woundPatches(joined(mesh)), {}};
+  for (const std::vector<std::uint32_t>& patch : patches.triangles) {
     double area = 0.0, against = 0.0;
-    for (std::size_t i = 0; i < patch.size(); ++i) {
-      const std::uint32_t t = patch[i];
+    for (const std::uint32_t t : patch) {
       const double size = glm::length(crossOf(mesh, t));
       area += size;
       if (patches.against[t]) against += size;
-      for (std::size_t k = 0; k < sides[t]; ++k) {
-        const Neighbour& other = beside[t][k];
-        if (met[other.triangle]) continue;
-        met[other.triangle] = true;
-        patches.against[other.triangle] = patches.against[t] != other.against;
-        patch.push_back(other.triangle);
-      }
     }
     if (2.0 * against > area) {
       for (const std::uint32_t t : patch) patches.against[t] = !patches.against[t];
     }
-    std::sort(patch.begin(), patch.end());
-    patches.triangles.push_back(std::move(patch));
     patches.areas.push_back(area);
   }
   return patches;

@@ -6,57 +6,22 @@
 #include <map>
 #include <tuple>
 
-#include "scenes/inspect/joined.h"
+#include "scenes/import/joined.h"
 #include "scenes/inspect/mesh_shape.h"
 #include "scenes/inspect/winding.h"
 
 namespace espalier::scenes {
 namespace {
 
-/// Neighbours across edges that two triangles share, and whether they look the same way.
-struct Neighbour {
-  std::uint32_t triangle;
-  bool agrees;
-};
-
 /// Of what hangs together each triangle either agrees with the first or does not: the fewer are those to be
 /// turned.
 std::size_t flippedIn(const Joined& mesh) {
-  std::vector<std::array<std::optional<Neighbour>, 3>> neighbours(mesh.triangles.size());
-  const auto note = [&](std::uint32_t of, Neighbour neighbour) {
-    for (auto& place : neighbours[of]) {
-      if (place) continue;
-      place = neighbour;
-      return;
-    }
-  };
-  forEachEdge(mesh, [&](const Side* sides, std::size_t count) {
-    if (count != 2) return;
-    const bool agrees = sides[0].forward != sides[1].forward;
-    note(sides[0].triangle, {sides[1].triangle, agrees});
-    note(sides[1].triangle, {sides[0].triangle, agrees});
-  });
+  const WoundPatches patches = woundPatches(mesh);
   std::size_t flipped = 0;
-  enum class Way : std::uint8_t { unknown, as_first, other };
-  std::vector<Way> ways(mesh.triangles.size(), Way::unknown);
-  std::vector<std::uint32_t> open;
-  for (std::uint32_t first = 0; first < mesh.triangles.size(); ++first) {
-    if (ways[first] != Way::unknown) continue;
-    std::size_t as_first = 0, other = 0;
-    ways[first] = Way::as_first;
-    open = {first};
-    while (!open.empty()) {
-      const std::uint32_t triangle = open.back();
-      open.pop_back();
-      ++(ways[triangle] == Way::as_first ? as_first : other);
-      for (const auto& neighbour : neighbours[triangle]) {
-        if (!neighbour || ways[neighbour->triangle] != Way::unknown) continue;
-        const bool same = (ways[triangle] == Way::as_first) == neighbour->agrees;
-        ways[neighbour->triangle] = same ? Way::as_first : Way::other;
-        open.push_back(neighbour->triangle);
-      }
-    }
-    flipped += std::min(as_first, other);
+  for (const std::vector<std::uint32_t>& patch : patches.triangles) {
+    const auto against = static_cast<std::size_t>(
+        std::count_if(patch.begin(), patch.end(), [&](std::uint32_t t) { return patches.against[t]; }));
+    flipped += std::min(against, patch.size() - against);
   }
   return flipped;
 }

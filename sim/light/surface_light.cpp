@@ -27,7 +27,8 @@ Amount operator+(const Amount& a, const Amount& b) {
 }
 
 /// What a direction gives a receiver in whose plane it lies. The sun's stands for a step of its way, in half
-/// of which the sun is before the receiver.
+/// of which the sun is before the receiver. What looks straight up or down has the horizon for its plane: all
+/// of the sun's way lies above it.
 enum class Along { nothing, half };
 
 /// Directions with what each gives.
@@ -51,18 +52,20 @@ class Givers {
   /// The directions in front of a receiver, a bit for each; and behind them, from words() on, those along its
   /// plane that give half.
   void front(Vec3f normal, std::uint64_t* mask) const {
-    constexpr float kAlong = 1e-6f;
+    constexpr float kAlong = 1e-6f, kUpright = 1.0f - 1e-6f;
+    const bool halves = along_ == Along::half && std::abs(normal.y) < kUpright;
+    const bool all = along_ == Along::half && normal.y >= kUpright;
     for (std::size_t w = 0; w < words(); ++w) {
       const std::size_t last = std::min(units_.size() - 64 * w, std::size_t{64});
       std::uint64_t before = 0, along = 0;
       for (std::size_t i = 0; i < last; ++i) {
         const Vec3f& u = units_[64 * w + i];
         const float cosine = u.x * normal.x + u.y * normal.y + u.z * normal.z;
-        before |= static_cast<std::uint64_t>(cosine > kAlong) << i;
-        along |= static_cast<std::uint64_t>(std::abs(cosine) <= kAlong) << i;
+        before |= static_cast<std::uint64_t>(cosine > kAlong || all) << i;
+        along |= static_cast<std::uint64_t>(halves && std::abs(cosine) <= kAlong) << i;
       }
       mask[w] = before;
-      mask[words() + w] = along_ == Along::half ? along : 0;
+      mask[words() + w] = along;
     }
   }
 

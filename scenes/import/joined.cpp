@@ -1,7 +1,9 @@
-#include "scenes/inspect/joined.h"
+#include "scenes/import/joined.h"
 
 #include <algorithm>
 #include <tuple>
+
+#include "sim/base/stop.h"
 
 namespace espalier::scenes {
 
@@ -39,6 +41,45 @@ Joined joined(const sim::Mesh& mesh) {
     return std::tie(p.a, p.b, p.triangle) < std::tie(q.a, q.b, q.triangle);
   });
   return result;
+}
+
+WoundPatches woundPatches(const Joined& mesh) {
+  struct Neighbour {
+    std::uint32_t triangle;
+    bool against;
+  };
+  const std::size_t count = mesh.triangles.size();
+  std::vector<std::array<Neighbour, 3>> beside(count);
+  std::vector<std::uint8_t> edges(count);  // of each triangle, that it shares with one other
+  forEachEdge(mesh, [&](const Side* sides, std::size_t sharing) {
+    const std::uint32_t a = sides[0].triangle;
+    if (sharing != 2 || sides[1].triangle == a) return;
+    const std::uint32_t b = sides[1].triangle;
+    const bool against = sides[0].forward == sides[1].forward;
+    beside[a][edges[a]++] = {b, against};
+    beside[b][edges[b]++] = {a, against};
+  });
+  WoundPatches patches;
+  patches.against.resize(count);
+  std::vector<bool> met(count);
+  for (std::size_t first = 0; first < count; ++first) {
+    if (met[first]) continue;
+    sim::throwIfStopped();
+    met[first] = true;
+    std::vector<std::uint32_t> patch{static_cast<std::uint32_t>(first)};
+    for (std::size_t i = 0; i < patch.size(); ++i) {
+      for (std::size_t k = 0; k < edges[patch[i]]; ++k) {
+        const Neighbour& other = beside[patch[i]][k];
+        if (met[other.triangle]) continue;
+        met[other.triangle] = true;
+        patches.against[other.triangle] = patches.against[patch[i]] != other.against;
+        patch.push_back(other.triangle);
+      }
+    }
+    std::sort(patch.begin(), patch.end());
+    patches.triangles.push_back(std::move(patch));
+  }
+  return patches;
 }
 
 }  // namespace espalier::scenes

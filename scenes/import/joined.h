@@ -9,8 +9,6 @@
 
 namespace espalier::scenes {
 
-/// Internal to the wing: how a mesh's triangles hang together.
-
 /// Sets that grow together.
 class Sets {
  public:
@@ -31,6 +29,7 @@ struct Side {
   bool forward;  ///< the triangle goes from a to b
 };
 
+/// How a mesh's triangles hang together: vertices in one place, to the last bit, count as one.
 struct Joined {
   std::vector<std::array<std::uint32_t, 3>> triangles;  ///< on corners at different places
   std::size_t places = 0;   ///< as many as numbers of corners, of corners of no triangle too
@@ -51,5 +50,14 @@ void forEachEdge(const Joined& mesh, Visit visit) {
     visit(sides.data() + first, end - first);
   }
 }
+
+/// Triangles that hang together by edges of just two of them, in ascending order. What lies across other
+/// edges tells nothing of how a triangle should be wound.
+struct WoundPatches {
+  std::vector<std::vector<std::uint32_t>> triangles;
+  std::vector<bool> against;  ///< by triangle: wound the other way round than the first of its patch
+};
+
+WoundPatches woundPatches(const Joined& mesh);
 
 }  // namespace espalier::scenes

@@ -30,8 +30,9 @@ int certify(const CertifyArguments& arguments) {
     const auto scene = scenes::readScene(arguments.scene);
     if (!scene) return sayProblems(scene.problems());
     try {
+      const scenes::Site site = scenes::makeSiteForLight(*scene);
       const scenes::Certificate certificate =
-          scenes::certifyWithShapes(scenes::makeSiteForLight(*scene), scene->seed);
+          scenes::certifyWithShapes(site, sim::lightOf(site.world, site.sky), scene->seed);
       if (arguments.json) {
         printJson(scenes::toJson(certificate));
       } else {

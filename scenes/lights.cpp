@@ -26,7 +26,7 @@ sim::RealSun realSun(const SunSpec& spec) {
 }  // namespace
 
 sim::SkySettings skySettings(const SkySpec& spec) {
-  return {spec.weighting, spec.accuracy, spec.directions};
+  return {spec.weighting, spec.accuracy.value_or(SkySpec::kGrowthError), spec.directions};
 }
 
 std::optional<sim::RandomSky> randomSky(const SkySpec& spec, std::uint64_t seed) {

@@ -71,8 +71,12 @@ struct WorldSpec {
 enum class Sampling { lattice, random };
 
 struct SkySpec {
+  static constexpr double kMapError = 0.003, kGrowthError = 0.005;
+
   sim::Weighting weighting = sim::Weighting::uniform;
-  double accuracy = 0.005;        ///< standard error of sky_exposure
+  /// Standard error of sky_exposure; without it kMapError where light alone is asked for, and kGrowthError
+  /// where plants grow, which ask for light again and again.
+  std::optional<double> accuracy;
   std::optional<int> directions;  ///< instead
   Sampling sampling = Sampling::lattice;
   int rays = 100;  ///< from each place, of random sampling

@@ -41,22 +41,22 @@ Certificate certifyShapes(const sim::Sky& sky, double voxel_m, const std::vector
   return certificate;
 }
 
-Certificate certify(const Site& site, std::uint64_t seed) {
+Certificate certify(const Site& site, const sim::Lighting& light, std::uint64_t seed) {
   Certificate certificate;
   certificate.weighting = site.sky.weighting;
   certificate.directions = site.sky.directions.size();
   certificate.voxel_m = site.world.frame().voxel_m;
-  certificate.spots = spotCheck(site, seed);
+  certificate.spots = spotCheck(site, light, seed);
   return certificate;
 }
 
-Certificate certifyWithShapes(const Site& site, std::uint64_t seed) {
+Certificate certifyWithShapes(const Site& site, const sim::Lighting& light, std::uint64_t seed) {
   const sim::Frame& frame = site.world.frame();
   const int longest = std::max({frame.size.x, frame.size.y, frame.size.z});
   std::vector<int> widths{8};
   while (2 * widths.back() <= std::min(longest, 64)) widths.push_back(2 * widths.back());
   Certificate certificate = certifyShapes(site.sky, frame.voxel_m, widths);
-  certificate.spots = spotCheck(site, seed);
+  certificate.spots = spotCheck(site, light, seed);
   return certificate;
 }
 

@@ -7,6 +7,7 @@
 
 #include "scenes/prepare/site.h"
 #include "sim/base/vec.h"
+#include "sim/light/lighting.h"
 #include "sim/light/sky.h"
 
 namespace espalier::scenes {
@@ -53,13 +54,13 @@ struct Certificate {
   std::optional<SpotCheck> spots;  ///< where the scene has triangles that light can reach
 };
 
-/// Of a scene: the spot check, drawn by the scene's seed.
-Certificate certify(const Site& site, std::uint64_t seed);
+/// Of a scene and the light of its world, without random rays: the spot check, drawn by the scene's seed.
+Certificate certify(const Site& site, const sim::Lighting& light, std::uint64_t seed);
 
 /// The same, and shapes whose width is 8, 16, 32 and 64 voxels of the scene, as far as they are no wider than
 /// the scene's longest side, and as high (the pit: as deep as its radius). The street, which must be very
 /// long, goes to 32.
-Certificate certifyWithShapes(const Site& site, std::uint64_t seed);
+Certificate certifyWithShapes(const Site& site, const sim::Lighting& light, std::uint64_t seed);
 
 /// Of a voxel size and a sky: the shapes alone.
 Certificate certifyShapes(const sim::Sky& sky, double voxel_m, const std::vector<int>& widths);

@@ -5,6 +5,7 @@
 #include <glm/common.hpp>
 
 #include "sim/base/parallel.h"
+#include "sim/light/evened.h"
 #include "sim/light/exposure.h"
 #include "sim/light/surface.h"
 #include "sim/sweep/sweep.h"
@@ -23,15 +24,24 @@ Vec3 spotOf(const sim::Frame& frame, const sim::TiledVoxel& t) {
 
 }  // namespace
 
-std::vector<SurfaceMap> mapsOf(const sim::World& world, std::vector<sim::TiledVoxel> surfaces,
+std::vector<SurfaceMap> mapsOf(const sim::World& world, const std::vector<sim::TiledVoxel>& surfaces,
                                const sim::Sky& sky, const std::vector<sim::Weighting>& weightings) {
-  const sim::SurfaceSensors sensors = sim::surfaceSensors(world, std::move(surfaces));
+  const sim::SurfaceSensors sensors = sim::surfaceSensors(world);
   const auto open = sim::sweepOpen(world.opaque(), sky.directions, sensors.places);
+  sim::BitVolume bits(world.frame().size);
+  for (const sim::TiledVoxel& t : sensors.surfaces) bits.set(t.voxel);
+  const sim::VoxelSet where(std::move(bits));
   std::vector<SurfaceMap> maps;
   sim::Sky weighted = sky;
   for (const sim::Weighting weighting : weightings) {
     weighted.weighting = weighting;
-    maps.push_back({sensors.surfaces, sim::surfaceSky(sensors, open, weighted)});
+    const auto values = sim::evened(sim::surfaceSky(sensors, open, weighted), sensors.surfaces, where, sky.standard_error);
+    SurfaceMap& map = maps.emplace_back();
+    for (const sim::TiledVoxel& t : surfaces) {
+      if (!where.has(t.voxel)) continue;
+      map.surfaces.push_back(t);
+      map.values.push_back(values[where.number(t.voxel)]);
+    }
   }
   return maps;
 }
@@ -104,7 +114,7 @@ std::vector<std::vector<Certificate::Line>> compareShape(const KnownShape& shape
   std::vector<sim::TiledVoxel> all;
   for (const auto& [name, voxels] : byPlace(shape, world))
     all.insert(all.end(), voxels.begin(), voxels.end());
-  const std::vector<SurfaceMap> maps = mapsOf(world, std::move(all), sky, weightings);
+  const std::vector<SurfaceMap> maps = mapsOf(world, all, sky, weightings);
   std::vector<std::vector<Certificate::Line>> lines;
   for (std::size_t w = 0; w < weightings.size(); ++w) {
     std::map<std::string, SurfaceMap> parts;

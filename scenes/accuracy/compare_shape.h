@@ -14,8 +14,8 @@ struct SurfaceMap {
   std::vector<float> values;
 };
 
-/// The program's own (sim/light/surface.h), one for each weighting.
-std::vector<SurfaceMap> mapsOf(const sim::World& world, std::vector<sim::TiledVoxel> surfaces,
+/// The program's own (sim/light/surface.h, sim/light/evened.h), one for each weighting.
+std::vector<SurfaceMap> mapsOf(const sim::World& world, const std::vector<sim::TiledVoxel>& surfaces,
                                const sim::Sky& sky, const std::vector<sim::Weighting>& weightings);
 
 /// The plain answer of voxels, for comparison: everything that is touched takes light, and a surface is

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <map>
 #include <numbers>
+#include <set>
 #include <tuple>
 
 #include "render/files/gltf.h"
@@ -154,20 +155,32 @@ sim::OpenTable openAt(const sim::BitVolume& opaque, const sim::DirectionSet& dir
   return {places, directions.size(), sim::OpenRays(opaque, directions).from(opaque, voxels, ahead)};
 }
 
-/// The map's values at the points' voxels, where it has any.
+/// A map's values at the points' voxels, where it has any.
 using MappedVoxels = std::map<Voxel, Mapped, decltype(&sim::beforeInRows)>;
 
-MappedVoxels mapAt(const Site& site, const sim::Sky& sky, const std::vector<Point>& points) {
+MappedVoxels mapAt(const sim::Lighting& light, const std::vector<Point>& points) {
   MappedVoxels values(sim::beforeInRows);
-  for (const Point& point : points) values[point.voxel] = {};
+  for (const Point& point : points) {
+    if (!light.where->has(point.voxel)) continue;
+    const std::size_t number = light.where->number(point.voxel);
+    values[point.voxel] = {static_cast<double>(light.sky.values[number]),
+                           light.surfaces[number].surface.normal};
+  }
+  return values;
+}
+
+/// By another sky.
+MappedVoxels mapAt(const Site& site, const sim::Sky& sky, const std::vector<Point>& points) {
+  std::set<Voxel, decltype(&sim::beforeInRows)> voxels(sim::beforeInRows);
+  for (const Point& point : points) voxels.insert(point.voxel);
   std::vector<sim::TiledVoxel> tiled;
-  for (const auto& [voxel, value] : values) {
+  for (const Voxel voxel : voxels) {
     if (const auto surface = site.world.surfaceAt(voxel)) tiled.push_back({voxel, *surface});
   }
   const auto sensors = sim::surfaceSensors(site.world, std::move(tiled));
   const auto open = openAt(site.world.opaque(), sky.directions, sensors.places);
   const auto received = sim::surfaceSky(sensors, open, sky);
-  values.clear();
+  MappedVoxels values(sim::beforeInRows);
   for (std::size_t i = 0; i < received.size(); ++i) {
     values[sensors.surfaces[i].voxel] = {static_cast<double>(received[i]),
                                          sensors.surfaces[i].surface.normal};
@@ -210,13 +223,14 @@ bool onFace(const Site& site, const render::RayScene& scene, const MappedVoxels&
 
 }  // namespace
 
-std::optional<Certificate::SpotCheck> spotCheck(const Site& site, std::uint64_t seed) {
+std::optional<Certificate::SpotCheck> spotCheck(const Site& site, const sim::Lighting& light,
+                                                std::uint64_t seed) {
   render::ModelScene model;
   for (const sim::TiledMesh& tiled : site.meshes) model.meshes.push_back(&tiled.mesh);
   const render::RayScene scene(model);
   const std::vector<Point> points = drawPoints(site, seed);
   if (points.empty()) return std::nullopt;
-  const MappedVoxels map = mapAt(site, site.sky, points);
+  const MappedVoxels map = mapAt(light, points);
   Certificate::SpotCheck check;
   check.rays = kRays;
   check.points = points.size();

@@ -129,7 +129,7 @@ ExposeResult exposeScene(const Scene& scene, const RunOptions& options) {
   report.exposure = {light.surfaces.size(), light.gaps->count(), space ? space->count() : 0};
 
   if (!site.random_sky && !light.surfaces.empty())
-    report.certificate = stages.run("certifying", [&] { return certify(site, scene.seed); });
+    report.certificate = stages.run("certifying", [&] { return certify(site, light, scene.seed); });
   const ExposureTable table = stages.run(
       "counting", [&] { return exposureTable(scene.name, site.world, light, scene.sun.north_deg); });
   result.table = toText(table);

@@ -237,6 +237,7 @@ Site makeSiteForLight(Scene scene) {
   scene.attractors.clear();
   scene.fields.clear();
   scene.world.layers = 0;
+  if (!scene.sky.accuracy) scene.sky.accuracy = SkySpec::kMapError;
   return makeSite(scene);
 }
 

@@ -53,7 +53,8 @@ std::string leakOf(const std::string& mesh, const sim::InsideDoubt& doubt);
 /// the scene's file where the fault is the scene's; MeshMissing.
 Site makeSite(const Scene& scene);
 
-/// The same without boundary layers and without a look at the plants: for light alone.
+/// The same without boundary layers and without a look at the plants, and by default a finer sky: for light
+/// alone.
 Site makeSiteForLight(Scene scene);
 
 /// The boundary layers of a scene's world: as many as it says, or as the rules of its plants need to feel

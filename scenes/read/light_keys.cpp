@@ -117,7 +117,8 @@ std::shared_ptr<const Table> skyKeys() {
                                           "also by the brightness of the CIE overcast sky."})
       .number("accuracy", &SkySpec::accuracy,
               {.limits = {0.001, 0.5},
-               .meaning = "Standard error of sky_exposure, from which the number of directions follows."})
+               .meaning = "Standard error of sky_exposure, from which the number of directions follows; "
+                          "without it 0.003 in maps of a scene's light, and 0.005 where plants grow."})
       .whole("directions", &SkySpec::directions,
              {.unit = "directions",
               .limits = {1.0, sim::kMostSkyDirections},
@@ -191,7 +192,7 @@ void checkSky(const Scene& scene, const Given& given, const Complain& complain) 
     return;
   }
   try {
-    if (!scene.sky.directions) sim::directionsFor(scene.sky.weighting, scene.sky.accuracy);
+    if (scene.sky.accuracy) sim::directionsFor(scene.sky.weighting, *scene.sky.accuracy);
   } catch (const sim::InputError& error) {
     complain("sky.accuracy", error.what());
   }

@@ -1,4 +1,5 @@
 #pragma once
+#include <array>
 #include <bit>
 #include <cstddef>
 #include <utility>
@@ -36,6 +37,29 @@ class VoxelSet {
   }
   BitVolume bits_;
   std::vector<std::size_t> row_begin_;  // of each row, and the count of all
+};
+
+/// VoxelSet::number for voxels that mostly lie in the words of a few rows, one after the other.
+class NearbyNumbers {
+ public:
+  explicit NearbyNumbers(const VoxelSet& set) : set_(set) {}
+
+  std::size_t operator()(Voxel v) {
+    const int word = v.x >> 6;
+    Known& known = known_[static_cast<std::size_t>((v.y & 15) * 16 + (v.z & 15))];
+    if (known.at != Voxel(word, v.y, v.z))
+      known = {Voxel(word, v.y, v.z), set_.number({word * BitVolume::kWordBits, v.y, v.z})};
+    const std::uint64_t before = (std::uint64_t{1} << (v.x & 63)) - 1;
+    return known.number + static_cast<std::size_t>(std::popcount(set_.bits().row(v.y, v.z)[word] & before));
+  }
+
+ private:
+  struct Known {
+    Voxel at{-1};
+    std::size_t number = 0;  // of the word's first place
+  };
+  const VoxelSet& set_;
+  std::array<Known, 256> known_;
 };
 
 }  // namespace espalier::sim

@@ -259,7 +259,7 @@ void ClearBricks::find(std::span<const LatticeDirection> directions) {
       met.at({sign.x, sign.y, sign.z}).unite(wayOf(layout, bricks_, v), blocked[i]);
     }
     for (std::size_t byte = 0; byte < layout.allBytes(); byte += 8) {
-      std::array<std::uint64_t, 64> square{};
+      alignas(64) std::array<std::uint64_t, 64> square{};
       std::uint64_t any = 0;
       for (std::size_t i = 0; i < mine.size(); ++i) any |= square[i] = wordAt(blocked[i], byte);
       if (any == 0) continue;

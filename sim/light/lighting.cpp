@@ -7,6 +7,7 @@
 #include "sim/base/faces.h"
 #include "sim/base/memory.h"
 #include "sim/base/parallel.h"
+#include "sim/light/evened.h"
 #include "sim/light/lit_faces.h"
 #include "sim/light/sky_shares.h"
 #include "sim/light/surface.h"
@@ -154,7 +155,13 @@ void findSky(Lighting& light, const World& world, const Sky& sky, const LightWan
     if (!wanted.brightest) return;
   }
   const OpenTable open = sweepOpen(world.opaque(), sky.directions, sensors.places);
-  if (!wanted.random_sky) light.sky.values = surfaceSky(sensors, open, sky);
+  if (!wanted.random_sky) {
+    light.sky.values = surfaceSky(sensors, open, sky);
+    const std::span all(light.sky.values);
+    std::ranges::copy(evened(all.first(surfaces), std::span(sensors.surfaces).first(surfaces), *light.where,
+                             sky.standard_error),
+                      all.begin());
+  }
   if (wanted.brightest) light.brightest = brightestWays(sensors, surfaces, moments(open, sky));
 }
 

@@ -4,8 +4,11 @@
 #include <array>
 #include <atomic>
 #include <cmath>
+#include <glm/matrix.hpp>
 
 #include "sim/base/parallel.h"
+#include "sim/light/nooks.h"
+#include "sim/light/open_surfaces.h"
 
 namespace espalier::sim {
 namespace {
@@ -17,6 +20,7 @@ constexpr float kLoose = 0.1f;     // height that must do in narrow gaps
 constexpr float kDepth = 2.0f;     // from the lowest to the highest place
 constexpr float kRadius = 1.4f;    // places lie so near to the normal
 constexpr float kDamping = 0.02f;  // added to the heights' variance, which may be little
+constexpr float kDampingAside = 0.4f;  // and to that along the surface
 
 using Tap = SurfaceSensors::Tap;
 
@@ -37,21 +41,21 @@ Voxel unpacked(std::uint32_t way) {
 struct Places {
   static constexpr std::size_t kMost = 64;
   std::array<Voxel, kMost> way;
-  std::array<float, kMost> height, nearness;
+  std::array<float, kMost> nearness;
   std::size_t count = 0;
 
-  void add(Voxel w, float h, float squared_lateral) {
+  void add(Voxel w, float squared_lateral) {
     if (count == kMost) return;
     const float n = 1.0f - squared_lateral / (kRadius * kRadius);
     way[count] = w;
-    height[count] = h;
     nearness[count++] = n * n;
   }
 };
 
 /// Walks up the columns of voxels along the normal's largest component; what lies behind something that takes
-/// light does not see what the surface sees.
-Places placesBefore(const BitVolume& opaque, Voxel voxel, Vec3f n, float offset, float clear) {
+/// light does not see what the surface sees. Leaves out `nooks`, if given.
+Places placesBefore(const BitVolume& opaque, const BitVolume* nooks, Voxel voxel, Vec3f n, float offset,
+                    float clear) {
   const Vec3f size = glm::abs(n);
   const int up = size.y >= size.x && size.y >= size.z ? 1 : size.x >= size.z ? 0 : 2;
   const int u = (up + 1) % 3, w = (up + 2) % 3;
@@ -80,56 +84,36 @@ Places placesBefore(const BitVolume& opaque, Voxel voxel, Vec3f n, float offset,
           continue;
         }
         const float squared_lateral = glm::dot(o, o) - along * along;
-        if (h >= clear && squared_lateral < kRadius * kRadius) places.add(way, h, squared_lateral);
+        if (h >= clear && squared_lateral < kRadius * kRadius && !(nooks && nooks->at(v)))
+          places.add(way, squared_lateral);
       }
     }
   }
   return places;
 }
 
-/// Appends the places with the weights by which a straight line, fitted to their values over their heights,
-/// gives the value at height 0.
-void appendTaps(const Places& places, std::vector<Tap>& taps) {
-  float sum = 0.0f, heights = 0.0f, squares = 0.0f;
+/// Appends the places with the weights by which what rises evenly from place to place, fitted to their
+/// values, gives the value at the surface's own spot: before a floor at a wall's foot all places lie to one
+/// side.
+void appendTaps(const Places& places, Vec3f normal, float offset, std::vector<Tap>& taps) {
+  float sum = 0.0f;
+  Vec3f mean(0.0f);
   for (std::size_t i = 0; i < places.count; ++i) {
     sum += places.nearness[i];
-    heights += places.nearness[i] * places.height[i];
+    mean += places.nearness[i] * Vec3f(places.way[i]);
   }
-  const float mean = heights / sum;
+  mean /= sum;
+  glm::mat3 spread(0.0f);
   for (std::size_t i = 0; i < places.count; ++i) {
-    const float d = places.height[i] - mean;
-    squares += places.nearness[i] * d * d;
+    const Vec3f d = Vec3f(places.way[i]) - mean;
+    spread += places.nearness[i] / sum * glm::outerProduct(d, d);
   }
-  const float slope = mean / (squares / sum + kDamping);
+  spread += (kDamping - kDampingAside) * glm::outerProduct(normal, normal) + kDampingAside * glm::mat3(1.0f);
+  const Vec3f slope = glm::inverse(spread) * (mean - offset * normal);
   for (std::size_t i = 0; i < places.count; ++i) {
-    const float weight = places.nearness[i] / sum * (1.0f - slope * (places.height[i] - mean));
+    const float weight = places.nearness[i] / sum * (1.0f - glm::dot(slope, Vec3f(places.way[i]) - mean));
     taps.push_back({packed(places.way[i]), weight});
   }
-}
-
-/// Deep inside of something: there no light gets in.
-bool buried(const BitVolume& opaque, Voxel voxel) {
-  for (int dy = -1; dy <= 1; ++dy) {
-    for (int dz = -1; dz <= 1; ++dz) {
-      for (int dx = -1; dx <= 1; ++dx) {
-        if (!opaque.at(voxel + Voxel(dx, dy, dz))) return false;
-      }
-    }
-  }
-  return true;
-}
-
-/// The same for 64 voxels of a row at once.
-std::uint64_t buriedBits(const BitVolume& opaque, int y, int z, int word) {
-  if (y == 0 || z == 0 || y + 1 == opaque.size().y || z + 1 == opaque.size().z) return 0;
-  std::uint64_t all = ~std::uint64_t{0};
-  for (int dy = -1; dy <= 1; ++dy) {
-    for (int dz = -1; dz <= 1; ++dz) {
-      const std::uint64_t* const row = opaque.row(y + dy, z + dz) + word;  // zero words lie around a row
-      all &= row[0] & (row[0] << 1 | row[-1] >> 63) & (row[0] >> 1 | row[1] << 63);
-    }
-  }
-  return all;
 }
 
 /// Some of the surfaces in order, those that can be lit.
@@ -138,17 +122,18 @@ struct Stretch {
   std::vector<Tap> taps;
   std::vector<std::uint32_t> counts;
 
-  void add(const BitVolume& opaque, const TiledVoxel& tiled) {
+  void add(const BitVolume& opaque, const BitVolume* nooks, const TiledVoxel& tiled) {
     const Vec3f normal = tiled.surface.normal;
-    if (normal == Vec3f(0.0f) || buried(opaque, tiled.voxel)) return;
+    if (normal == Vec3f(0.0f) || isBuried(opaque, tiled.voxel)) return;
     const float clear = kClear * (std::abs(normal.x) + std::abs(normal.y) + std::abs(normal.z));
-    Places places = placesBefore(opaque, tiled.voxel, normal, tiled.surface.offset_vx, clear);
-    if (places.count == 0)
-      places = placesBefore(opaque, tiled.voxel, normal, tiled.surface.offset_vx, kLoose);
+    const float offset = tiled.surface.offset_vx;
+    Places places = placesBefore(opaque, nooks, tiled.voxel, normal, offset, clear);
+    if (places.count == 0) places = placesBefore(opaque, nullptr, tiled.voxel, normal, offset, clear);
+    if (places.count == 0) places = placesBefore(opaque, nullptr, tiled.voxel, normal, offset, kLoose);
     if (places.count == 0) return;
     surfaces.push_back(tiled);
     counts.push_back(static_cast<std::uint32_t>(places.count));
-    appendTaps(places, taps);
+    appendTaps(places, normal, offset, taps);
   }
 
   /// Parts share words of the rows; the order in which bits are set does not matter.
@@ -164,45 +149,6 @@ struct Stretch {
   }
 };
 
-/// VoxelSet::number for places that mostly lie in the words of a few rows, one after the other.
-class Numbers {
- public:
-  explicit Numbers(const VoxelSet& set) : set_(set) {}
-
-  std::uint32_t operator()(Voxel v) {
-    const int word = v.x >> 6;
-    Known& known = known_[static_cast<std::size_t>((v.y & 15) * 16 + (v.z & 15))];
-    if (known.at != Voxel(word, v.y, v.z))
-      known = {Voxel(word, v.y, v.z), set_.number({word * BitVolume::kWordBits, v.y, v.z})};
-    const std::uint64_t before = (std::uint64_t{1} << (v.x & 63)) - 1;
-    const auto bits = static_cast<std::size_t>(std::popcount(set_.bits().row(v.y, v.z)[word] & before));
-    return static_cast<std::uint32_t>(known.number + bits);
-  }
-
- private:
-  struct Known {
-    Voxel at{-1};
-    std::size_t number = 0;  ///< of the word's first place
-  };
-  const VoxelSet& set_;
-  std::array<Known, 256> known_;
-};
-
-/// Calls visit(voxel with its surface) for those of one y that are not deep inside of something, until it
-/// answers false.
-template <class Visit>
-void visitSlice(const World& world, int y, Visit visit) {
-  for (int z = 0; z < world.frame().size.z; ++z) {
-    const std::uint64_t* const row = world.occupied().row(y, z);
-    for (int i = 0; i < world.occupied().rowWords() - 1; ++i) {
-      for (std::uint64_t word = row[i] & ~buriedBits(world.opaque(), y, z, i); word != 0; word &= word - 1) {
-        const Voxel v(i * BitVolume::kWordBits + std::countr_zero(word), y, z);
-        if (!visit({v, *world.surfaceAt(v)})) return;
-      }
-    }
-  }
-}
-
 SurfaceSensors joined(Voxel size, std::vector<Stretch> stretches) {
   BitVolume bits(size);
   parallelForEach(stretches.size(), [&](std::size_t p) { stretches[p].mark(bits); });
@@ -217,7 +163,7 @@ SurfaceSensors joined(Voxel size, std::vector<Stretch> stretches) {
   parallelForEach(stretches.size(), [&](std::size_t p) {
     Stretch mine = std::move(stretches[p]);
     SurfaceSensors::Own own{static_cast<std::uint32_t>(p), 0, 0};
-    Numbers numbers(*sensors.places);
+    NearbyNumbers numbers(*sensors.places);
     for (std::size_t i = 0; i < mine.surfaces.size(); ++i) {
       const TiledVoxel& tiled = mine.surfaces[i];
       own.count = mine.counts[i];
@@ -225,7 +171,7 @@ SurfaceSensors joined(Voxel size, std::vector<Stretch> stretches) {
       sensors.own[surface[p] + i] = own;
       for (; own.count > 0; --own.count, ++own.first) {
         Tap& tap = mine.taps[own.first];
-        tap.place = numbers(tiled.voxel + unpacked(tap.place));
+        tap.place = static_cast<std::uint32_t>(numbers(tiled.voxel + unpacked(tap.place)));
       }
     }
     sensors.taps[p] = std::move(mine.taps);
@@ -237,11 +183,12 @@ SurfaceSensors joined(Voxel size, std::vector<Stretch> stretches) {
 
 SurfaceSensors surfaceSensors(const World& world) {
   const Voxel size = world.frame().size;
+  const BitVolume nooks = nooksOf(world);
   std::vector<Stretch> stretches(static_cast<std::size_t>(size.y));
   parallelForEach(stretches.size(), [&](std::size_t slice) {
     Stretch& mine = stretches[slice];
-    visitSlice(world, static_cast<int>(slice), [&](const TiledVoxel& tiled) {
-      mine.add(world.opaque(), tiled);
+    forEachOpenSurface(world, static_cast<int>(slice), [&](const TiledVoxel& tiled) {
+      mine.add(world.opaque(), &nooks, tiled);
       return true;
     });
     mine.taps.shrink_to_fit();
@@ -252,9 +199,9 @@ SurfaceSensors surfaceSensors(const World& world) {
 bool anyCanBeLit(const World& world) {
   std::atomic<bool> found = false;
   parallelForEach(static_cast<std::size_t>(world.frame().size.y), [&](std::size_t slice) {
-    visitSlice(world, static_cast<int>(slice), [&](const TiledVoxel& tiled) {
+    forEachOpenSurface(world, static_cast<int>(slice), [&](const TiledVoxel& tiled) {
       Stretch one;
-      one.add(world.opaque(), tiled);
+      one.add(world.opaque(), nullptr, tiled);
       if (!one.surfaces.empty()) found = true;
       return !found;
     });
@@ -264,10 +211,11 @@ bool anyCanBeLit(const World& world) {
 
 SurfaceSensors surfaceSensors(const World& world, std::vector<TiledVoxel> surfaces) {
   constexpr std::size_t kChunk = 4096;
+  const BitVolume nooks = nooksOf(world);
   std::vector<Stretch> stretches((surfaces.size() + kChunk - 1) / kChunk);
   parallelForEach(stretches.size(), [&](std::size_t p) {
     const std::size_t last = std::min((p + 1) * kChunk, surfaces.size());
-    for (std::size_t i = p * kChunk; i < last; ++i) stretches[p].add(world.opaque(), surfaces[i]);
+    for (std::size_t i = p * kChunk; i < last; ++i) stretches[p].add(world.opaque(), &nooks, surfaces[i]);
     stretches[p].taps.shrink_to_fit();
   });
   return joined(world.frame().size, std::move(stretches));

@@ -328,19 +328,6 @@ void Adders::sums(const Word* const* inputs, std::size_t at, std::uint16_t* sums
   HWY_DYNAMIC_DISPATCH(Sums)(inputs_, first_of_plane_, inputs, at, carried, sums);
 }
 
-void transpose(Word square[64]) {
-  Word mask = 0x00000000ffffffffu;
-  for (unsigned step = 32; step != 0; step >>= 1, mask ^= mask << step) {
-    for (unsigned block = 0; block < 64; block += 2 * step) {
-      for (unsigned i = block; i < block + step; ++i) {
-        const Word swap = ((square[i] >> step) ^ square[i + step]) & mask;
-        square[i] ^= swap << step;
-        square[i + step] ^= swap;
-      }
-    }
-  }
-}
-
 namespace {
 std::int64_t supported() {
   std::int64_t all = 0;

@@ -74,8 +74,9 @@ class Adders {
   std::vector<std::uint32_t> first_of_plane_;  // in inputs_; one more than there are planes
 };
 
-/// Turns a square of bits: bit j of square[i] changes places with bit i of square[j].
-void transpose(Word square[64]);
+/// Turns a square of 64 words' bits: bit j of square[i] changes places with bit i of square[j]. Aligned as a
+/// vector is, to 64 bytes.
+void transpose(Word* square);
 
 /// The vector instructions in use, and all that this processor can run, best first.
 std::string level();

@@ -201,7 +201,7 @@ OpenTable sweepOpen(const BitVolume& occupied, const DirectionSet& directions,
         [&](std::size_t w, std::size_t r, Word asked, std::size_t place) {
           for (std::size_t n = 0; n < batch.size();) {
             const std::size_t column = batch[n] / 64;
-            std::array<Word, 64> square{};
+            alignas(64) std::array<Word, 64> square{};
             for (; n < batch.size() && batch[n] / 64 == column; ++n)
               square[batch[n] % 64] = block.band.blocked[n][block.at(w) + r];
             lanes::transpose(square.data());

@@ -41,6 +41,7 @@ struct WorldRing {
   WorldRing(const SliceLayout& layout, int slots) : slices(layout, slots), changed(layout, slots) {}
   SliceRing slices;
   BlockFlags changed;
+  int last_change = 0;  ///< the last slice that differs from the one before, or the first that is swept
 };
 
 /// Flags of the blocks of a band, for each w: as they are now, and as they were.
@@ -87,7 +88,10 @@ class Sweep {
   void run(const WorldRing& world, int slice, std::size_t first, std::size_t count, BandFlags& period,
            BandFlags& blocked) {
     Reads reads;
-    const std::size_t n = gather(world, slice, first, reads);
+    // Where walls go straight up, what a period's parts block stays.
+    const bool same = world.last_change < slice - parts_.back().ahead;
+    const std::size_t n = same ? 0 : gatherParts(world, slice, first, reads);
+    if (endsInside(slice)) reads[n] = readOfEnd(slice, first);
     const lanes::Read* const end = endsInside(slice) ? &reads[n] : nullptr;
     period.fetch(period_.filled(), 0, first, count);
     blocked.fetch(ring_.filled(), slice, first, count);
@@ -103,7 +107,8 @@ class Sweep {
     const std::size_t line = layout_.line();
     Word* const out = ring_.slice(slice);
     Reads reads;
-    const std::size_t n = gather(world, slice, 0, reads) + 1;
+    const std::size_t n = gatherParts(world, slice, 0, reads) + 1;
+    reads[n - 1] = readOfEnd(slice, 0);
     for (int i = 0; i < rows_; ++i) {
       const auto z = static_cast<std::size_t>(v_.z > 0 ? rows_ - 1 - i : i);
       if (v_.z == 0) {
@@ -137,14 +142,17 @@ class Sweep {
 
   bool endsInside(int slice) const { return end_.ahead <= slice; }
 
-  /// What a slice's blocks from `first` on read of those ahead that lie in the world, and behind that, if all
-  /// of it does, what the period's end sees: a ray that has left does not come back.
-  std::size_t gather(const WorldRing& world, int slice, std::size_t first, Reads& reads) const {
+  /// What a slice's blocks from `first` on read of those ahead that lie in the world.
+  std::size_t gatherParts(const WorldRing& world, int slice, std::size_t first, Reads& reads) const {
     std::size_t n = 0;
     for (; n < parts_.size() && parts_[n].ahead <= slice; ++n)
       reads[n] = readOf(parts_[n], world.slices, world.changed, slice, first);
-    if (endsInside(slice)) reads[n] = readOf(end_, ring_, ring_.filled(), slice, first);
     return n;
+  }
+
+  /// What the period's end sees, if all of it lies in the world: a ray that has left does not come back.
+  lanes::Read readOfEnd(int slice, std::size_t first) const {
+    return readOf(end_, ring_, ring_.filled(), slice, first);
   }
 
   lanes::Read readOf(const Part& part, const SliceRing& source, const BlockFlags& changed, int slice,
@@ -210,6 +218,12 @@ void layOut(const BitVolume& occupied, int y, const SliceLayout& layout, WorldRi
   shared ? parallelFor(layout.words, lines_at_once, copy) : copy(0, layout.words);
 }
 
+bool sameSlices(const BitVolume& occupied, int y, int other) {
+  const std::ptrdiff_t words = static_cast<std::ptrdiff_t>(occupied.rowWords()) * occupied.size().z;
+  const Word* const first = occupied.row(y, 0);
+  return std::equal(first, first + words, occupied.row(other, 0));
+}
+
 bool anything(const BitVolume& occupied, int y) {
   const Word* const first = occupied.row(y, 0);
   return std::any_of(first, first + static_cast<std::ptrdiff_t>(occupied.rowWords()) * occupied.size().z,
@@ -245,6 +259,7 @@ void sweepBatch(const BitVolume& occupied, std::span<const LatticeDirection* con
   const int end = up ? size.y - extent.low_y : extent.high_y + 1;
   for (int slice = begin; slice < end; ++slice) {
     layOut(occupied, yOf(slice), layout, world, slice, extent.shared);
+    if (slice == begin || !sameSlices(occupied, yOf(slice), yOf(slice - 1))) world.last_change = slice;
     parallelForEach(level.size(), [&](std::size_t i) { level[i]->runLevel(world, slice); });
     const auto band = [&](std::size_t b) {
       const std::size_t first = b * blocks, n = std::min(blocks, layout.blocks - first);

@@ -110,7 +110,7 @@ Scene smallScene() {
 TEST(Certificate, OfASceneAgreesWithRaysOnItsTriangles) {
   const Scene scene = smallScene();
   const Site site = makeSite(scene);
-  const Certificate certificate = certify(site, scene.seed);
+  const Certificate certificate = certify(site, sim::lightOf(site.world, site.sky), scene.seed);
   ASSERT_TRUE(certificate.spots);
   const auto& spots = *certificate.spots;
   EXPECT_GT(spots.points, 2000u);
@@ -124,11 +124,12 @@ TEST(Certificate, OfASceneAgreesWithRaysOnItsTriangles) {
   // The worst place is a place of the scene.
   EXPECT_TRUE(sim::contains(site.world.frame().size,
                             sim::voxelAt(sim::voxelFromWorld(site.world.frame(), spots.worst.at_m))));
-  EXPECT_EQ(spotCheck(site, scene.seed)->rms, spots.rms);  // the same points in every run
+  EXPECT_EQ(spotCheck(site, sim::lightOf(site.world, site.sky), scene.seed)->rms,
+            spots.rms);  // the same points in every run
   const auto json = nlohmann::json::parse(toJson(certificate));
   EXPECT_EQ(json["weighting"], std::string(sim::nameOf(site.sky.weighting)));
   EXPECT_FALSE(json.contains("known_shapes"));
-  const Certificate whole = certifyWithShapes(site, scene.seed);
+  const Certificate whole = certifyWithShapes(site, sim::lightOf(site.world, site.sky), scene.seed);
   EXPECT_EQ(whole.spots->rms, spots.rms);
   EXPECT_GT(whole.lines.size(), 10u);
   EXPECT_EQ(nlohmann::json::parse(toJson(whole))["known_shapes"]["lines"].size(), whole.lines.size());
@@ -169,7 +170,8 @@ TEST(Certificate, SaysWhatWouldHelp) {
   const tests::Scratch scratch;
   const auto of = [&](double voxel_m, double accuracy) {
     const Scene scene = courtOf(scratch, voxel_m, accuracy);
-    return certify(makeSiteForLight(scene), scene.seed);
+    const Site site = makeSiteForLight(scene);
+    return certify(site, sim::lightOf(site.world, site.sky), scene.seed);
   };
   const Certificate coarse = of(1.0, 0.005), fine = of(0.125, 0.005), exact = of(0.25, 0.002);
   EXPECT_NE(inShort(coarse).find("smaller voxels would help most"), std::string::npos) << inShort(coarse);

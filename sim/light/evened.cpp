@@ -1,0 +1,126 @@
+#include "sim/light/evened.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <optional>
+
+#include "sim/base/parallel.h"
+
+namespace espalier::sim {
+namespace {
+
+constexpr int kReach = 3;         // voxels
+constexpr float kAlike = 0.995f;  // cosine between normals
+constexpr float kBend = 5.0f;     // standard errors: what bends more is no chance
+constexpr float kLevel = 0.3f;    // voxel widths from the plane
+
+/// Half of the ways to neighbours, along the two axes that a surface runs along most, nearest first, each
+/// with the number of the way to the one before it.
+struct Way {
+  int a, b;
+  std::size_t before;  ///< kNone: it starts at the surface itself
+  float weight;
+};
+constexpr std::size_t kNone = ~std::size_t{0};
+
+std::vector<Way> waysAbout() {
+  std::vector<Way> ways;
+  for (int a = 0; a <= kReach; ++a) {
+    for (int b = a == 0 ? 1 : -kReach; b <= kReach; ++b) {
+      if (a * a + b * b > kReach * kReach) continue;
+      constexpr float kEnd = (kReach + 1) * (kReach + 1);
+      ways.push_back({a, b, kNone, 1.0f - static_cast<float>(a * a + b * b) / kEnd});
+    }
+  }
+  const auto length = [](const Way& way) { return way.a * way.a + way.b * way.b; };
+  std::stable_sort(ways.begin(), ways.end(),
+                   [&](const Way& p, const Way& q) { return length(p) < length(q); });
+  for (Way& way : ways) {
+    const int steps = std::max(std::abs(way.a), std::abs(way.b));
+    if (steps < 2) continue;
+    const auto shorter = [&](int along) {
+      return static_cast<int>(std::lround(static_cast<double>(along) * (steps - 1) / steps));
+    };
+    const auto is = [&](const Way& w) { return w.a == shorter(way.a) && w.b == shorter(way.b); };
+    way.before = static_cast<std::size_t>(std::find_if(ways.begin(), ways.end(), is) - ways.begin());
+  }
+  return ways;
+}
+
+/// Finds neighbours in a surface's plane.
+class Neighbours {
+ public:
+  Neighbours(std::span<const TiledVoxel> surfaces, const VoxelSet& where)
+      : surfaces_(surfaces), where_(where), numbers_(where) {}
+
+  void standOn(const TiledVoxel& tiled) {
+    here_ = &tiled;
+    const Vec3f size = glm::abs(tiled.surface.normal);
+    up_ = size.y >= size.x && size.y >= size.z ? 1 : size.x >= size.z ? 0 : 2;
+  }
+
+  /// The number of the one that lies so far along.
+  std::optional<std::size_t> at(int a, int b) {
+    const Surface& surface = here_->surface;
+    const Vec3f n = surface.normal;
+    const int u = (up_ + 1) % 3, w = (up_ + 2) % 3;
+    Voxel way;
+    way[u] = a;
+    way[w] = b;
+    // The column's voxel through which the plane runs, as the surface's own is of its column.
+    const float rise = n[u] * static_cast<float>(a) + n[w] * static_cast<float>(b);
+    const float own = surface.offset_vx / n[up_];
+    way[up_] = static_cast<int>(std::lround(own - rise / n[up_]) - std::lround(own));
+    const Voxel there = here_->voxel + way;
+    if (!contains(where_.bits().size(), there) || !where_.has(there)) return std::nullopt;
+    const std::size_t number = numbers_(there);
+    const Surface& other = surfaces_[number].surface;
+    const float off = glm::dot(Vec3f(way) + other.offset_vx * other.normal, n) - surface.offset_vx;
+    if (glm::dot(other.normal, n) < kAlike || std::abs(off) > kLevel) return std::nullopt;
+    return number;
+  }
+
+ private:
+  std::span<const TiledVoxel> surfaces_;
+  const VoxelSet& where_;
+  NearbyNumbers numbers_;
+  const TiledVoxel* here_ = nullptr;
+  int up_ = 1;
+};
+
+}  // namespace
+
+std::vector<float> evened(std::span<const float> values, std::span<const TiledVoxel> surfaces,
+                          const VoxelSet& where, double standard_error) {
+  const float bound = kBend * static_cast<float>(standard_error);
+  const std::vector<Way> ways = waysAbout();
+  std::vector<float> result(surfaces.size());
+  constexpr std::size_t kGrain = 8192;
+  parallelFor(surfaces.size(), kGrain, [&](std::size_t begin, std::size_t end) {
+    Neighbours neighbours(surfaces, where);
+    std::vector<bool> paired(ways.size());
+    for (std::size_t i = begin; i < end; ++i) {
+      neighbours.standOn(surfaces[i]);
+      float sum = 0.0f, weights = 1.0f;
+      for (std::size_t k = 0; k < ways.size(); ++k) {
+        const Way& way = ways[k];
+        paired[k] = false;
+        if (way.before != kNone && !paired[way.before]) continue;
+        const auto one = neighbours.at(way.a, way.b);
+        if (!one) continue;
+        const auto other = neighbours.at(-way.a, -way.b);
+        if (!other) continue;
+        paired[k] = true;
+        const float bend = (values[*one] - values[i]) + (values[*other] - values[i]);
+        if (std::abs(bend) > bound) continue;
+        sum += way.weight * bend;
+        weights += 2.0f * way.weight;
+      }
+      result[i] = values[i] + sum / weights;
+    }
+  });
+  return result;
+}
+
+}  // namespace espalier::sim

@@ -71,11 +71,11 @@ TEST_F(OwnMeshes, BodiesAreClosed) {
 TEST_F(OwnMeshes, AreWhatTheirScriptMakes) {
   if (std::system("python3 --version >/dev/null 2>&1") != 0) GTEST_SKIP() << "python3 is not here";
   for (const char* script : {"make_courtyard.py", "make_street.py", "make_lean_to.py", "make_ruin.py",
-                             "make_shapes.py"}) {  // all use the first
+                             "make_arch.py", "make_shapes.py"}) {  // all use the first
     fs::copy_file(kMeshes / script, folder_ / script);
     ASSERT_EQ(std::system(("python3 '" + (folder_ / script).string() + "' >/dev/null").c_str()), 0);
   }
-  for (const char* name : {"courtyard", "column", "maze_walls", "street", "lean_to", "ruin", "sphere", "wren",
+  for (const char* name : {"courtyard", "column", "maze_walls", "street", "lean_to", "ruin", "arch_cm", "sphere", "wren",
                            "lawn", "cut_earth"}) {
     for (const char* ending : {".obj", ".mtl"}) {
       const auto made = folder_ / (std::string(name) + ending);

@@ -175,7 +175,7 @@ TEST_F(Skeletons, OfBadLinesAreRefusedWithTheLine) {
   bad(three + "l 1 -4\n", "line 4: a line asks for vertex -4");
   bad(three + "l 0 1\n", "line 4: a line asks for vertex 0");
   bad(three + "l 1 x\n", "line 4: 'x' is not the number of a vertex");
-  bad(three + "l 1\n", "line 4: a line of 1 vertices");
+  bad(three + "l 1\n", "line 4: a line of 1 vertex; expected");
   bad(three + "l 1 1\n", "there are no lines in the file");
   bad(three + "l 1 2 3\nl 3 1\n", "line 5: a line leads from vertex 3 to 1, which hang together already");
   bad(three + "l 1 2\nl 2 1\n", "line 5: a line leads from vertex 2 to 1");

@@ -31,7 +31,7 @@ inline Ran run(const std::string& command) {
 inline Ran espalier(const std::string& arguments) {
   Ran ran = run(std::string(ESPALIER_PROGRAM) + " " + arguments);
   static const std::regex kOneOfMany(
-      "(^|[ (])1 "
+      "(^|[^x] |[(\n])1 "
       "(plants|seeds|segments|leaves|iterations|buds|triangles|voxels|points|images|edges|rims|times)\\b");
   std::smatch found;
   EXPECT_FALSE(std::regex_search(ran.output, found, kOneOfMany)) << found.str() << " in: " << ran.output;

@@ -157,9 +157,9 @@ TEST_F(Skeletons, OfBadJsonAreRefusedWithThePlace) {
   bad(R"({"plants": [3]})", "/plants/0: 3 is no plant");
   bad(plant(""), "/plants/0: it has no 'parent'");
   bad(plant(R"("parent": [-1, 0], "position_m": [[0, 0, 0]])"),
-      "/plants/0/position_m: 1 entries for 2 nodes");
+      "/plants/0/position_m: 1 entry for 2 nodes");
   const std::string two = R"("parent": [-1, 0], "position_m": [[0, 0, 0], [0, 1, 0]])";
-  bad(plant(two + R"(, "radius_m": [1])"), "/plants/0/radius_m: 1 entries for 2 nodes");
+  bad(plant(two + R"(, "radius_m": [1])"), "/plants/0/radius_m: 1 entry for 2 nodes");
   bad(plant(two + R"(, "radius_m": [1, 0])"), "/plants/0/radius_m/1: the node has the radius 0");
   bad(plant(two + R"(, "radius_m": [1, 1])" + "}, {" + two), "/plants/1: the plant has no radii, unlike");
 }

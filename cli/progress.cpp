@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "cli/say.h"
+#include "sim/base/counted.h"
 
 namespace espalier::cli {
 namespace {
@@ -54,8 +55,9 @@ void Progress::growth(const sim::GrowthProgress& growth, Time now) {
     return;
   const double spent = std::chrono::duration<double>(now - stage_began_).count();
   const double left = spent / (growth.iteration - growth.first) * (growth.iterations - growth.iteration);
-  const std::string state = fmt::format("iteration {}/{}, {} segments, {} live buds", growth.iteration,
-                                        growth.iterations, growth.segments, growth.sites);
+  const std::string state =
+      fmt::format("iteration {}/{}, {}, {}", growth.iteration, growth.iterations,
+                  sim::counted(growth.segments, "segment"), sim::counted(growth.sites, "live bud"));
   if (!terminal_) return line("  " + state, now);
   const int filled = kBarWidth * growth.iteration / std::max(1, growth.iterations);
   line(fmt::format("growing [{:=<{}}{: <{}}] {}, {:.0f} s left", "", filled, "", kBarWidth - filled, state,

@@ -94,7 +94,13 @@ small $work/figure_3/figure_3.png figure_3 960
 grow scenes/library/figure_3a.yaml
 small $work/figure_3a/column_layers.png column_layers 640
 grow scenes/library/ruin.yaml
-if [ -f $work/ruin/vines.png ]; then small $work/ruin/vines.png ruin 720; else echo "  no ruin: its mesh is missing"; fi
+small $work/ruin/vines.png ruin 780
+
+for recipe in docs/examples/*.yaml; do
+  name=$(basename $recipe .yaml)
+  grow $recipe
+  small $work/$name/vines.png recipe_$name 620
+done
 
 [ -x build/release/tests/figures ] || ./run build
 build/release/tests/figures $work
@@ -108,7 +114,7 @@ small $work/street/sun_hours.png street_sun_hours 800
 small $work/street/sky_exposure.png street_sky_exposure 800
 small $work/street/contact_sheet.png street_contact_sheet 960
 
-# The README's first rule file, as it stands and with the three changes that it proposes.
+# The README's first rule file, as it stands and after each of its three steps.
 changed() {  # changed NAME FROM TO [FROM TO ...]
   local name=$1 rules=$work/first_$1.yaml
   shift
@@ -122,8 +128,9 @@ changed() {  # changed NAME FROM TO [FROM TO ...]
   grow "$work/try_$name.yaml"
 }
 changed as_is
-changed up 'up: 0.08' 'up: 0.4'
-changed far 'max: 3}' 'max: 12}'
-changed autumn 'size: 1.2' 'size: 2' '#4f7a2c' '#b3412a'
+up=('up: 0.08' 'up: 0.4') far=('max: 3}' 'max: 12}') autumn=('size: 1.2' 'size: 2' '#4f7a2c' '#b3412a')
+changed up "${up[@]}"
+changed far "${up[@]}" "${far[@]}"
+changed autumn "${up[@]}" "${far[@]}" "${autumn[@]}"
 oiiotool $work/try_{as_is,up,far,autumn}/vines.png --mosaic:pad=8 2x2 -o $work/first_vines.png
 small $work/first_vines.png first_vines 760

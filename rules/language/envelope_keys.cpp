@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "sim/base/counted.h"
 #include "sim/base/error.h"
 
 namespace espalier::rules {
@@ -105,8 +106,8 @@ void checkEnvelope(const EnvelopeSpec& spec, const std::string& path, const Chec
   if (solids.size() != 1) return;
   if (spec.revolution && spec.revolution->profile_m.size() != 4) {
     complain(path + ".revolution.profile",
-             fmt::format("a profile of {} points; expected four, the control points of a Bezier curve",
-                         spec.revolution->profile_m.size()));
+             fmt::format("a profile of {}; expected four, the control points of a Bezier curve",
+                         sim::counted(spec.revolution->profile_m.size(), "point")));
     return;
   }
   try {

@@ -4,6 +4,7 @@
 
 #include "rules/language/envelope_keys.h"
 #include "rules/language/registry.h"
+#include "sim/base/counted.h"
 
 namespace espalier::rules {
 namespace {
@@ -53,7 +54,8 @@ sim::Vec3 areaNormal(const Polygon& polygon) {
 }
 
 std::string wrongWith(const Polygon& polygon) {
-  if (polygon.size() < 3) return fmt::format("a polygon of {} corners; expected at least 3", polygon.size());
+  if (polygon.size() < 3)
+    return fmt::format("a polygon of {}; expected at least 3", sim::counted(polygon.size(), "corner"));
   for (std::size_t i = 0; i < polygon.size(); ++i) {
     if (polygon[i] == polygon[(i + 1) % polygon.size()]) {
       return fmt::format("corners {} and {} are the same point; expected each corner once", i + 1,

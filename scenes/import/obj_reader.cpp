@@ -14,6 +14,7 @@
 #include "scenes/import/assimp_scene.h"
 #include "scenes/import/mtl.h"
 #include "scenes/import/texture_files.h"
+#include "sim/base/counted.h"
 #include "sim/base/error.h"
 
 namespace espalier::scenes {
@@ -214,9 +215,10 @@ sim::Mesh readObj(MeshFolderIo& io, const std::string& name, RegionsFrom regions
     warnings.push_back({{},
                         0,
                         0,
-                        fmt::format("{} corners of its polygons ask for texture vertices or normals that are "
-                                    "not there, and have none",
-                                    obj.odd_corners)});
+                        fmt::format("{} for texture vertices or normals that are not there, and {} none",
+                                    sim::counted(obj.odd_corners, "corner of its polygons asks",
+                                                 "corners of its polygons ask"),
+                                    obj.odd_corners == 1 ? "has" : "have")});
   }
   if (files.allThere()) materials.warn(!obj.libraries.empty(), warnings);
   return meshOf(instances, materials.materials(), regions_from, stem);

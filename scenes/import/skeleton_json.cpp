@@ -7,6 +7,7 @@
 #include "scenes/clean_text.h"
 #include "scenes/import/skeleton_reader.h"
 #include "scenes/problem.h"
+#include "sim/base/counted.h"
 #include "sim/base/error.h"
 
 namespace espalier::scenes {
@@ -132,7 +133,8 @@ Forest plantForest(const Json& plant, const std::string& pointer) {
   const auto requireAsMany = [&](const Json& list, const char* key) {
     if (list.size() != parents.size())
       failAt({pointer, {}, key},
-             fmt::format("{} entries for {} nodes; expected one for each", list.size(), parents.size()));
+             fmt::format("{} for {}; expected one for each", sim::counted(list.size(), "entry", "entries"),
+                         sim::counted(parents.size(), "node")));
   };
   requireAsMany(positions, "position_m");
   const std::string parent_at = pointer + "/parent", position_at = pointer + "/position_m",

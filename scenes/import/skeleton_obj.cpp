@@ -6,6 +6,7 @@
 #include "scenes/import/obj_statements.h"
 #include "scenes/import/skeleton_reader.h"
 #include "scenes/problem.h"
+#include "sim/base/counted.h"
 #include "sim/base/error.h"
 
 namespace espalier::scenes {
@@ -66,8 +67,8 @@ class LineReader {
       requireFew(static_cast<std::int64_t>(art_.edges.size()));
     }
     if (count < 2)
-      throw sim::InputError(
-          fmt::format("line {}: a line of {} vertices; expected two at least", line_, count));
+      throw sim::InputError(fmt::format("line {}: a line of {}; expected two at least", line_,
+                                        sim::counted(count, "vertex", "vertices")));
   }
 
   void requireFew(std::int64_t count) const {

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "scenes/clean_text.h"
+#include "sim/base/counted.h"
 #include "sim/base/hasher.h"
 
 namespace espalier::scenes {
@@ -43,7 +44,8 @@ void TextureFiles::miss(const std::string& name, const std::string& why) {
 void TextureFiles::warn(std::vector<Problem>& warnings) const {
   if (missing_.empty()) return;
   std::string text = fmt::format("the picture {} of its materials {}", inQuotes(first_), why_);
-  if (missing_.size() > 1) text += fmt::format("; {} more are left out too", missing_.size() - 1);
+  if (missing_.size() > 1)
+    text += fmt::format("; {} left out too", sim::counted(missing_.size() - 1, "more is", "more are"));
   warnings.push_back({{}, 0, 0, text + "; such materials have their colour alone"});
 }
 

@@ -19,6 +19,7 @@
 #include "scenes/show/picture_memory.h"
 #include "scenes/show/pictures.h"
 #include "scenes/write/output_folder.h"
+#include "sim/base/counted.h"
 #include "sim/base/error.h"
 #include "sim/light/lighting.h"
 #include "sim/world/band.h"
@@ -171,9 +172,8 @@ std::string summary(const ExposeResult& result, const std::filesystem::path& fol
   text += "\n" + result.table + "\n";
   if (report.certificate) text += inShort(*report.certificate);
   if (report.exposure->gaps > 0) {
-    text += fmt::format(
-        "note: {} voxels, deep in corners or gaps, have no place in front and are not in the table\n",
-        report.exposure->gaps);
+    text += fmt::format("note: not in the table: {} deep in corners or gaps, without a place in front\n",
+                        sim::counted(report.exposure->gaps, "voxel"));
   }
   return text + endOfSummary(report, folder);
 }

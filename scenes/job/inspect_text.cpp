@@ -6,6 +6,7 @@
 
 #include "scenes/clean_text.h"
 #include "scenes/job/inspect.h"
+#include "sim/base/counted.h"
 
 namespace espalier::scenes {
 namespace {
@@ -14,10 +15,6 @@ using Json = nlohmann::ordered_json;
 
 /// Nobody reads more parts than that.
 constexpr std::size_t kMostParts = 12;
-
-std::string counted(std::size_t number, std::string_view one, std::string_view many) {
-  return fmt::format("{} {}", number, number == 1 ? one : many);
-}
 
 std::string_view nameOf(Body body) {
   switch (body) {
@@ -70,17 +67,17 @@ std::string soundness(const Inspected& mesh) {
   const Surface& s = mesh.surface;
   std::vector<std::string> faults;
   if (s.open_edges > 0)
-    faults.push_back(fmt::format("{} in {}", counted(s.open_edges, "open edge", "open edges"),
-                                 counted(s.rims, "rim", "rims")));
+    faults.push_back(fmt::format("{} in {}", sim::counted(s.open_edges, "open edge", "open edges"),
+                                 sim::counted(s.rims, "rim", "rims")));
   if (s.crowded_edges > 0)
-    faults.push_back(counted(s.crowded_edges, "edge", "edges") + " with three triangles or more");
+    faults.push_back(sim::counted(s.crowded_edges, "edge", "edges") + " with three triangles or more");
   if (s.flipped > 0)
-    faults.push_back(counted(s.flipped, "triangle looks", "triangles look") +
+    faults.push_back(sim::counted(s.flipped, "triangle looks", "triangles look") +
                      " another way than their neighbours");
   if (s.duplicates > 0)
-    faults.push_back(counted(s.duplicates, "triangle lies", "triangles lie") + " on another");
+    faults.push_back(sim::counted(s.duplicates, "triangle lies", "triangles lie") + " on another");
   if (mesh.degenerate > 0)
-    faults.push_back(counted(mesh.degenerate, "triangle has", "triangles have") +
+    faults.push_back(sim::counted(mesh.degenerate, "triangle has", "triangles have") +
                      " no area and are left out");
   if (faults.empty()) return "closed, without a fault";
   std::string text;
@@ -175,12 +172,12 @@ std::string toText(const Inspected& mesh) {
   const Surface& s = mesh.surface;
   const auto part = [&](const SurfacePart& of) {
     return fmt::format("{}{}, {}, {}", of.name.empty() ? "" : inQuotes(of.name) + ": ",
-                       areaText(mesh, of.area), counted(of.triangles, "triangle", "triangles"),
+                       areaText(mesh, of.area), sim::counted(of.triangles, "triangle", "triangles"),
                        bodyText(of.winding));
   };
   std::string text = fmt::format("{}\n  size: {}, {} at {} places\n", cleanText(mesh.file.string()),
                                  sizeText(mesh.high_m - mesh.low_m),
-                                 counted(mesh.triangles, "triangle", "triangles"), s.corners);
+                                 sim::counted(mesh.triangles, "triangle", "triangles"), s.corners);
   text += fmt::format("  unit: {}, as it looks: {}\n", nameOf(mesh.unit.unit), mesh.unit.why);
   text += fmt::format("  up: {}{}: {}\n", mesh.up.up == UpAxis::z ? "z" : "y",
                       mesh.up.sure ? ", as it looks" : "", mesh.up.why);

@@ -9,6 +9,7 @@
 #include "scenes/clean_text.h"
 #include "scenes/job/seed_failure_words.h"
 #include "scenes/show/light_json.h"
+#include "sim/base/counted.h"
 #include "sim/base/parallel.h"
 #include "sim/base/whole_file.h"
 
@@ -174,9 +175,10 @@ std::string endOfSummary(const Report& report, const std::filesystem::path& fold
   std::string text;
   for (const FacingReport& facing : report.facings) {
     text += fmt::format(
-        "note: {} triangles of '{}', {:.3g} % of its area, face the other way than they are wound: there "
-        "is light; solid: false takes them as they are\n",
-        facing.turned, facing.object, 100.0 * facing.area_share);
+        "note: {} of '{}', {:.3g} % of its area, {} the other way than wound: there is light; solid: false "
+        "takes what is wound as it is\n",
+        sim::counted(facing.turned, "triangle"), facing.object, 100.0 * facing.area_share,
+        facing.turned == 1 ? "faces" : "face");
   }
   for (const auto& fill : report.fills) {
     if (fill.found) {

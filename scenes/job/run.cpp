@@ -29,6 +29,7 @@
 #include "scenes/show/picture_memory.h"
 #include "scenes/show/pictures.h"
 #include "scenes/write/output_folder.h"
+#include "sim/base/counted.h"
 #include "sim/base/parallel.h"
 #include "sim/light/lighting.h"
 #include "sim/world/band.h"
@@ -140,9 +141,10 @@ sim::Growth growOn(const Scene& scene, Prepared& prepared, std::optional<sim::Gr
   if (kept) {
     report.run.went_on_from = kept->iterations;
     if (kept->iterations > scene.iterations) {
-      throw sim::InputError(
-          fmt::format("{}: it has grown for {} iterations; expected at most the {} that are asked for",
-                      (options.folder / kStateFile).string(), kept->iterations, scene.iterations));
+      throw sim::InputError(fmt::format(
+          "{}: it has grown for {}; expected at most the {} that are asked for",
+          (options.folder / kStateFile).string(),
+          sim::counted(static_cast<std::uint64_t>(kept->iterations), "iteration"), scene.iterations));
     }
   }
   const bool vines = options.pictures && drawsVines(scene.images);
@@ -374,10 +376,10 @@ std::string summary(const Report& report, const std::filesystem::path& folder) {
     elements += plant.elements;
   }
   const auto& size = report.frame.size;
-  return fmt::format(
-             "{}: {} x {} x {} voxels of {:.4g} m; {} plant{}, {} segments, {} leaves in {} iterations\n",
-             report.scene, size.x, size.y, size.z, report.frame.voxel_m, growth.plants.size(),
-             growth.plants.size() == 1 ? "" : "s", segments, elements, growth.iterations) +
+  return fmt::format("{}: {} x {} x {} voxels of {:.4g} m; {}, {}, {} in {}\n", report.scene, size.x, size.y,
+                     size.z, report.frame.voxel_m, sim::counted(growth.plants.size(), "plant"),
+                     sim::counted(segments, "segment"), sim::counted(elements, "leaf", "leaves"),
+                     sim::counted(static_cast<std::uint64_t>(growth.iterations), "iteration")) +
          (growth.cut_short.empty() ? "" : "note: " + growth.cut_short + "\n") + fates(growth) +
          endOfSummary(report, folder);
 }

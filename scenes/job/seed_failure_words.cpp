@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "scenes/problem.h"
+#include "sim/base/counted.h"
 
 namespace espalier::scenes {
 namespace {
@@ -122,8 +123,8 @@ std::string ofTrials(const SeedFailure& failure) {
                          limitOf(tried.proximity_min, failure.voxel_m), wallOf(failure, tried.proximity_min),
                          more);
     case Outcome::out_of_world:
-      return fmt::format("no trial stayed in the world: its rim is {} voxel{} away{}", failure.rim_vx,
-                         failure.rim_vx == 1 ? "" : "s", more);
+      return fmt::format("no trial stayed in the world: its rim is {} away{}",
+                         sim::counted(static_cast<std::uint64_t>(failure.rim_vx), "voxel"), more);
     default:
       return fmt::format("every trial was blocked: {} of the 26 voxels around the seed are taken{}",
                          failure.taken, more);
@@ -206,8 +207,8 @@ std::string whyItDidNotGrow(const SeedFailure& failure) {
           set != nullptr ? 1.0 / set->pace : 1.0);
     }
     case Outcome::claimed:
-      return fmt::format("others took its voxels first, {} times",
-                         sim::timesOf(failure.tally.sites, Outcome::claimed));
+      return fmt::format("others took its voxels first, {}",
+                         sim::counted(sim::timesOf(failure.tally.sites, Outcome::claimed), "time"));
     default:
       return ofTrials(failure);
   }

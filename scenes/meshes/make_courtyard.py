@@ -78,9 +78,9 @@ class Model:
         (x0, y0, z0), (x1, y1, z1) = low, high
         self.prism(group, material, [(x0, y0, z1), (x1, y0, z1), (x1, y1, z1), (x0, y1, z1)], (0, 0, z0 - z1))
 
-    def write(self, path, about, maker="make_courtyard.py"):
+    def write(self, path, about, maker="make_courtyard.py", unit="metres, y up"):
         materials = sorted({m for group in self.faces.values() for m in group})
-        out = [f"# {about}", f"# Made by {maker}; metres, y up.", f"mtllib {path.with_suffix('.mtl').name}"]
+        out = [f"# {about}", f"# Made by {maker}; {unit}.", f"mtllib {path.with_suffix('.mtl').name}"]
         out += ["v " + " ".join(f"{c:.4f}".rstrip("0").rstrip(".") for c in p) for p in self.points]
         for group, by_material in self.faces.items():
             out.append(f"g {group}")

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "rules/growth/front_memory.h"
+#include "sim/base/counted.h"
 #include "sim/base/error.h"
 #include "sim/base/random.h"
 #include "sim/scatter/inside_points.h"
@@ -37,8 +38,9 @@ class Naming {
         kept.normal.push_back(points.normal[i]);
       }
     }
-    const std::string lost = fmt::format("of {} points {} lie beyond the world and {} in what stands there",
-                                         points.at.size(), outside, blocked);
+    const std::string lost =
+        fmt::format("of {} {} beyond the world and {} in what stands there",
+                    sim::counted(points.at.size(), "point"), sim::counted(outside, "lies", "lie"), blocked);
     if (kept.at_vx.empty())
       fail(lost + ": none is left; expected a place in the open, inside the world" + hollow);
     if (outside > 0) warn(lost);

@@ -10,6 +10,7 @@
 #include "scenes/prepare/in_scene.h"
 #include "scenes/prepare/unknown_regions.h"
 #include "scenes/problem.h"
+#include "sim/base/counted.h"
 #include "sim/base/error.h"
 #include "sim/base/random.h"
 
@@ -38,8 +39,9 @@ std::vector<sim::Voxel> placesAbove(const sim::World& world, const std::string& 
 std::vector<sim::Vec3> scatter(const sim::World& world, const Scatter& spec, std::uint64_t stream) {
   std::vector<sim::Voxel> open = placesAbove(world, spec.region);
   if (open.size() < static_cast<std::size_t>(spec.count)) {
-    throw sim::InputError(fmt::format("scatter: region '{}' has {} places that look up; expected at least {}",
-                                      spec.region, open.size(), spec.count));
+    throw sim::InputError(fmt::format("scatter: region '{}' has {} up; expected at least {}", spec.region,
+                                      sim::counted(open.size(), "place that looks", "places that look"),
+                                      spec.count));
   }
   std::vector<sim::Vec3> seeds;
   for (int i = 0; i < spec.count; ++i) {  // Fisher and Yates, as far as needed

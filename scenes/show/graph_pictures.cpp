@@ -14,6 +14,7 @@
 #include "scenes/show/growth_graph.h"
 #include "scenes/show/picture_memory.h"
 #include "scenes/show/sight.h"
+#include "sim/base/counted.h"
 #include "sim/base/error.h"
 #include "sim/base/parallel.h"
 
@@ -30,7 +31,7 @@ render::SwatchLegend legendOf(const render::PointGraph& graph, bool points) {
   legend.title = !points ? "out-trees" : attracted ? "nodes and attractors" : "nodes";
   const render::GraphColours colours = render::graphColours();
   const auto count = [&](std::size_t many, sim::Colour colour, const char* one, const char* more) {
-    if (many > 0) legend.swatches.push_back({colour, fmt::format("{} {}", many, many == 1 ? one : more)});
+    if (many > 0) legend.swatches.push_back({colour, sim::counted(many, one, more)});
   };
   const auto starts = static_cast<std::size_t>(std::count_if(
       graph.nodes.begin(), graph.nodes.end(), [](const render::SpaceNode& node) { return node.parent < 0; }));
@@ -119,7 +120,7 @@ render::Image GraphPictures::draw(const ImageSpec& image, const render::Camera& 
   if (!image.caption.empty()) legend.title = image.caption;
   legend.note = iterations < last
                     ? fmt::format("after {} of {} iterations", iterations, last)
-                    : fmt::format("after {} iteration{}", iterations, iterations == 1 ? "" : "s");
+                    : "after " + sim::counted(static_cast<std::uint64_t>(iterations), "iteration");
   if (!view_->whole.sets.empty()) legend.note += "\nattractors: " + view_->whole.sets;
   render::drawLegend(picture, legend);
   return picture;

@@ -9,6 +9,7 @@
 
 #include "render/image/contact_sheet.h"
 #include "render/voxels/visibility.h"
+#include "sim/base/counted.h"
 #include "sim/base/error.h"
 #include "sim/base/memory.h"
 #include "sim/base/parallel.h"
@@ -120,10 +121,10 @@ void requirePicturesFit(const Scene& scene, const PicturesWanted& wanted) {
   const Place& at = scene.images_place;
   const Problem problem{
       at.path ? *at.path : scene.file.string(), at.line, at.column,
-      fmt::format("{} image{} of {} x {} pixels need{} {} of memory, and {} are free for it "
+      fmt::format("{} of {} x {} pixels need{} {} of memory, and {} are free for it "
                   "here; expected {}",
-                  wanted.images.size(), wanted.images.size() == 1 ? "" : "s", wanted.width_px,
-                  wanted.height_px, wanted.images.size() == 1 ? "s" : "", sim::inGigabytes(bytes),
+                  sim::counted(wanted.images.size(), "image"), wanted.width_px, wanted.height_px,
+                  wanted.images.size() == 1 ? "s" : "", sim::inGigabytes(bytes),
                   sim::inGigabytes(sim::memoryBudget()), expected)};
   throw sim::InputError(format(problem));
 }

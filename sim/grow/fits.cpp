@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "sim/base/counted.h"
 #include "sim/grow/grow.h"
 
 namespace espalier::sim {
@@ -27,10 +28,11 @@ std::string Fits::whyNot(const Grown& so_far, std::size_t sites) const {
   if (needed <= free) return "";
   constexpr double kGigabyte = 1024.0 * 1024.0 * 1024.0;
   return fmt::format(
-      "growth stopped after {} iterations with {} segments: with the next, and its files, it would need "
+      "growth stopped after {} with {}: with the next, and its files, it would need "
       "{:.2f} GB of memory more, and {:.2f} are free for it here; limit iterations, or light or proximity in "
       "the rules",
-      so_far.iterations, so_far.segments, needed / kGigabyte, free / kGigabyte);
+      counted(static_cast<std::uint64_t>(so_far.iterations), "iteration"),
+      counted(so_far.segments, "segment"), needed / kGigabyte, free / kGigabyte);
 }
 
 bool Growing::nextFits() {

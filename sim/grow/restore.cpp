@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "sim/base/counted.h"
 #include "sim/base/error.h"
 #include "sim/grow/pieces.h"
 #include "sim/grow/state.h"
@@ -77,15 +78,16 @@ Growth restore(State state, World& world, const std::vector<Planting>& plantings
           fmt::format("it was grown in a world of {} x {} x {} voxels; this one has {} x {} x {}",
                       state.size.x, state.size.y, state.size.z, size.x, size.y, size.z));
   require(growth.stands.size() == plantings.size(),
-          fmt::format("it holds {} plantings; the scene has {}", growth.stands.size(), plantings.size()));
+          fmt::format("it holds {}; the scene has {}", counted(growth.stands.size(), "planting"),
+                      plantings.size()));
   require(growth.tallies.size() == growth.plants.size() && growth.iterations >= 0,
           "the state is damaged: its counts do not fit its plants");
   std::size_t first = 0;
   for (std::size_t i = 0; i < plantings.size(); ++i) {
     const Stand& stand = growth.stands[i];
     require(stand.count == plantings[i].seeds.size(),
-            fmt::format("it holds {} plants of '{}'; the scene has {}", stand.count, plantings[i].name,
-                        plantings[i].seeds.size()));
+            fmt::format("it holds {} of '{}'; the scene has {}", counted(stand.count, "plant"),
+                        plantings[i].name, plantings[i].seeds.size()));
     require(stand.first == first, "the state is damaged: its plants are out of order");
     first += stand.count;
   }

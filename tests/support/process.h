@@ -1,7 +1,10 @@
 #pragma once
+#include <gtest/gtest.h>
 #include <sys/wait.h>
+
 #include <array>
 #include <cstdio>
+#include <regex>
 #include <string>
 
 /// The program as a user runs it.
@@ -24,8 +27,15 @@ inline Ran run(const std::string& command) {
   return ran;
 }
 
+/// Whatever it says, it counts as people do.
 inline Ran espalier(const std::string& arguments) {
-  return run(std::string(ESPALIER_PROGRAM) + " " + arguments);
+  Ran ran = run(std::string(ESPALIER_PROGRAM) + " " + arguments);
+  static const std::regex kOneOfMany(
+      "(^|[^x] |[(\n])1 "
+      "(plants|seeds|segments|leaves|iterations|buds|triangles|voxels|points|images|edges|rims|times)\\b");
+  std::smatch found;
+  EXPECT_FALSE(std::regex_search(ran.output, found, kOneOfMany)) << found.str() << " in: " << ran.output;
+  return ran;
 }
 
 }  // namespace espalier::tests

@@ -62,7 +62,7 @@ inline std::filesystem::path sourceFolder() {
 /// Every rule and scene file that comes with the program.
 inline std::vector<std::filesystem::path> libraryFiles() {
   std::vector<std::filesystem::path> files;
-  for (const char* folder : {"rules/library", "scenes/library", "docs/first"}) {
+  for (const char* folder : {"rules/library", "scenes/library", "docs/first", "docs/examples"}) {
     for (const auto& entry : std::filesystem::directory_iterator(sourceFolder() / folder)) {
       if (entry.path().extension() == ".yaml") files.push_back(entry.path());
     }

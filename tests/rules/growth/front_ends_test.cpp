@@ -30,6 +30,9 @@ struct Way {
   Acts acts;
   bool onto, repeated;
 };
+void PrintTo(const Way& way, std::ostream* out) {
+  *out << way.name;
+}
 const Way kWays[] = {{"nearest", Acts::on_nearest_node, false, false},
                      {"nearest_repeated", Acts::on_nearest_node, false, true},
                      {"nearest_onto", Acts::on_nearest_node, true, false},

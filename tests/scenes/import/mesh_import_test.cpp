@@ -263,6 +263,9 @@ struct RealMesh {
   std::size_t triangles;
   sim::Vec3 size_m;
 };
+void PrintTo(const RealMesh& mesh, std::ostream* out) {
+  *out << mesh.file;
+}
 
 class RealMeshes : public ::testing::TestWithParam<RealMesh> {};
 

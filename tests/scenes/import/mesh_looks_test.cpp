@@ -84,7 +84,7 @@ TEST_F(MeshLooks, WhatAnObjFileLacksIsAWarning) {
   EXPECT_EQ(
       warning(),
       "the picture 'gone.png' of its materials is not there as a regular file in the mesh's folder; 1 more "
-      "are left out too; such materials have their colour alone");
+      "is left out too; such materials have their colour alone");
   EXPECT_EQ(
       sources_.warnings[1].text,
       "3 corners of its polygons ask for texture vertices or normals that are not there, and have none");

@@ -4,6 +4,7 @@
 #include <map>
 
 #include "scenes/import/mesh_import.h"
+#include "scenes/inspect/surface.h"
 #include "tests/scenes/import/mesh_files.h"
 
 /// The meshes in scenes/meshes. After a change to one of the scripts there: python3
@@ -32,6 +33,20 @@ TEST_F(OwnMeshes, HaveTheRegionsThatScenesName) {
                    "street", "square", "pavement"}));
   EXPECT_EQ(importMesh(kMeshes / "lean_to.obj", RegionsFrom::group).regions,
             (Names{"wall", "coping", "roof", "timber", "bed", "paving"}));
+  EXPECT_EQ(importMesh(kMeshes / "ruin.obj", RegionsFrom::group).regions,
+            (Names{"wall", "window", "tracery", "fallen", "turf"}));
+}
+
+/// As meshes of others come: no two faces share a corner, and there are rims.
+TEST_F(OwnMeshes, TheRuinIsOpenAndUnwelded) {
+  const auto ruin = importMesh(kMeshes / "ruin.obj", RegionsFrom::group);
+  std::vector<std::size_t> uses(ruin.vertices_m.size());
+  for (const auto& corners : ruin.triangles) {
+    for (const auto k : corners) ++uses[k];
+  }
+  // A face of four corners is two triangles that share two of them.
+  EXPECT_LE(*std::max_element(uses.begin(), uses.end()), 6u);
+  EXPECT_GT(surfaceOf(ruin).open_edges, 500u);
 }
 
 TEST_F(OwnMeshes, BodiesAreClosed) {
@@ -55,13 +70,13 @@ TEST_F(OwnMeshes, BodiesAreClosed) {
 
 TEST_F(OwnMeshes, AreWhatTheirScriptMakes) {
   if (std::system("python3 --version >/dev/null 2>&1") != 0) GTEST_SKIP() << "python3 is not here";
-  for (const char* script :
-       {"make_courtyard.py", "make_street.py", "make_lean_to.py", "make_shapes.py"}) {  // all use the first
+  for (const char* script : {"make_courtyard.py", "make_street.py", "make_lean_to.py", "make_ruin.py",
+                             "make_arch.py", "make_shapes.py"}) {  // all use the first
     fs::copy_file(kMeshes / script, folder_ / script);
     ASSERT_EQ(std::system(("python3 '" + (folder_ / script).string() + "' >/dev/null").c_str()), 0);
   }
-  for (const char* name :
-       {"courtyard", "column", "maze_walls", "street", "lean_to", "sphere", "wren", "lawn", "cut_earth"}) {
+  for (const char* name : {"courtyard", "column", "maze_walls", "street", "lean_to", "ruin", "arch_cm", "sphere", "wren",
+                           "lawn", "cut_earth"}) {
     for (const char* ending : {".obj", ".mtl"}) {
       const auto made = folder_ / (std::string(name) + ending);
       EXPECT_TRUE(tests::readAll(made) == tests::readAll(kMeshes / made.filename())) << made.filename();

@@ -157,9 +157,9 @@ TEST_F(Skeletons, OfBadJsonAreRefusedWithThePlace) {
   bad(R"({"plants": [3]})", "/plants/0: 3 is no plant");
   bad(plant(""), "/plants/0: it has no 'parent'");
   bad(plant(R"("parent": [-1, 0], "position_m": [[0, 0, 0]])"),
-      "/plants/0/position_m: 1 entries for 2 nodes");
+      "/plants/0/position_m: 1 entry for 2 nodes");
   const std::string two = R"("parent": [-1, 0], "position_m": [[0, 0, 0], [0, 1, 0]])";
-  bad(plant(two + R"(, "radius_m": [1])"), "/plants/0/radius_m: 1 entries for 2 nodes");
+  bad(plant(two + R"(, "radius_m": [1])"), "/plants/0/radius_m: 1 entry for 2 nodes");
   bad(plant(two + R"(, "radius_m": [1, 0])"), "/plants/0/radius_m/1: the node has the radius 0");
   bad(plant(two + R"(, "radius_m": [1, 1])" + "}, {" + two), "/plants/1: the plant has no radii, unlike");
 }
@@ -175,7 +175,7 @@ TEST_F(Skeletons, OfBadLinesAreRefusedWithTheLine) {
   bad(three + "l 1 -4\n", "line 4: a line asks for vertex -4");
   bad(three + "l 0 1\n", "line 4: a line asks for vertex 0");
   bad(three + "l 1 x\n", "line 4: 'x' is not the number of a vertex");
-  bad(three + "l 1\n", "line 4: a line of 1 vertices");
+  bad(three + "l 1\n", "line 4: a line of 1 vertex; expected");
   bad(three + "l 1 1\n", "there are no lines in the file");
   bad(three + "l 1 2 3\nl 3 1\n", "line 5: a line leads from vertex 3 to 1, which hang together already");
   bad(three + "l 1 2\nl 2 1\n", "line 5: a line leads from vertex 2 to 1");

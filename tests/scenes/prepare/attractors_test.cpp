@@ -149,7 +149,7 @@ TEST_F(Attractors, FromATable) {
   EXPECT_LT(glm::distance(metres(all[0].at_vx[0]), sim::Vec3(0.5, 4, 0)), 1e-12);
   EXPECT_LT(glm::distance(metres(all[0].at_vx[1]), sim::Vec3(-1.5, 2, 3)), 1e-12);
   EXPECT_EQ(warnings_.at(0).text,
-            "attractors 'main': of 3 points 1 lie beyond the world and 0 in what stands there");
+            "attractors 'main': of 3 points 1 lies beyond the world and 0 in what stands there");
   EXPECT_EQ(site_->mesh_files.back().name, "p.csv");
   EXPECT_EQ(site_->mesh_files.back().kind, "points");
   const std::string expected = "; expected x, y, z in metres, each from -1000000 to 1000000";

@@ -54,7 +54,7 @@ TEST(Crown, IsOneSolid) {
             "crown.sphere: a crown of dome and sphere; expected one shape");
   EXPECT_EQ(
       crown("{revolution: [[0, 1]]}").second,
-      "crown.revolution.profile: a profile of 1 points; expected four, the control points of a Bezier curve");
+      "crown.revolution.profile: a profile of 1 point; expected four, the control points of a Bezier curve");
   EXPECT_EQ(crown("{dome: 5, density: [[0, 0]]}").second,
             "crown.density: a density of 0 along the whole height; expected one above 0 somewhere");
   EXPECT_NE(crown("{dome: -5}").second, "");

@@ -10,6 +10,11 @@
 #include "tests/support/meshes.h"
 
 namespace espalier::sim {
+
+inline void PrintTo(Weighting weighting, std::ostream* out) {
+  *out << nameOf(weighting);
+}
+
 namespace {
 
 /// Open ground: one sheet in the lowest voxels, looking up.
@@ -56,7 +61,8 @@ TEST_P(EachWeighting, OpenGroundReceivesAll) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Weightings, EachWeighting,
-                         testing::Values(Weighting::uniform, Weighting::cosine, Weighting::cie_overcast));
+                         testing::Values(Weighting::uniform, Weighting::cosine, Weighting::cie_overcast),
+                         testing::PrintToStringParamName());
 
 TEST(Lighting, TheBrightestWayOfOpenGroundIsUpAndBesideAWallAwayFromIt) {
   LightWanted wanted;

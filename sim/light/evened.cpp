@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "sim/base/parallel.h"
+#include "sim/light/in_plane.h"
 
 namespace espalier::sim {
 namespace {
@@ -13,7 +14,6 @@ namespace {
 constexpr int kReach = 3;         // voxels
 constexpr float kAlike = 0.995f;  // cosine between normals
 constexpr float kBend = 5.0f;     // standard errors: what bends more is no chance
-constexpr float kLevel = 0.3f;    // voxel widths from the plane
 
 /// Half of the ways to neighbours, along the two axes that a surface runs along most, nearest first, each
 /// with the number of the way to the one before it.
@@ -56,29 +56,23 @@ class Neighbours {
 
   void standOn(const TiledVoxel& tiled) {
     here_ = &tiled;
-    const Vec3f size = glm::abs(tiled.surface.normal);
-    up_ = size.y >= size.x && size.y >= size.z ? 1 : size.x >= size.z ? 0 : 2;
+    up_ = longestAxis(tiled.surface.normal);
   }
 
   /// The number of the one that lies so far along.
   std::optional<std::size_t> at(int a, int b) {
     const Surface& surface = here_->surface;
-    const Vec3f n = surface.normal;
     const int u = (up_ + 1) % 3, w = (up_ + 2) % 3;
-    Voxel way;
+    Voxel way(0);
     way[u] = a;
     way[w] = b;
-    // The column's voxel through which the plane runs, as the surface's own is of its column.
-    const float rise = n[u] * static_cast<float>(a) + n[w] * static_cast<float>(b);
-    const float own = surface.offset_vx / n[up_];
-    way[up_] = static_cast<int>(std::lround(own - rise / n[up_]) - std::lround(own));
-    const Voxel there = here_->voxel + way;
-    if (!contains(where_.bits().size(), there) || !where_.has(there)) return std::nullopt;
-    const std::size_t number = numbers_(there);
-    const Surface& other = surfaces_[number].surface;
-    const float off = glm::dot(Vec3f(way) + other.offset_vx * other.normal, n) - surface.offset_vx;
-    if (glm::dot(other.normal, n) < kAlike || std::abs(off) > kLevel) return std::nullopt;
-    return number;
+    for (const Voxel there : inPlane(surface, up_, way)) {
+      const Voxel v = here_->voxel + there;
+      if (!contains(where_.bits().size(), v) || !where_.has(v)) continue;
+      const std::size_t number = numbers_(v);
+      if (goesOn(surface, surfaces_[number].surface, there, kAlike)) return number;
+    }
+    return std::nullopt;
   }
 
  private:

@@ -2,11 +2,14 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <random>
 
 #include "sim/base/parallel.h"
+#include "sim/light/nooks.h"
+#include "sim/light/places_before.h"
 #include "sim/sweep/sweep.h"
 #include "sim/tile/build_world.h"
 #include "tests/support/meshes.h"
@@ -148,6 +151,44 @@ TEST(SurfaceSensors, WeightsAddUpAndPlacesAreFreeAndInFront) {
     }
     ASSERT_NEAR(sum, 1.0f, 1e-4f);
   }
+}
+
+/// Most surfaces take the places of the one before that lay alike: the same as each anew.
+TEST(SurfaceSensors, PlacesThatAreKeptAreThePlainOnes) {
+  const World world = garden();
+  const BitVolume nooks = nooksOf(world);
+  EXPECT_GT(nooks.count(), 100u);
+  PlacesBefore places(world.opaque(), &nooks);
+  std::vector<SurfaceSensors::Tap> kept, plain;
+  const auto same = [](const auto& a, const auto& b) { return a.place == b.place && a.weight == b.weight; };
+  std::size_t with_places = 0;
+  for (const TiledVoxel& tiled : world.surfaces()) {
+    if (tiled.surface.normal == Vec3f(0.0f)) continue;
+    kept.clear();
+    plain.clear();
+    ASSERT_EQ(places.append(tiled, kept), places.appendPlainly(tiled, plain));
+    ASSERT_TRUE(std::ranges::equal(kept, plain, same));
+    with_places += kept.empty() ? 0 : 1;
+  }
+  EXPECT_GT(with_places, 5000u);
+}
+
+/// What is seen from the stairs of a slanting wall says little of the floor before it.
+TEST(SurfaceSensors, FloorsAreNotJudgedFromTheStairsOfWalls) {
+  const World world = garden();
+  const BitVolume nooks = nooksOf(world);
+  const SurfaceSensors sensors = surfaceSensors(world);
+  const auto places = sensors.places->voxels();
+  std::size_t spared = 0;
+  for (std::size_t i = 0; i < sensors.surfaces.size(); ++i) {
+    const auto taps = sensors.of(i);
+    const auto in_nooks =
+        std::ranges::count_if(taps, [&](const auto& tap) { return nooks.at(places[tap.place]); });
+    if (in_nooks == 0) continue;
+    ++spared;  // those that have no others
+    ASSERT_EQ(static_cast<std::size_t>(in_nooks), taps.size());
+  }
+  EXPECT_LT(spared, sensors.surfaces.size() / 50);
 }
 
 TEST(SurfaceSensors, ATurnedSolidLooksOut) {

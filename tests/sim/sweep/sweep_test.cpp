@@ -12,6 +12,7 @@
 #include "sim/light/sky.h"
 #include "sim/sweep/lanes.h"
 #include "tests/support/bit_worlds.h"
+#include "tests/support/levels.h"
 
 namespace espalier {
 namespace {
@@ -71,20 +72,8 @@ void expectSameAsRays(const sim::BitVolume& bits, const sim::DirectionSet& set) 
   EXPECT_EQ(place, where->count());
 }
 
-/// Runs a check with every set of vector instructions that this processor has.
-void onEveryLevel(const std::function<void()>& check) {
-  const auto levels = sim::lanes::levels();
-  for (const std::string& level : levels) {
-    SCOPED_TRACE(level);
-    sim::lanes::useLevel(level);
-    EXPECT_EQ(sim::lanes::level(), level);
-    check();
-  }
-  sim::lanes::useLevel(levels.front());
-}
-
 TEST(Sweep, EqualsCastingEachRayBitForBit) {
-  onEveryLevel([] {
+  tests::onEveryLevel([] {
     unsigned seed = 1;
     for (const Voxel size : {Voxel(1, 1, 1), Voxel(7, 9, 5), Voxel(64, 6, 3), Voxel(65, 12, 9),
                              Voxel(63, 20, 1), Voxel(130, 7, 11), Voxel(1, 30, 20), Voxel(300, 3, 9)}) {
@@ -97,7 +86,7 @@ TEST(Sweep, EqualsCastingEachRayBitForBit) {
 }
 
 TEST(Sweep, EqualsRaysWhereSlicesAreAlike) {
-  onEveryLevel([] {
+  tests::onEveryLevel([] {
     sim::BitVolume town({150, 30, 80});
     tests::addBox(town, {0, 0, 0}, {149, 1, 79});
     tests::addBox(town, {20, 2, 10}, {24, 17, 60});  // walls, which are the same in many slices

@@ -19,8 +19,8 @@
 #include "scenes/show/picture_memory.h"
 #include "scenes/show/pictures.h"
 #include "scenes/write/output_folder.h"
-#include "sim/base/error.h"
 #include "sim/light/lighting.h"
+#include "sim/light/surface.h"
 #include "sim/world/band.h"
 
 namespace espalier::scenes {
@@ -47,9 +47,10 @@ void requireSpaceFits(const Scene& scene, const sim::Frame& frame, const sim::Vo
   try {
     sim::requireFits(frame, {0, kBytes * static_cast<double>(space.count()) / voxels});
   } catch (const sim::InputError& error) {
-    throw sim::InputError(
-        fmt::format("{}: {}, and so would less of its free space (exposure.where, exposure.band)",
-                    scene.file.string(), error.what()));
+    throw PlacedError(
+        {problemAt(scene.exposure.place, scene.file,
+                   fmt::format("{}, and so would less of its free space (exposure.where, exposure.band)",
+                               error.what()))});
   }
 }
 
@@ -64,9 +65,10 @@ PicturesWanted exposurePictures(const Scene& scene, const RunOptions& options) {
   return wanted;
 }
 
-Site exposureSite(const Scene& scene, const RunOptions& options, Report& report, Stages& stages) {
+Site exposureSite(const Scene& scene, const RunOptions& options, Report& report, Stages& stages,
+                  std::optional<SiteFiles> files = std::nullopt) {
   Site site = stages.run("tiling", [&] {
-    Site made = makeSiteForLight(scene);
+    Site made = files ? makeSite(forLight(scene), std::move(*files)) : makeSiteForLight(scene);
     requireCamerasInTheOpen(scene, made.world);
     return made;
   });
@@ -75,20 +77,44 @@ Site exposureSite(const Scene& scene, const RunOptions& options, Report& report,
   return site;
 }
 
+/// Free voxels where light is wanted, or null. Throws where they do not fit, or nothing at all can be lit.
 std::shared_ptr<const sim::VoxelSet> fittingSpace(const Scene& scene, const Site& site) {
   auto space = spaceWanted(site.world, scene.exposure);
   if (space) requireSpaceFits(scene, site.world.frame(), *space);
+  if (!space && !sim::anyCanBeLit(site.world)) {
+    throw PlacedError({problemAt(
+        scene.world.place, scene.file,
+        "the world has no surface that can be lit; expected a mesh that has a side and free space before it "
+        "within world.bounds, or exposure: {where: everything}")});
+  }
   return space;
+}
+
+Foretold foretellOf(const Scene& scene, const RunOptions& options, std::optional<SiteFiles> files,
+                    Clock::duration reading) {
+  Report report;
+  Stages stages(options, report);
+  const PicturesWanted pictures = exposurePictures(scene, options);
+  const Site site = exposureSite(scene, options, report, stages, std::move(files));
+  return foretellExposure(site, fittingSpace(scene, site).get(), pictures, stages.began() - reading);
 }
 
 }  // namespace
 
+void requireExposable(const Scene& scene, const Site& site, const RunOptions& options) {
+  Gathering wrong(scene.file);
+  wrong.part([&] { exposurePictures(scene, options); });
+  wrong.part([&] { fittingSpace(scene, site); });
+  wrong.end();
+}
+
 Foretold foretellExpose(const Scene& scene, const RunOptions& options) {
-  Report report;
-  Stages stages(options, report);
-  const PicturesWanted pictures = exposurePictures(scene, options);
-  const Site site = exposureSite(scene, options, report, stages);
-  return foretellExposure(site, fittingSpace(scene, site).get(), pictures, stages.began());
+  return foretellOf(scene, options, std::nullopt, {});
+}
+
+Foretold foretellExpose(const Scene& scene, const RunOptions& options, SiteFiles files,
+                        Clock::duration reading) {
+  return foretellOf(scene, options, std::move(files), reading);
 }
 
 ExposeResult exposeScene(const Scene& scene, const RunOptions& options) {
@@ -118,20 +144,14 @@ ExposeResult exposeScene(const Scene& scene, const RunOptions& options) {
     wanted.random_sky = site.random_sky;
     return sim::lightOf(site.world, site.sky, site.sun, wanted);
   });
-  if (light.surfaces.empty() && !space) {
-    throw sim::InputError(
-        fmt::format("{}: the world has no surface that can be lit; expected a mesh that has a side and free "
-                    "space before it "
-                    "within world.bounds, or exposure: {{where: everything}}",
-                    scene.file.string()));
-  }
   report.light = light.about;
   report.exposure = {light.surfaces.size(), light.gaps->count(), space ? space->count() : 0};
 
   if (!site.random_sky && !light.surfaces.empty())
     report.certificate = stages.run("certifying", [&] { return certify(site, scene.seed); });
-  const ExposureTable table = stages.run(
-      "counting", [&] { return exposureTable(scene.name, site.world, light, scene.sun.north_deg); });
+  const ExposureTable table = stages.run("counting", [&] {
+    return exposureTable(scene.name, site.world, light, scene.sun.north_deg, scene.exposure.unreached);
+  });
   result.table = toText(table);
   std::vector<OutputFile> files = {
       fileOf(kTable, [&] { return toCsv(table); }),

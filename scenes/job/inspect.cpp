@@ -22,14 +22,14 @@ double roundVoxel(double length_m, double many) {
   return 10.0 * power;
 }
 
-VoxelChoice choiceOf(Scene scene, double voxel_m) {
+VoxelChoice choiceOf(Scene scene, const SiteFiles& files, Clock::duration reading, double voxel_m) {
   scene.world.voxel_m = voxel_m;
   scene.plants.clear();
   VoxelChoice choice{voxel_m, {}, {}};
   try {
     RunOptions options;
     options.pictures = false;
-    choice.foretold = foretellExpose(scene, options);
+    choice.foretold = foretellExpose(scene, options, files, reading);
   } catch (const ManyLines& error) {
     choice.refused = error.lines().front();
   } catch (const sim::InputError& error) {
@@ -61,7 +61,8 @@ InScene sceneWith(const std::vector<Inspected>& meshes, const std::filesystem::p
   InScene result;
   const StarterScene starter = starterScene(lines, {low, high}, voxel_m, scene_file);
   result.text = starter.text;
-  for (const double wide : {2.0, 1.0, 0.5}) result.choices.push_back(choiceOf(starter.scene, wide * voxel_m));
+  for (const double wide : {2.0, 1.0, 0.5})
+    result.choices.push_back(choiceOf(starter.scene, starter.files, starter.reading, wide * voxel_m));
   return result;
 }
 

@@ -4,14 +4,18 @@
 #include <string>
 #include <vector>
 
+#include "scenes/foretell/foretell.h"
+#include "scenes/prepare/site_files.h"
 #include "scenes/scene.h"
 
 namespace espalier::scenes {
 
 /// A scene to begin with.
 struct StarterScene {
-  std::string text;  ///< of its file
-  Scene scene;       ///< what that says
+  std::string text;         ///< of its file
+  Scene scene;              ///< what that says
+  SiteFiles files;          ///< its meshes
+  Clock::duration reading;  ///< what it took to read them
 };
 
 /// The scene of some meshes, that grows a vine of the library from the feet of their walls. `box_m`: around

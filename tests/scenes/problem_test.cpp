@@ -41,7 +41,7 @@ TEST(Listed, NamesAFewOfManyAndHowManyMoreThereAre) {
 TEST(Format, MakesOneLineOfAProblem) {
   const Problem problem{"a\nb.yaml", 3, 1, "the key '\x1b[31m' is unknown"};
   EXPECT_EQ(format(problem), "a\\nb.yaml:3:1: the key '\\x1b[31m' is unknown");
-  const ManyLines error({problem, {"c", 0, 0, "wrong"}});
+  const PlacedError error({problem, {"c", 0, 0, "wrong"}});
   EXPECT_EQ(error.lines(), (Words{format(problem), "c: wrong"}));
   EXPECT_EQ(error.what(), format(problem) + "\nc: wrong");
 }

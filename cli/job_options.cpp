@@ -100,7 +100,7 @@ int sayWrong(const sim::InputError& error) {
 }
 
 void saySkipped(const scenes::MeshMissing& missing) {
-  say(fmt::format("{}; skipped, as the scene calls it optional", missing.what()));
+  say(scenes::formatWarning(missing.problem()));
 }
 
 int runJob(const JobOptions& options, const JobWork& work) {

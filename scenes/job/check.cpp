@@ -33,9 +33,7 @@ void checkSite(const Scene& scene, std::stop_token stop, Checked& checked) {
   try {
     checked.foretold = foretellEither(scene, options);
   } catch (const MeshMissing& missing) {
-    Problem skipped = missing.problem();
-    skipped.text += "; skipped, as the scene calls it optional";
-    addOnce(checked.warnings, skipped);
+    addOnce(checked.warnings, missing.problem());
   } catch (const PlacedError& error) {
     checked.errors = error.problems();
   } catch (const sim::InputError& error) {

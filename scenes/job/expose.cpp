@@ -117,6 +117,12 @@ Foretold foretellExpose(const Scene& scene, const RunOptions& options, SiteFiles
   return foretellOf(scene, options, std::move(files), reading);
 }
 
+Foretold foretellExpose(const Scene& scene, const RunOptions& options, const Site& site,
+                        Clock::duration making) {
+  return foretellExposure(site, fittingSpace(scene, site).get(), exposurePictures(scene, options),
+                          Clock::now() - making);
+}
+
 ExposeResult exposeScene(const Scene& scene, const RunOptions& options) {
   ExposeResult result;
   Report& report = result.report;

@@ -28,6 +28,10 @@ Foretold foretellExpose(const Scene& scene, const RunOptions& options);
 Foretold foretellExpose(const Scene& scene, const RunOptions& options, SiteFiles files,
                         Clock::duration reading);
 
+/// The same of a scene whose site is made, which took so much time.
+Foretold foretellExpose(const Scene& scene, const RunOptions& options, const Site& site,
+                        Clock::duration making);
+
 /// Throws PlacedError as exposeScene would before it looks for light, of a scene whose site is made.
 void requireExposable(const Scene& scene, const Site& site, const RunOptions& options);
 

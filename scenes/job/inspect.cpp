@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 
 #include "scenes/job/expose.h"
@@ -22,14 +23,12 @@ double roundVoxel(double length_m, double many) {
   return 10.0 * power;
 }
 
-VoxelChoice choiceOf(Scene scene, const SiteFiles& files, Clock::duration reading, double voxel_m) {
-  scene.world.voxel_m = voxel_m;
-  scene.plants.clear();
+/// `foretell`: what a job would take.
+template <typename Foretell>
+VoxelChoice choiceOf(double voxel_m, Foretell foretell) {
   VoxelChoice choice{voxel_m, {}, {}};
   try {
-    RunOptions options;
-    options.pictures = false;
-    choice.foretold = foretellExpose(scene, options, files, reading);
+    choice.foretold = foretell();
   } catch (const ManyLines& error) {
     choice.refused = error.lines().front();
   } catch (const sim::InputError& error) {
@@ -40,11 +39,13 @@ VoxelChoice choiceOf(Scene scene, const SiteFiles& files, Clock::duration readin
 
 }  // namespace
 
-InScene sceneWith(const std::vector<Inspected>& meshes, const std::filesystem::path& scene_file) {
+InScene sceneWith(std::vector<Inspection> meshes, const std::filesystem::path& scene_file) {
   constexpr double kAlong = 200.0;
   std::vector<SceneMesh> lines;
+  std::vector<sim::Mesh> placed;
+  std::chrono::duration<double> reading(0.0);
   sim::Vec3 low(INFINITY), high(-INFINITY);
-  for (const Inspected& mesh : meshes) {
+  for (auto& [mesh, as_placed, reading_s] : meshes) {
     if (mesh.from_origin_m > kFarthest_m) {
       throw sim::InputError(
           fmt::format("{}: it lies {:.3g} m from the origin, farther than a scene reaches; expected {:.0f} m "
@@ -53,16 +54,28 @@ InScene sceneWith(const std::vector<Inspected>& meshes, const std::filesystem::p
                       mesh.file.string(), mesh.from_origin_m, kFarthest_m));
     }
     lines.push_back(mesh.line);
+    placed.push_back(std::move(as_placed));
+    reading += std::chrono::duration<double>(reading_s);
     low = glm::min(low, mesh.low_m);
     high = glm::max(high, mesh.high_m);
   }
   const sim::Vec3 size = high - low;
   const double voxel_m = roundVoxel(std::max({size.x, size.y, size.z}), kAlong);
   InScene result;
-  const StarterScene starter = starterScene(lines, {low, high}, voxel_m, scene_file);
+  StarterScene starter = starterScene(lines, std::move(placed), {low, high}, voxel_m, scene_file);
   result.text = starter.text;
-  for (const double wide : {2.0, 1.0, 0.5})
-    result.choices.push_back(choiceOf(starter.scene, starter.files, starter.reading, wide * voxel_m));
+  RunOptions options;
+  options.pictures = false;
+  const Clock::duration before = std::chrono::duration_cast<Clock::duration>(reading);
+  const VoxelChoice same = choiceOf(
+      voxel_m, [&] { return foretellExpose(starter.scene, options, starter.site, before + starter.tiling); });
+  const SiteFiles files = std::move(static_cast<SiteFiles&>(starter.site));
+  const auto other = [&](double other_m) {
+    Scene scene = starter.scene;
+    scene.world.voxel_m = other_m;
+    return choiceOf(other_m, [&] { return foretellExpose(scene, options, files, before); });
+  };
+  result.choices = {other(2.0 * voxel_m), same, other(0.5 * voxel_m)};
   return result;
 }
 

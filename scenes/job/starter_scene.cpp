@@ -187,17 +187,17 @@ std::vector<std::size_t> brightestApart(const std::vector<sim::Voxel>& places,
 
 }  // namespace
 
-StarterScene starterScene(const std::vector<SceneMesh>& meshes, const std::array<sim::Vec3, 2>& box_m,
-                          double voxel_m, const std::filesystem::path& scene_file) {
+StarterScene starterScene(const std::vector<SceneMesh>& meshes, std::vector<sim::Mesh> placed,
+                          const std::array<sim::Vec3, 2>& box_m, double voxel_m,
+                          const std::filesystem::path& scene_file) {
   constexpr std::size_t kTried = 48;
   const auto textWith = [&](const std::vector<std::string>& seeds) {
     return sceneText(meshes, box_m, voxel_m, scene_file, seeds);
   };
   const Scene anywhere = parsed(textWith({place(box_m[0], voxel_m)}), scene_file);
   const Clock::time_point began = Clock::now();
-  SiteFiles files = readSiteFiles(anywhere);
-  const Clock::duration reading = Clock::now() - began;
-  const Site site = makeSite(anywhere, files);
+  Site site = makeSite(anywhere, readSiteFiles(anywhere, std::move(placed)));
+  const Clock::duration tiling = Clock::now() - began;
   std::vector<sim::Voxel> feet;  // of walls, not of the slab that they stand on
   for (int rise_vx = site.world.frame().size.y / 6; feet.empty() && rise_vx >= kLeastRise_vx; rise_vx /= 2)
     feet = spreadOver(feetIn(site.world, rise_vx), kTried);
@@ -209,7 +209,7 @@ StarterScene starterScene(const std::vector<SceneMesh>& meshes, const std::array
   for (const std::size_t i : brightestApart(feet, light)) seeds.push_back(all[i]);
   std::string text = textWith(seeds);
   Scene scene = parsed(text, scene_file);
-  return {std::move(text), std::move(scene), std::move(files), reading};
+  return {std::move(text), std::move(scene), std::move(site), tiling};
 }
 
 }  // namespace espalier::scenes

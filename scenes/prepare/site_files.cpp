@@ -45,7 +45,6 @@ sim::Mesh readMesh(const SceneMesh& spec, SiteFiles& to) {
         std::find(to.warnings.begin(), to.warnings.end(), warning) == to.warnings.end())
       to.warnings.push_back(std::move(warning));
   }
-  mesh.name = spec.name;
   if (spec.colour) {
     for (sim::Material& material : mesh.materials) {
       material.colour = *spec.colour;
@@ -55,8 +54,8 @@ sim::Mesh readMesh(const SceneMesh& spec, SiteFiles& to) {
   return mesh;
 }
 
-void addMesh(const SceneMesh& spec, SiteFiles& to) {
-  sim::Mesh mesh = readMesh(spec, to);
+void addMesh(const SceneMesh& spec, sim::Mesh mesh, SiteFiles& to) {
+  mesh.name = spec.name;
   if (spec.tiled) {
     to.meshes.push_back({std::move(mesh), spec.solid.value_or(false), !spec.solid});
     return;
@@ -97,12 +96,25 @@ void addFields(const Scene& scene, SiteFiles& to) {
   }
 }
 
+/// Adds all that is no mesh, and sees to the sides of the meshes.
+void addTheRest(const Scene& scene, SiteFiles& to, Gathering& wrong) {
+  forEachTable(scene, [&](const PointTable& table, const std::string&) {
+    wrong.part(table.place, [&] { addTable(table, to); });
+  });
+  for (const PlantSpec& plant : scene.plants) {
+    wrong.part(plant.skeleton ? plant.skeleton->place : Place{}, [&] { addSkeletons(plant, to); });
+  }
+  wrong.part([&] { addFields(scene, to); });
+  wrong.end();
+  to.facings = findFacing(to.meshes);
+}
+
 }  // namespace
 
 MeshMissing::MeshMissing(const Scene& scene, const SceneMesh& mesh)
-    : runtime_error(fmt::format("{}: the mesh {} is not there", scene.file.string(), mesh.file.string())),
-      problem_(
-          problemAt(mesh.place, scene.file, fmt::format("the mesh {} is not there", mesh.file.string()))) {}
+    : runtime_error(fmt::format("the mesh {} is not there; skipped, as the scene calls it optional",
+                                mesh.file.string())),
+      problem_(problemAt(mesh.place, scene.file, what())) {}
 
 SiteFiles readSiteFiles(const Scene& scene) {
   for (const SceneMesh& spec : scene.meshes) {
@@ -113,16 +125,17 @@ SiteFiles readSiteFiles(const Scene& scene) {
   }
   SiteFiles files;
   Gathering wrong(scene.file);
-  for (const SceneMesh& spec : scene.meshes) wrong.part(spec.place, [&] { addMesh(spec, files); });
-  forEachTable(scene, [&](const PointTable& table, const std::string&) {
-    wrong.part(table.place, [&] { addTable(table, files); });
-  });
-  for (const PlantSpec& plant : scene.plants) {
-    wrong.part(plant.skeleton ? plant.skeleton->place : Place{}, [&] { addSkeletons(plant, files); });
-  }
-  wrong.part([&] { addFields(scene, files); });
-  wrong.end();
-  files.facings = findFacing(files.meshes);
+  for (const SceneMesh& spec : scene.meshes)
+    wrong.part(spec.place, [&] { addMesh(spec, readMesh(spec, files), files); });
+  addTheRest(scene, files, wrong);
+  return files;
+}
+
+SiteFiles readSiteFiles(const Scene& scene, std::vector<sim::Mesh> placed) {
+  SiteFiles files;
+  Gathering wrong(scene.file);
+  for (std::size_t i = 0; i < placed.size(); ++i) addMesh(scene.meshes.at(i), std::move(placed[i]), files);
+  addTheRest(scene, files, wrong);
   return files;
 }
 

@@ -14,10 +14,11 @@
 
 namespace espalier::scenes {
 
-/// A mesh that the scene calls optional is not there.
+/// A mesh that the scene calls optional is not there, so that the scene is skipped, which is no failure.
 class MeshMissing : public std::runtime_error {
  public:
   MeshMissing(const Scene& scene, const SceneMesh& mesh);
+  /// For a warning.
   const Problem& problem() const { return problem_; }
 
  private:
@@ -41,5 +42,9 @@ struct SiteFiles {
 /// Reads all of a scene's files but its rules. Throws PlacedError with what is wrong with any of them;
 /// MeshMissing.
 SiteFiles readSiteFiles(const Scene& scene);
+
+/// The same with meshes that were read and placed before, in the scene's order. What they were read from is
+/// not noted.
+SiteFiles readSiteFiles(const Scene& scene, std::vector<sim::Mesh> placed);
 
 }  // namespace espalier::scenes

@@ -92,7 +92,8 @@ TEST_F(Check, JsonHasThePlacesThatEditorsUnderline) {
     return nlohmann::json::parse(ran.output)["problems"];
   };
   const auto all = problems(
-      "espalier: scene\nworld: {voxel: '5 kg'}\nplants:\n  - seeds: [[0, 0, 0]]\n    rules:\n"
+      "espalier: scene\nworld: {voxel: '5 kg', bounds: {min: [0, 0, 0], max: [1, 1, 1]}}\nplants:\n  - "
+      "seeds: [[0, 0, 0]]\n    rules:\n"
       "      light: {bost: 2}\n      bias: {up: größer}\n");
   ASSERT_EQ(all.size(), 3u) << all;
   const auto expect = [&](std::size_t i, int line, int column, int end_column, const std::string& key) {

@@ -208,9 +208,15 @@ TEST_F(Rooms, WhatNoSkyReachesIsLeftOutAndItsAreaTold) {
   // Below a roof that one can see out from, surfaces receive nothing, and are there all the same.
   EXPECT_NEAR(area(reached, "roof", "down"), 16.0, 0.5);
   for (const ExposureRow& row : reached.rows) {
-    if (row.object == "roof" && row.faces == "down") EXPECT_EQ(row.spreads[0].greatest, 0.0);
-    if (row.object == "ground" && row.faces.empty()) EXPECT_NEAR(row.left_out_m2, 9.0, 0.9);
-    if (row.object == "block") EXPECT_EQ(row.left_out_m2, 0.0);
+    if (row.object == "roof" && row.faces == "down") {
+      EXPECT_EQ(row.spreads[0].greatest, 0.0);
+    }
+    if (row.object == "ground" && row.faces.empty()) {
+      EXPECT_NEAR(row.left_out_m2, 9.0, 0.9);
+    }
+    if (row.object == "block") {
+      EXPECT_EQ(row.left_out_m2, 0.0);
+    }
   }
 }
 

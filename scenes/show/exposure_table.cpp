@@ -129,7 +129,9 @@ struct Sorted {
 /// Whether any of the sky or the sun is seen from in front of a surface, also where that lies behind the
 /// surface's plane, as it does below a balcony.
 bool isReached(const sim::Lighting& light, std::size_t i) {
-  return light.brightest[i] != sim::Vec3f(0.0f) || light.sky.values[i] > 0.0f || light.sun.values[i] > 0.0f;
+  constexpr float kRounding = 1e-5f;  // sums over no open direction; one alone brings more
+  return light.brightest[i] != sim::Vec3f(0.0f) || light.sky.values[i] > kRounding ||
+         light.sun.values[i] > kRounding;
 }
 
 Sorted sorted(const sim::Lighting& light, const std::vector<std::size_t>& of, Unreached unreached) {

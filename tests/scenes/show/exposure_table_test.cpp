@@ -209,7 +209,7 @@ TEST_F(Rooms, WhatNoSkyReachesIsLeftOutAndItsAreaTold) {
   EXPECT_NEAR(area(reached, "roof", "down"), 16.0, 0.5);
   for (const ExposureRow& row : reached.rows) {
     if (row.object == "roof" && row.faces == "down") {
-      EXPECT_EQ(row.spreads[0].greatest, 0.0);
+      EXPECT_EQ(row.spreads[0].upper_quartile, 0.0);
     }
     if (row.object == "ground" && row.faces.empty()) {
       EXPECT_NEAR(row.left_out_m2, 9.0, 0.9);

@@ -65,10 +65,9 @@ PicturesWanted exposurePictures(const Scene& scene, const RunOptions& options) {
   return wanted;
 }
 
-Site exposureSite(const Scene& scene, const RunOptions& options, Report& report, Stages& stages,
-                  std::optional<SiteFiles> files = std::nullopt) {
+Site exposureSite(const Scene& scene, const RunOptions& options, Report& report, Stages& stages) {
   Site site = stages.run("tiling", [&] {
-    Site made = files ? makeSite(forLight(scene), std::move(*files)) : makeSiteForLight(scene);
+    Site made = makeSiteForLight(scene);
     requireCamerasInTheOpen(scene, made.world);
     return made;
   });
@@ -90,15 +89,6 @@ std::shared_ptr<const sim::VoxelSet> fittingSpace(const Scene& scene, const Site
   return space;
 }
 
-Foretold foretellOf(const Scene& scene, const RunOptions& options, std::optional<SiteFiles> files,
-                    Clock::duration reading) {
-  Report report;
-  Stages stages(options, report);
-  const PicturesWanted pictures = exposurePictures(scene, options);
-  const Site site = exposureSite(scene, options, report, stages, std::move(files));
-  return foretellExposure(site, fittingSpace(scene, site).get(), pictures, stages.began() - reading);
-}
-
 }  // namespace
 
 void requireExposable(const Scene& scene, const Site& site, const RunOptions& options) {
@@ -109,12 +99,11 @@ void requireExposable(const Scene& scene, const Site& site, const RunOptions& op
 }
 
 Foretold foretellExpose(const Scene& scene, const RunOptions& options) {
-  return foretellOf(scene, options, std::nullopt, {});
-}
-
-Foretold foretellExpose(const Scene& scene, const RunOptions& options, SiteFiles files,
-                        Clock::duration reading) {
-  return foretellOf(scene, options, std::move(files), reading);
+  Report report;
+  Stages stages(options, report);
+  const PicturesWanted pictures = exposurePictures(scene, options);
+  const Site site = exposureSite(scene, options, report, stages);
+  return foretellExposure(site, fittingSpace(scene, site).get(), pictures, stages.began());
 }
 
 Foretold foretellExpose(const Scene& scene, const RunOptions& options, const Site& site,

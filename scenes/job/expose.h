@@ -24,9 +24,6 @@ ExposeResult exposeScene(const Scene& scene, const RunOptions& options);
 /// What that job will take, without doing it: the scene is tiled. Throws as exposeScene does before it looks
 /// for light.
 Foretold foretellExpose(const Scene& scene, const RunOptions& options);
-/// The same of a scene whose files were read before, in so much time.
-Foretold foretellExpose(const Scene& scene, const RunOptions& options, SiteFiles files,
-                        Clock::duration reading);
 
 /// The same of a scene whose site is made, which took so much time.
 Foretold foretellExpose(const Scene& scene, const RunOptions& options, const Site& site,

@@ -9,6 +9,7 @@
 #include "scenes/job/expose.h"
 #include "scenes/job/starter_scene.h"
 #include "sim/base/error.h"
+#include "sim/base/memory.h"
 
 namespace espalier::scenes {
 namespace {
@@ -34,6 +35,23 @@ VoxelChoice choiceOf(double voxel_m, Foretell foretell) {
   } catch (const sim::InputError& error) {
     choice.refused = error.what();
   }
+  return choice;
+}
+
+/// Of a world of another voxel size. The files, which took so long to read, are lent to it: a job has them in
+/// memory once.
+VoxelChoice otherChoice(Scene scene, const RunOptions& options, SiteFiles& files, Clock::duration reading,
+                        double voxel_m) {
+  scene.world.voxel_m = voxel_m;
+  std::optional<Site> site;
+  VoxelChoice choice = choiceOf(voxel_m, [&] {
+    const Clock::time_point began = Clock::now();
+    sim::releaseFreed();
+    site.emplace(makeSite(forLight(scene), std::move(files)));
+    sim::releaseFreed();
+    return foretellExpose(scene, options, *site, Clock::now() - began + reading);
+  });
+  if (site) files = std::move(static_cast<SiteFiles&>(*site));
   return choice;
 }
 
@@ -67,15 +85,20 @@ InScene sceneWith(std::vector<Inspection> meshes, const std::filesystem::path& s
   RunOptions options;
   options.pictures = false;
   const Clock::duration before = std::chrono::duration_cast<Clock::duration>(reading);
-  const VoxelChoice same = choiceOf(
-      voxel_m, [&] { return foretellExpose(starter.scene, options, starter.site, before + starter.tiling); });
-  const SiteFiles files = std::move(static_cast<SiteFiles&>(starter.site));
-  const auto other = [&](double other_m) {
-    Scene scene = starter.scene;
-    scene.world.voxel_m = other_m;
-    return choiceOf(other_m, [&] { return foretellExpose(scene, options, files, before); });
+  VoxelChoice same;
+  SiteFiles files;
+  {
+    Site site = std::move(starter.site);  // its world is given back before others are made
+    sim::releaseFreed();
+    same = choiceOf(voxel_m,
+                    [&] { return foretellExpose(starter.scene, options, site, before + starter.tiling); });
+    files = std::move(static_cast<SiteFiles&>(site));
+  }
+  const auto other = [&](double wide) {
+    return otherChoice(starter.scene, options, files, before, wide * voxel_m);
   };
-  result.choices = {other(2.0 * voxel_m), same, other(0.5 * voxel_m)};
+  VoxelChoice coarser = other(2.0);
+  result.choices = {std::move(coarser), std::move(same), other(0.5)};
   return result;
 }
 

@@ -87,7 +87,7 @@ Site makeSite(const Scene& scene) {
   return makeSite(scene, readSiteFiles(scene));
 }
 
-Site makeSite(const Scene& scene, SiteFiles files) {
+Site makeSite(const Scene& scene, SiteFiles&& files) {
   std::vector<sim::FillReport> fills;
   std::optional<sim::World> world;
   sim::Sky sky;

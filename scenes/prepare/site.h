@@ -33,8 +33,8 @@ std::string leakOf(const std::string& mesh, const sim::InsideDoubt& doubt);
 /// Reads a scene's files and tiles its meshes, with layersFor() boundary layers. Throws PlacedError;
 /// MeshMissing.
 Site makeSite(const Scene& scene);
-/// The same of files that were read before.
-Site makeSite(const Scene& scene, SiteFiles files);
+/// The same of files that were read before, which stay where they are if no world can be made of them.
+Site makeSite(const Scene& scene, SiteFiles&& files);
 
 /// The scene without what only plants want: boundary layers, attractors, fields, and the plants.
 Scene forLight(Scene scene);

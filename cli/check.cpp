@@ -75,7 +75,7 @@ void addCheck(CLI::App& app, int& exit_status) {
   const auto arguments = std::make_shared<CheckArguments>();
   command->add_option("file", arguments->files, "Rule and scene files, or - for standard input")->required();
   command->add_flag("--text-only", arguments->text_only,
-                    "Open no mesh: what the files say by themselves, in milliseconds");
+                    "Open no mesh: look at what the files say by themselves, while one types");
   command->add_option("--as", arguments->as, "The file that standard input is to become")->type_name("FILE");
   command->add_flag("--json", arguments->json, "Print problems as JSON on standard output, for editors");
   command->callback([arguments, &exit_status] { exit_status = check(*arguments); });

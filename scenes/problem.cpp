@@ -66,6 +66,10 @@ std::string placed(const Problem& problem, std::string_view kind) {
                                                  kind, problem.text));
 }
 
+Problem restOf(const std::string& path) {
+  return {path, 0, 0, fmt::format("{} problems and perhaps more; the rest is not shown", kMostProblems)};
+}
+
 std::vector<std::string> linesOf(const std::vector<Problem>& problems) {
   std::vector<std::string> lines;
   for (const Problem& problem : problems) lines.push_back(format(problem));
@@ -113,13 +117,13 @@ std::vector<Problem> Problems::sorted() const {
     const auto& [path, line, column, text] = where;
     all.push_back({paths_[path], line, column, text, more.end_column, more.key});
   }
-  if (full())
-    all.push_back(
-        {paths_.back(), 0, 0, fmt::format("{} problems and perhaps more; the rest is not shown", kMost)});
+  if (full()) all.push_back(restOf(paths_.back()));
   return all;
 }
 
 void Gathering::add(Problem problem) {
+  if (problems_.size() > kMostProblems) return;
+  if (problems_.size() == kMostProblems) problem = restOf(file_.string());
   if (std::find(problems_.begin(), problems_.end(), problem) == problems_.end())
     problems_.push_back(std::move(problem));
 }

@@ -84,18 +84,19 @@ struct Place {
 /// What is wrong at a place; without a path in it, with a file as a whole.
 Problem problemAt(const Place& place, const std::filesystem::path& otherwise, std::string text);
 
+/// Nobody reads more problems than this; further ones are counted as one.
+inline constexpr std::size_t kMostProblems = 1000;
+
 /// Gathers problems. The same one found twice (a file that several others build on) counts once.
 class Problems {
  public:
   void add(const Place& place, std::string text);
   bool empty() const { return seen_.empty(); }
-  /// Nobody reads more than this; further ones are counted as one.
-  bool full() const { return seen_.size() >= kMost; }
+  bool full() const { return seen_.size() >= kMostProblems; }
   /// File by file in the order in which they were first found wanting, each from top to bottom.
   std::vector<Problem> sorted() const;
 
  private:
-  static constexpr std::size_t kMost = 1000;
   struct More {
     int end_column;
     std::string key;
@@ -105,6 +106,7 @@ class Problems {
 };
 
 /// Does the parts of some work, each although others failed, so that all that is wrong is told at once.
+/// The same problem found twice counts once.
 class Gathering {
  public:
   /// `file`: what is wrong where a part has no place.
@@ -125,7 +127,6 @@ class Gathering {
   void part(Work work) {
     part({}, std::move(work));
   }
-  /// The same problem found twice counts once.
   void add(Problem problem);
   /// Throws PlacedError if anything is wrong.
   void end() const;

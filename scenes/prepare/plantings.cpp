@@ -3,7 +3,10 @@
 #include <fmt/format.h>
 
 #include <bit>
+#include <map>
 #include <numeric>
+#include <tuple>
+#include <utility>
 
 #include "rules/growth/given_skeleton.h"
 #include "rules/growth/make_process.h"
@@ -139,13 +142,25 @@ const Place& placeOfSeed(const PlantSpec& spec, std::size_t seed) {
   return spec.table.file.empty() ? spec.scatter->region_place : spec.table.place;
 }
 
-/// `of`: which of the scene's plants each planting is of.
+/// `of`: which of the scene's plants each planting is of. Of many seeds of one place, such as a table's, the
+/// first is told of.
 void addFaults(const std::vector<sim::PlantingFault>& faults, const Scene& scene,
                const std::vector<std::size_t>& of, Gathering& wrong) {
+  std::vector<std::pair<Problem, std::size_t>> told;  // and how many more there are
+  std::map<std::tuple<std::size_t, int, int>, std::size_t> at;
   for (const sim::PlantingFault& fault : faults) {
     const PlantSpec& spec = scene.plants.at(of.at(fault.planting));
-    wrong.add(
-        problemAt(fault.seed ? placeOfSeed(spec, *fault.seed) : spec.rules_place, scene.file, fault.text));
+    const Place& place = fault.seed ? placeOfSeed(spec, *fault.seed) : spec.rules_place;
+    const auto [known, is_new] = at.try_emplace({fault.planting, place.line, place.column}, told.size());
+    if (is_new) {
+      told.emplace_back(problemAt(place, scene.file, fault.text), 0);
+    } else {
+      ++told[known->second].second;
+    }
+  }
+  for (auto& [problem, more] : told) {
+    if (more > 0) problem.text += fmt::format("; {} more of its seeds are as wrong", more);
+    wrong.add(std::move(problem));
   }
 }
 

@@ -71,6 +71,11 @@ std::vector<Bad> badScenes() {
       {"a seed beyond a world that fits its meshes",
        {{"[0.3, 0.1, 0.1]", "[90, 0, 0]"}, {kBoundsKey, "margin: 30 cm"}},
        {{13, "a seed of 'vine' at [90.000, 0.000, 0.000] lies outside the world"}}},
+      {"a table of seeds beyond the world",
+       {{kSeedLines, "points: far.csv"}},
+       {{11,
+         "a seed of 'vine' at [80.000, 1.000, 0.000] lies outside the world; 2 more of its seeds are as "
+         "wrong"}}},
       {"two seeds of one key",
        {{"[-0.4, 0.1, 0.1]", "{at: [-0.4, 0.1, 0.1], key: a}"},
         {"[0.3, 0.1, 0.1]", "{at: [0.3, 0.1, 0.1], key: a}"}},
@@ -153,6 +158,7 @@ class Agreement : public tests::Plot {
     scratch_.write("bad.vdb", "nothing\n");
     scratch_.write("bad.png", "nothing\n");
     scratch_.write("cut.png", "\x89PNG\r\n\x1a\nnothing");
+    scratch_.write("far.csv", "80, 1, 0\n0.3, 0.2, 0.1\n90, 1, 0\n0, 70, 0\n");
     scratch_.write("one.csv", "0, 0.8, 0.5\n");
     scratch_.write("sticks.obj", "v 0 0.2 0.3\nv 0 0.8 0.3\nl 1 2\n");
     std::string house;

@@ -50,7 +50,8 @@ void addExpose(CLI::App& app, int& exit_status) {
     }
     exit_status = runJob(arguments->job, [&](scenes::Scene scene, const scenes::RunOptions& run) {
       if (band_vx) {
-        scene.exposure = {scenes::ExposureWhere::band, *band_vx};
+        scene.exposure.where = scenes::ExposureWhere::band;
+        scene.exposure.band_vx = *band_vx;
       } else if (where) {
         scene.exposure.where = kWhere.at(*where);
       }

@@ -6,6 +6,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "cli/commands.h"
@@ -47,10 +48,12 @@ int inspect(const InspectArguments& arguments) {
   const Interrupt interrupt;
   const sim::StopScope stoppable(interrupt.token());
   requireNewScene(arguments);
+  std::vector<scenes::Inspection> inspections;
   std::vector<scenes::Inspected> meshes;
   for (const std::string& mesh : arguments.meshes) {
     doing(mesh, "inspecting", [&] {
-      meshes.push_back(scenes::inspectMesh(mesh));
+      inspections.push_back(scenes::inspectMesh(mesh));
+      meshes.push_back(inspections.back().found);
       if (!arguments.json) print(scenes::toText(meshes.back()));
       return 0;
     });
@@ -59,7 +62,7 @@ int inspect(const InspectArguments& arguments) {
     const std::string file = arguments.scene.empty() ? "scene.yaml" : arguments.scene;
     scenes::InScene scene;
     try {
-      scene = scenes::sceneWith(meshes, file);
+      scene = scenes::sceneWith(std::move(inspections), file);
     } catch (const sim::InputError&) {  // the meshes are told of all the same
       if (arguments.json) printJson(scenes::toJson(meshes, {}));
       throw;

@@ -44,8 +44,8 @@ int run(const JobOptions& options, const JobWork& work) {
       progress.stage(name, Clock::now());
     };
     run.on_growth = [&](const sim::GrowthProgress& growth) { progress.growth(growth, Clock::now()); };
-    run.on_warning = [&](const std::string& text) {
-      if (!options.quiet) progress.warning(text);
+    run.on_warning = [&](const scenes::Problem& warning) {
+      if (!options.quiet) progress.warning(scenes::formatWarning(warning));
     };
     sim::onThreads(options.threads, [&] { outcome = work(std::move(*scene), run); });
   } catch (const scenes::MeshMissing& missing) {
@@ -100,7 +100,7 @@ int sayWrong(const sim::InputError& error) {
 }
 
 void saySkipped(const scenes::MeshMissing& missing) {
-  say(fmt::format("{}; skipped, as the scene calls it optional", missing.what()));
+  say(scenes::formatWarning(missing.problem()));
 }
 
 int runJob(const JobOptions& options, const JobWork& work) {

@@ -13,7 +13,7 @@ namespace espalier::scenes {
 namespace {
 
 constexpr std::size_t kLongestMisspelt = 64;  ///< that may be a misspelt one
-constexpr std::size_t kMostShown = 40;    ///< characters of a text in a message
+constexpr std::size_t kMostShown = 40;        ///< characters of a text in a message
 
 char lower(char c) {
   return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
@@ -61,9 +61,13 @@ std::vector<const std::string*> nearTo(std::string_view word, const std::vector<
 }
 
 std::string placed(const Problem& problem, std::string_view kind) {
-  const auto& [path, line, column, text] = problem;
-  return oneLine(line == 0 ? fmt::format("{}: {}{}", path, kind, text)
-                           : fmt::format("{}:{}:{}: {}{}", path, line, column, kind, text));
+  return oneLine(problem.line == 0 ? fmt::format("{}: {}{}", problem.path, kind, problem.text)
+                                   : fmt::format("{}:{}:{}: {}{}", problem.path, problem.line, problem.column,
+                                                 kind, problem.text));
+}
+
+Problem restOf(const std::string& path) {
+  return {path, 0, 0, fmt::format("{} problems and perhaps more; the rest is not shown", kMostProblems)};
 }
 
 std::vector<std::string> linesOf(const std::vector<Problem>& problems) {
@@ -89,23 +93,43 @@ std::string format(const std::vector<Problem>& problems) {
 ManyLines::ManyLines(std::vector<std::string> lines)
     : InputError(fmt::format("{}", fmt::join(lines, "\n"))), lines_(std::move(lines)) {}
 
-ManyLines::ManyLines(const std::vector<Problem>& problems) : ManyLines(linesOf(problems)) {}
+PlacedError::PlacedError(std::vector<Problem> problems)
+    : ManyLines(linesOf(problems)), problems_(std::move(problems)) {}
+
+Problem problemAt(const Place& place, const std::filesystem::path& otherwise, std::string text) {
+  if (!place.path) return {otherwise.string(), 0, 0, std::move(text)};
+  return {*place.path, place.line, place.column, std::move(text), place.end_column, place.key};
+}
 
 void Problems::add(const Place& place, std::string text) {
   if (full()) return;
   const std::string& path = *place.path;
   auto at = std::find(paths_.begin(), paths_.end(), path);
   if (at == paths_.end()) at = paths_.insert(paths_.end(), path);
-  seen_.emplace(static_cast<std::size_t>(at - paths_.begin()), place.line, place.column, std::move(text));
+  seen_.try_emplace(
+      {static_cast<std::size_t>(at - paths_.begin()), place.line, place.column, std::move(text)},
+      More{place.end_column, place.key});
 }
 
 std::vector<Problem> Problems::sorted() const {
   std::vector<Problem> all;
-  for (const auto& [path, line, column, text] : seen_) all.push_back({paths_[path], line, column, text});
-  if (full())
-    all.push_back(
-        {paths_.back(), 0, 0, fmt::format("{} problems and perhaps more; the rest is not shown", kMost)});
+  for (const auto& [where, more] : seen_) {
+    const auto& [path, line, column, text] = where;
+    all.push_back({paths_[path], line, column, text, more.end_column, more.key});
+  }
+  if (full()) all.push_back(restOf(paths_.back()));
   return all;
+}
+
+void Gathering::add(Problem problem) {
+  if (problems_.size() > kMostProblems) return;
+  if (problems_.size() == kMostProblems) problem = restOf(file_.string());
+  if (std::find(problems_.begin(), problems_.end(), problem) == problems_.end())
+    problems_.push_back(std::move(problem));
+}
+
+void Gathering::end() const {
+  if (!problems_.empty()) throw PlacedError(problems_);
 }
 
 std::string didYouMean(std::string_view word, const std::vector<std::string>& candidates) {

@@ -63,7 +63,8 @@ struct WorldSpec {
   std::optional<int> resolution;                     ///< or the number of voxels along the longest side
   std::optional<double> margin_m;                    ///< unset: room for light beside and above the meshes
   std::optional<std::array<sim::Vec3, 2>> bounds_m;  ///< instead of the meshes' bounds plus margin
-  int layers = 4;  ///< at least so many; more where the rules of its plants ask for them (layersFor)
+  int layers = 4;    ///< at least so many; more where the rules of its plants ask for them (layersFor)
+  Place place = {};  ///< where a scene file says how large it is; without a path where none does
 };
 
 /// Where the sky is looked for: along the same lattice directions from everywhere, or along Greene's random
@@ -124,9 +125,15 @@ struct SunSpec {
 /// Where exposure maps are wanted beside the surfaces.
 enum class ExposureWhere { surfaces, band, everything };
 
+/// What tables of exposure make of surfaces from which no sky and no sun is seen, such as those inside of
+/// closed rooms.
+enum class Unreached { count, leave_out };
+
 struct ExposureSpec {
   ExposureWhere where = ExposureWhere::surfaces;
   int band_vx = 4;  ///< of ExposureWhere::band: free voxels up to so many from a surface
+  Unreached unreached = Unreached::count;
+  Place place = {};  ///< where a scene file has it; without a path where none does
 };
 
 struct Scatter {
@@ -137,7 +144,8 @@ struct Scatter {
 
 struct SeedSpec {
   sim::Vec3 at_m{0.0};
-  std::string key;  ///< what its random numbers hang on; empty: its place
+  std::string key;   ///< what its random numbers hang on; empty: its place
+  Place place = {};  ///< where a scene file has it; without a path where none does
 };
 
 /// A table of points in a file, if its path is not empty.
@@ -145,6 +153,7 @@ struct PointTable {
   std::filesystem::path file;
   std::string told;         ///< what reports call it
   std::optional<int> type;  ///< of the points that are meant, in the fourth column; without it all are
+  Place place = {};         ///< where a scene file names it; without a path where none does
 };
 
 /// Trees that somebody else made, from a file, in place of growth. Placed as meshes are.
@@ -152,6 +161,7 @@ struct SkeletonSpec {
   std::filesystem::path file;
   std::string told;  ///< what reports call the file
   Placement placement;
+  Place place = {};  ///< where a scene file names it; without a path where none does
 };
 
 struct PlantSpec {
@@ -197,6 +207,7 @@ struct AttractorsSpec {
 struct NamedCamera {
   std::string name;
   render::Camera camera;
+  Place eye_place = {};  ///< where a scene file has its eye; without a path where none does
 };
 
 enum class ImageKind {

@@ -11,6 +11,7 @@
 #include "render/finish/ray_scene.h"
 #include "sim/base/parallel.h"
 #include "sim/base/random.h"
+#include "sim/light/light.h"
 #include "sim/light/open_rays.h"
 #include "sim/light/surface.h"
 #include "sim/sweep/sweep.h"
@@ -145,12 +146,8 @@ struct Mapped {
 /// Which directions are open: by rays where that is less work than a sweep of the world.
 sim::OpenTable openAt(const sim::BitVolume& opaque, const sim::DirectionSet& directions,
                       const std::shared_ptr<const sim::VoxelSet>& places) {
-  constexpr std::size_t kVoxelsPerPlace = 200;
   const std::vector<Voxel> voxels = places->voxels();
-  const Voxel size = opaque.size();
-  if (kVoxelsPerPlace * voxels.size() >
-      static_cast<std::size_t>(size.x) * static_cast<std::size_t>(size.y) * static_cast<std::size_t>(size.z))
-    return sim::sweepOpen(opaque, directions, places);
+  if (sim::sweepIsCheaper(opaque.size(), voxels.size())) return sim::sweepOpen(opaque, directions, places);
   sim::ClearAhead ahead;
   return {places, directions.size(), sim::OpenRays(opaque, directions).from(opaque, voxels, ahead)};
 }

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 
 #include "scenes/import/mesh_import.h"
@@ -26,19 +27,34 @@ std::vector<std::pair<std::string, double>> materialAreas(const sim::Mesh& mesh)
   return areas;
 }
 
+/// Makes the regions those that importMesh makes of materials.
+void takeRegionsFromMaterials(sim::Mesh& mesh, const std::string& stem) {
+  std::vector<std::uint32_t> region_of;
+  mesh.regions.clear();
+  for (const sim::Material& material : mesh.materials) {
+    const std::string& name = material.name.empty() ? stem : material.name;
+    const auto at = std::find(mesh.regions.begin(), mesh.regions.end(), name);
+    region_of.push_back(static_cast<std::uint32_t>(at - mesh.regions.begin()));
+    if (at == mesh.regions.end()) mesh.regions.push_back(name);
+  }
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) mesh.region[t] = region_of[mesh.material[t]];
+}
+
 }  // namespace
 
-Inspected inspectMesh(const std::filesystem::path& file) {
+Inspection inspectMesh(const std::filesystem::path& file) {
   constexpr double kSolid = 0.9, kFar = 20.0;
   MeshSources sources;
+  const auto began = std::chrono::steady_clock::now();
   sim::Mesh mesh = importMesh(file, RegionsFrom::group, std::nullopt, &sources);
+  const std::chrono::duration<double> reading = std::chrono::steady_clock::now() - began;
   Inspected found;
   found.file = file;
   found.warnings = std::move(sources.warnings);
   found.groups = mesh.regions.size();
   if (mesh.regions.size() == 1 && mesh.materials.size() > 1) {
     found.regions = RegionsFrom::material;
-    mesh = importMesh(file, RegionsFrom::material);
+    takeRegionsFromMaterials(mesh, file.stem().string());
   }
   found.triangles = mesh.triangles.size();
   found.degenerate = mesh.degenerate_dropped;
@@ -71,7 +87,8 @@ Inspected inspectMesh(const std::filesystem::path& file) {
     found.from_origin_m = glm::length(foot);
     place();
   }
-  return found;
+  mesh = placeMesh(std::move(mesh), found.line.placement);
+  return {std::move(found), std::move(mesh), reading.count()};
 }
 
 }  // namespace espalier::scenes

@@ -8,6 +8,7 @@
 #include "scenes/inspect/surface.h"
 #include "scenes/problem.h"
 #include "scenes/scene.h"
+#include "sim/tile/mesh.h"
 
 namespace espalier::scenes {
 
@@ -32,8 +33,15 @@ struct Inspected {
       0.0;  ///< how far it lay where it is brought nearer (placement.translate_m); 0: it is not
 };
 
+/// A mesh that was read once, for all that is made of it.
+struct Inspection {
+  Inspected found;
+  sim::Mesh placed;        ///< as `found.line` has it
+  double reading_s = 0.0;  ///< what reading it took
+};
+
 /// Reads a mesh as scenes do (scenes/import/mesh_import.h), and looks at it. Throws sim::InputError,
 /// also for one whose areas no number could hold.
-Inspected inspectMesh(const std::filesystem::path& file);
+Inspection inspectMesh(const std::filesystem::path& file);
 
 }  // namespace espalier::scenes

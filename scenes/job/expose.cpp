@@ -20,8 +20,8 @@
 #include "scenes/show/pictures.h"
 #include "scenes/write/output_folder.h"
 #include "sim/base/counted.h"
-#include "sim/base/error.h"
 #include "sim/light/lighting.h"
+#include "sim/light/surface.h"
 #include "sim/world/band.h"
 
 namespace espalier::scenes {
@@ -48,9 +48,10 @@ void requireSpaceFits(const Scene& scene, const sim::Frame& frame, const sim::Vo
   try {
     sim::requireFits(frame, {0, kBytes * static_cast<double>(space.count()) / voxels});
   } catch (const sim::InputError& error) {
-    throw sim::InputError(
-        fmt::format("{}: {}, and so would less of its free space (exposure.where, exposure.band)",
-                    scene.file.string(), error.what()));
+    throw PlacedError(
+        {problemAt(scene.exposure.place, scene.file,
+                   fmt::format("{}, and so would less of its free space (exposure.where, exposure.band)",
+                               error.what()))});
   }
 }
 
@@ -76,13 +77,27 @@ Site exposureSite(const Scene& scene, const RunOptions& options, Report& report,
   return site;
 }
 
+/// Free voxels where light is wanted, or null. Throws where they do not fit, or nothing at all can be lit.
 std::shared_ptr<const sim::VoxelSet> fittingSpace(const Scene& scene, const Site& site) {
   auto space = spaceWanted(site.world, scene.exposure);
   if (space) requireSpaceFits(scene, site.world.frame(), *space);
+  if (!space && !sim::anyCanBeLit(site.world)) {
+    throw PlacedError({problemAt(
+        scene.world.place, scene.file,
+        "the world has no surface that can be lit; expected a mesh that has a side and free space before it "
+        "within world.bounds, or exposure: {where: everything}")});
+  }
   return space;
 }
 
 }  // namespace
+
+void requireExposable(const Scene& scene, const Site& site, const RunOptions& options) {
+  Gathering wrong(scene.file);
+  wrong.part([&] { exposurePictures(scene, options); });
+  wrong.part([&] { fittingSpace(scene, site); });
+  wrong.end();
+}
 
 Foretold foretellExpose(const Scene& scene, const RunOptions& options) {
   Report report;
@@ -90,6 +105,12 @@ Foretold foretellExpose(const Scene& scene, const RunOptions& options) {
   const PicturesWanted pictures = exposurePictures(scene, options);
   const Site site = exposureSite(scene, options, report, stages);
   return foretellExposure(site, fittingSpace(scene, site).get(), pictures, stages.began());
+}
+
+Foretold foretellExpose(const Scene& scene, const RunOptions& options, const Site& site,
+                        Clock::duration making) {
+  return foretellExposure(site, fittingSpace(scene, site).get(), exposurePictures(scene, options),
+                          Clock::now() - making);
 }
 
 ExposeResult exposeScene(const Scene& scene, const RunOptions& options) {
@@ -119,20 +140,14 @@ ExposeResult exposeScene(const Scene& scene, const RunOptions& options) {
     wanted.random_sky = site.random_sky;
     return sim::lightOf(site.world, site.sky, site.sun, wanted);
   });
-  if (light.surfaces.empty() && !space) {
-    throw sim::InputError(
-        fmt::format("{}: the world has no surface that can be lit; expected a mesh that has a side and free "
-                    "space before it "
-                    "within world.bounds, or exposure: {{where: everything}}",
-                    scene.file.string()));
-  }
   report.light = light.about;
   report.exposure = {light.surfaces.size(), light.gaps->count(), space ? space->count() : 0};
 
   if (!site.random_sky && !light.surfaces.empty())
     report.certificate = stages.run("certifying", [&] { return certify(site, light, scene.seed); });
-  const ExposureTable table = stages.run(
-      "counting", [&] { return exposureTable(scene.name, site.world, light, scene.sun.north_deg); });
+  const ExposureTable table = stages.run("counting", [&] {
+    return exposureTable(scene.name, site.world, light, scene.sun.north_deg, scene.exposure.unreached);
+  });
   result.table = toText(table);
   std::vector<OutputFile> files = {
       fileOf(kTable, [&] { return toCsv(table); }),

@@ -4,6 +4,7 @@
 
 #include "scenes/job/report.h"
 #include "scenes/job/run.h"
+#include "scenes/prepare/site.h"
 #include "scenes/scene.h"
 
 namespace espalier::scenes {
@@ -23,6 +24,13 @@ ExposeResult exposeScene(const Scene& scene, const RunOptions& options);
 /// What that job will take, without doing it: the scene is tiled. Throws as exposeScene does before it looks
 /// for light.
 Foretold foretellExpose(const Scene& scene, const RunOptions& options);
+
+/// The same of a scene whose site is made, which took so much time.
+Foretold foretellExpose(const Scene& scene, const RunOptions& options, const Site& site,
+                        Clock::duration making);
+
+/// Throws PlacedError as exposeScene would before it looks for light, of a scene whose site is made.
+void requireExposable(const Scene& scene, const Site& site, const RunOptions& options);
 
 /// What a person would paste into a report: the world, what the numbers are, the regions, the files.
 std::string summary(const ExposeResult& result, const std::filesystem::path& folder);

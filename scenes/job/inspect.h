@@ -25,7 +25,7 @@ struct InScene {
   std::vector<VoxelChoice> choices;
   std::string text;  ///< of a scene file
 };
-InScene sceneWith(const std::vector<Inspected>& meshes, const std::filesystem::path& scene_file);
+InScene sceneWith(std::vector<Inspection> meshes, const std::filesystem::path& scene_file);
 
 /// What a person wants to know of it, in lines.
 std::string toText(const Inspected& mesh);

@@ -73,9 +73,13 @@ Prepared prepare(const Scene& scene, const RunOptions& options, Report& report, 
   std::vector<Problem> of_attractors;
   Prepared prepared = stages.run("tiling", [&] {
     Site site = makeSite(scene);
-    auto plantings = makePlantings(scene, site);
-    requireCamerasInTheOpen(scene, site.world);
-    auto attractors = attractorsOf(scene, site, &of_attractors);
+    std::vector<sim::Planting> plantings;
+    std::vector<NamedPoints> attractors;
+    Gathering wrong(scene.file);
+    wrong.part([&] { plantings = makePlantings(scene, site); });
+    wrong.part([&] { requireCamerasInTheOpen(scene, site.world); });
+    wrong.part([&] { attractors = attractorsOf(scene, site, &of_attractors); });
+    wrong.end();
     for (NamedPoints& crown : crownsOf(scene, site, plantings, &of_attractors))
       attractors.push_back(std::move(crown));
     auto lights = lightOfSeeds(plantings, site.world, growthSettings(scene, site, {}).light);
@@ -156,7 +160,7 @@ sim::Growth growOn(const Scene& scene, Prepared& prepared, std::optional<sim::Gr
   const sim::Inputs inputs = keeping.every > 0 ? inputsOf(scene, site) : sim::Inputs();
   const std::unique_ptr<sim::Growing> growing = inScene(scene, [&] {
     return kept ? std::make_unique<sim::Growing>(site.world, plantings, settings, std::move(*kept))
-                : std::make_unique<sim::Growing>(site.world, plantings, settings);
+                : beginGrowth(scene, site, plantings, settings);
   });
   if (report.run.went_on_from) requireMemories(*growing, options.folder);
   std::optional<GrowthForeteller> foreteller;
@@ -265,8 +269,8 @@ Report runScene(const Scene& scene, const RunOptions& options, const Keeping& ke
   if (!growth.cut_short.empty()) late_warnings.push_back(growth.cut_short);
   if (options.pictures) {
     stages.run("drawing", [&] {
-      ReadTextures textures = texturesFor(drawsVines(scene.images), site.meshes, options, report);
-      late_warnings.insert(late_warnings.end(), textures.unread.begin(), textures.unread.end());
+      ReadTextures textures = texturesFor(drawsVines(scene.images), scene, site.meshes, options, report);
+      for (const Problem& unread : textures.unread) late_warnings.push_back(unread.text);
       const Finished finished{site.meshes, world, bare, growth, light, models, std::move(textures.pictures)};
       auto pictures =
           inScene(scene, [&] { return drawPictures(picturesOf(scene, report.made_by), finished); });
@@ -282,24 +286,28 @@ Report runScene(const Scene& scene, const RunOptions& options, const Keeping& ke
   return report;
 }
 
-Foretold foretellRun(const Scene& scene, const RunOptions& options) {
+Foretold foretellRun(const Scene& scene, const RunOptions& options,
+                     const std::function<void(const Site& site)>& look) {
   const PicturesWanted pictures = picturesAsked(scene, options);
   if (options.pictures) requirePicturesFit(scene, pictures);
   Report report;
   Stages stages(options, report);
   Prepared prepared = prepare(scene, options, report, stages);
-  return inScene(scene, [&] {
-    sim::Growing growing(prepared.site.world, prepared.plantings,
-                         growthSettings(scene, prepared.site, prepared.attractors));
-    GrowthForeteller foreteller(prepared.site, prepared.plantings, pictures, scene.iterations,
-                                growing.growth(), stages.began());
-    std::optional<Foretold> foretold;
+  Site& site = prepared.site;
+  if (look) look(site);
+  const std::unique_ptr<sim::Growing> growing =
+      beginGrowth(scene, site, prepared.plantings, growthSettings(scene, site, prepared.attractors));
+  std::optional<Foretold> foretold;
+  inScene(scene, [&] {
+    GrowthForeteller foreteller(site, prepared.plantings, pictures, scene.iterations, growing->growth(),
+                                stages.began());
     while (!foretold) {
-      const bool over = !growing.step();
-      foretold = foreteller.after(growing.growth(), over);
+      const bool over = !growing->step();
+      foretold = foreteller.after(growing->growth(), over);
     }
-    return *foretold;
   });
+  texturesFor(options.pictures && drawsVines(scene.images), scene, site.meshes, options, report);
+  return *foretold;
 }
 
 Report renderScene(Scene scene, const std::filesystem::path& from, const RunOptions& options) {
@@ -339,8 +347,8 @@ Report renderScene(Scene scene, const std::filesystem::path& from, const RunOpti
       stages.run("modelling", [&] { return modelPlants(site.world.frame(), growth.plants, bare); });
   std::vector<std::string> unread;
   std::vector<OutputFile> files = stages.run("drawing", [&] {
-    ReadTextures textures = texturesFor(drawsVines(scene.images), site.meshes, options, report);
-    unread = std::move(textures.unread);
+    ReadTextures textures = texturesFor(drawsVines(scene.images), scene, site.meshes, options, report);
+    for (const Problem& one : textures.unread) unread.push_back(one.text);
     const Finished finished{
         site.meshes, site.world, bare, growth, light, models, std::move(textures.pictures)};
     return inScene(scene, [&] { return drawPictures(picturesOf(scene, report.made_by), finished); });

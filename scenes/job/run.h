@@ -6,6 +6,8 @@
 
 #include "scenes/job/model_files.h"
 #include "scenes/job/report.h"
+#include "scenes/prepare/site.h"
+#include "scenes/problem.h"
 #include "scenes/scene.h"
 
 namespace espalier::scenes {
@@ -19,7 +21,7 @@ struct RunOptions {
   std::function<void(const Foretold&)> on_foretold;        ///< once, in the first stage that it tells of
   std::function<void(const std::string& stage)> on_stage;  ///< as each begins
   std::function<void(const sim::GrowthProgress&)> on_growth;
-  std::function<void(const std::string& warning)> on_warning;  ///< once each, before anything grows
+  std::function<void(const Problem& warning)> on_warning;  ///< once each, before anything grows
 };
 
 /// What a run does with the state of growth, the file growth.state in its folder.
@@ -38,8 +40,10 @@ struct Keeping {
 Report runScene(const Scene& scene, const RunOptions& options, const Keeping& keeping = {});
 
 /// What that job will take, without doing it: the scene is tiled, and grows for as long as it takes to tell.
-/// Throws as runScene does before anything grows.
-Foretold foretellRun(const Scene& scene, const RunOptions& options);
+/// Throws as runScene does before anything grows, and tells what it warns of, also of what is drawn at the
+/// end. `look` sees the site before anything grows, and may find more that is wrong.
+Foretold foretellRun(const Scene& scene, const RunOptions& options,
+                     const std::function<void(const Site& site)>& look = {});
 
 /// Draws a scene's images of what was grown before, from the state in the folder `from`: with other cameras,
 /// suns, skies, sizes and kinds if the scene says so, but on the same meshes in the same world, with the same

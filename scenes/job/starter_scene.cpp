@@ -90,7 +90,7 @@ std::string sceneText(const std::vector<SceneMesh>& meshes, const std::array<sim
 
 Scene parsed(const std::string& text, const std::filesystem::path& scene_file) {
   auto scene = readSceneText(text, scene_file);
-  if (!scene) throw ManyLines(scene.problems());
+  if (!scene) throw PlacedError(scene.problems());
   return std::move(*scene);
 }
 
@@ -187,13 +187,17 @@ std::vector<std::size_t> brightestApart(const std::vector<sim::Voxel>& places,
 
 }  // namespace
 
-StarterScene starterScene(const std::vector<SceneMesh>& meshes, const std::array<sim::Vec3, 2>& box_m,
-                          double voxel_m, const std::filesystem::path& scene_file) {
+StarterScene starterScene(const std::vector<SceneMesh>& meshes, std::vector<sim::Mesh> placed,
+                          const std::array<sim::Vec3, 2>& box_m, double voxel_m,
+                          const std::filesystem::path& scene_file) {
   constexpr std::size_t kTried = 48;
   const auto textWith = [&](const std::vector<std::string>& seeds) {
     return sceneText(meshes, box_m, voxel_m, scene_file, seeds);
   };
-  const Site site = makeSite(parsed(textWith({place(box_m[0], voxel_m)}), scene_file));
+  const Scene anywhere = parsed(textWith({place(box_m[0], voxel_m)}), scene_file);
+  const Clock::time_point began = Clock::now();
+  Site site = makeSite(anywhere, readSiteFiles(anywhere, std::move(placed)));
+  const Clock::duration tiling = Clock::now() - began;
   std::vector<sim::Voxel> feet;  // of walls, not of the slab that they stand on
   for (int rise_vx = site.world.frame().size.y / 6; feet.empty() && rise_vx >= kLeastRise_vx; rise_vx /= 2)
     feet = spreadOver(feetIn(site.world, rise_vx), kTried);
@@ -203,9 +207,9 @@ StarterScene starterScene(const std::vector<SceneMesh>& meshes, const std::array
     all.push_back(place(sim::worldFromVoxel(site.world.frame(), sim::Vec3(v)), voxel_m));
   const std::vector<double> light = lightAt(parsed(textWith(all), scene_file), site);
   for (const std::size_t i : brightestApart(feet, light)) seeds.push_back(all[i]);
-  StarterScene starter{textWith(seeds), {}};
-  starter.scene = parsed(starter.text, scene_file);
-  return starter;
+  std::string text = textWith(seeds);
+  Scene scene = parsed(text, scene_file);
+  return {std::move(text), std::move(scene), std::move(site), tiling};
 }
 
 }  // namespace espalier::scenes

@@ -6,23 +6,23 @@ namespace espalier::scenes {
 
 void warn(const std::vector<Problem>& warnings, const std::filesystem::path& scene_file,
           const RunOptions& options, Report& report) {
-  if (options.strict && !warnings.empty()) throw ManyLines(warnings);
+  if (options.strict && !warnings.empty()) throw PlacedError(warnings);
   const auto folder = std::filesystem::absolute(scene_file).lexically_normal().parent_path();
   for (Problem warning : warnings) {
-    if (options.on_warning) options.on_warning(formatWarning(warning));
+    if (options.on_warning) options.on_warning(warning);
     const auto path = std::filesystem::absolute(warning.path).lexically_normal();
     warning.path = path.lexically_proximate(folder).generic_string();
     report.warnings.push_back(format(warning));
   }
 }
 
-ReadTextures texturesFor(bool vines, const std::vector<sim::TiledMesh>& meshes, const RunOptions& options,
-                         Report& report) {
+ReadTextures texturesFor(bool vines, const Scene& scene, const std::vector<sim::TiledMesh>& meshes,
+                         const RunOptions& options, Report& report) {
   if (!vines) return {};
-  ReadTextures textures = readTextures(meshes);
-  for (const std::string& sentence : textures.unread) {
-    if (options.on_warning) options.on_warning("warning: " + sentence);
-    report.warnings.push_back(sentence);
+  ReadTextures textures = readTextures(scene, meshes);
+  for (const Problem& unread : textures.unread) {
+    if (options.on_warning) options.on_warning(unread);
+    report.warnings.push_back(unread.text);
   }
   return textures;
 }

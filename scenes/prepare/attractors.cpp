@@ -57,7 +57,7 @@ class Naming {
   void warn(const std::string& text) const {
     if (warnings_ != nullptr) warnings_->push_back(problem(text));
   }
-  [[noreturn]] void fail(const std::string& text) const { throw sim::InputError(format(problem(text))); }
+  [[noreturn]] void fail(const std::string& text) const { throw PlacedError({problem(text)}); }
 
  private:
   /// Far outside of the world for what no voxel's number can reach.
@@ -80,8 +80,7 @@ class Naming {
   }
 
   Problem problem(const std::string& text) const {
-    return {place_.path ? *place_.path : scene_.file.string(), place_.line, place_.column,
-            fmt::format("attractors {}: {}", inQuotes(name_), text)};
+    return problemAt(place_, scene_.file, fmt::format("attractors {}: {}", inQuotes(name_), text));
   }
 
   std::string name_;
@@ -101,6 +100,8 @@ class Making {
     sim::PointSet points;
     try {
       points = strewn(listed_m);
+    } catch (const PlacedError&) {
+      throw;
     } catch (const sim::InputError& error) {  // of a mesh, without its place
       say_.fail(error.what());
     }
@@ -150,12 +151,16 @@ class Making {
 std::vector<NamedPoints> attractorsOf(const Scene& scene, const Site& site, std::vector<Problem>* warnings) {
   std::vector<NamedPoints> all;
   std::size_t count = 0;
+  Gathering wrong(scene.file);
   for (std::size_t i = 0; i < scene.attractors.size(); ++i) {
     const AttractorsSpec& spec = scene.attractors[i];
-    all.push_back(Making(spec, scene, site, warnings).make(site.listed_m.at(i)));
-    count += all.back().at_vx.size();
-    Naming(spec.name, spec.place, scene, site.world, warnings).requireFew(static_cast<double>(count));
+    wrong.part(spec.place, [&] {
+      all.push_back(Making(spec, scene, site, warnings).make(site.listed_m.at(i)));
+      count += all.back().at_vx.size();
+      Naming(spec.name, spec.place, scene, site.world, warnings).requireFew(static_cast<double>(count));
+    });
   }
+  wrong.end();
   return all;
 }
 
@@ -164,25 +169,29 @@ std::vector<NamedPoints> crownsOf(const Scene& scene, const Site& site,
                                   std::vector<Problem>* warnings) {
   std::vector<NamedPoints> all;
   double count = 0.0;
+  Gathering wrong(scene.file);
   for (std::size_t i = 0; i < scene.plants.size(); ++i) {
     const PlantSpec& plant = scene.plants[i];
     const auto& crown = plant.rules->colonization.crown;
     if (!crown || !colonizes(plant)) continue;
-    const Naming say(crownOf(plant.name), plant.rules_place, scene, site.world, warnings);
-    const sim::Strewing strewing = rules::strewingOf(crown->strewing);
-    count += static_cast<double>(strewing.count) * static_cast<double>(plantings.at(i).seeds.size());
-    say.requireFew(count);
-    sim::PointSet points;
-    for (const sim::Seed& seed : plantings.at(i).seeds) {
-      const sim::Vec3 at_m = sim::worldFromVoxel(site.world.frame(), seed.at_vx);
-      const sim::PointSet one =
-          sim::scatterInside(rules::envelopeOf(crown->shape, at_m + sim::Vec3(0.0, crown->trunk_m, 0.0)),
-                             strewing, sim::streamOf(scene.seed, crownOf(plant.name), seed.key));
-      points.at.insert(points.at.end(), one.at.begin(), one.at.end());
-      points.normal.insert(points.normal.end(), one.normal.begin(), one.normal.end());
-    }
-    all.push_back(say.clipped(points));
+    wrong.part(plant.rules_place, [&] {
+      const Naming say(crownOf(plant.name), plant.rules_place, scene, site.world, warnings);
+      const sim::Strewing strewing = rules::strewingOf(crown->strewing);
+      count += static_cast<double>(strewing.count) * static_cast<double>(plantings.at(i).seeds.size());
+      say.requireFew(count);
+      sim::PointSet points;
+      for (const sim::Seed& seed : plantings.at(i).seeds) {
+        const sim::Vec3 at_m = sim::worldFromVoxel(site.world.frame(), seed.at_vx);
+        const sim::PointSet one =
+            sim::scatterInside(rules::envelopeOf(crown->shape, at_m + sim::Vec3(0.0, crown->trunk_m, 0.0)),
+                               strewing, sim::streamOf(scene.seed, crownOf(plant.name), seed.key));
+        points.at.insert(points.at.end(), one.at.begin(), one.at.end());
+        points.normal.insert(points.normal.end(), one.normal.begin(), one.normal.end());
+      }
+      all.push_back(say.clipped(points));
+    });
   }
+  wrong.end();
   return all;
 }
 

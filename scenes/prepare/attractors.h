@@ -18,8 +18,8 @@ struct NamedPoints {
 /// The attractors that a scene names, in its order. Points beyond the world and in what stands there are left
 /// out; one on the surface of a mesh that stands there first steps out along its normal, or against it, to a
 /// free voxel at most two widths away. `warnings` takes, each with its place: how many lay beyond the world,
-/// how doubtful a mesh's inside is, how many of the wanted points found no room. Throws sim::InputError with
-/// the place in the scene's file where none is left, for a mesh without the surface or the inside that is
+/// how doubtful a mesh's inside is, how many of the wanted points found no room. Throws PlacedError
+/// where none is left, for a mesh without the surface or the inside that is
 /// asked for.
 std::vector<NamedPoints> attractorsOf(const Scene& scene, const Site& site,
                                       std::vector<Problem>* warnings = nullptr);

@@ -9,8 +9,7 @@ namespace espalier::scenes {
 namespace {
 
 Problem problemOf(const Scene& scene, const FieldSpec& field, const Place& at, const std::string& text) {
-  return {at.path ? *at.path : scene.file.string(), at.line, at.column,
-          fmt::format("fields {}: {}", inQuotes(field.name), text)};
+  return problemAt(at, scene.file, fmt::format("fields {}: {}", inQuotes(field.name), text));
 }
 
 /// Does what a field asks for; what is wrong with it has the place then.
@@ -19,7 +18,7 @@ void forField(const Scene& scene, const FieldSpec& field, const Place& at, Work 
   try {
     work();
   } catch (const sim::InputError& error) {
-    throw sim::InputError(format(problemOf(scene, field, at, error.what())));
+    throw PlacedError({problemOf(scene, field, at, error.what())});
   }
 }
 
@@ -45,12 +44,15 @@ std::vector<std::int64_t> packed(const sim::BitVolume& bits) {
 std::vector<FieldVolume> readFieldGrids(const Scene& scene, std::vector<sim::InputFile>& files,
                                         std::vector<Problem>& warnings) {
   std::vector<FieldVolume> volumes(scene.fields.size());
+  Gathering wrong(scene.file);
   for (std::size_t i = 0; i < volumes.size(); ++i) {
     const FieldSpec& field = scene.fields[i];
     if (field.file.empty()) continue;
     VectorLattice& grid = volumes[i].grid;
     sim::InputFile read;
-    forField(scene, field, field.file_place, [&] { grid = readVectorGrid(field.file, field.grid, read); });
+    wrong.part([&] {
+      forField(scene, field, field.file_place, [&] { grid = readVectorGrid(field.file, field.grid, read); });
+    });
     if (!field.told.empty()) read.name = field.told;
     files.push_back(std::move(read));
     if (!grid.coarser) continue;
@@ -60,21 +62,27 @@ std::vector<FieldVolume> readFieldGrids(const Scene& scene, std::vector<sim::Inp
                     inQuotes(grid.name), kMostLatticePoints, grid.size[0], grid.size[1], grid.size[2],
                     grid.apart_m)));
   }
+  wrong.end();
   return volumes;
 }
 
 void findRegions(const Scene& scene, Site& site) {
+  Gathering wrong(scene.file);
   for (std::size_t i = 0; i < scene.fields.size(); ++i) {
     const FieldSpec& field = scene.fields[i];
     if (field.within.empty()) continue;
     sim::InsideCells cells;
-    forField(scene, field, field.within_place,
-             [&] { cells = sim::cellsWithin(meshNamed(site, field.within)); });
-    if (cells.doubt.doubtful > 0.0)
-      site.warnings.push_back(problemOf(scene, field, field.within_place, leakOf(field.within, cells.doubt)));
-    site.fields[i].region = cells.frame;
-    site.fields[i].inside = packed(cells.inside);
+    wrong.part([&] {
+      forField(scene, field, field.within_place,
+               [&] { cells = sim::cellsWithin(meshNamed(site, field.within)); });
+      if (cells.doubt.doubtful > 0.0)
+        site.warnings.push_back(
+            problemOf(scene, field, field.within_place, leakOf(field.within, cells.doubt)));
+      site.fields[i].region = cells.frame;
+      site.fields[i].inside = packed(cells.inside);
+    });
   }
+  wrong.end();
 }
 
 rules::Guide guideOf(const FieldSpec& field, const FieldVolume& volume, const sim::Frame& frame) {

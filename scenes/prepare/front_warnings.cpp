@@ -83,9 +83,8 @@ std::vector<Problem> frontWarnings(const Scene& scene, const sim::Frame& frame,
     const auto tell = [&](const rules::RuleSet* set, const char* path) {
       if (set == nullptr) return;
       for (const std::string& trouble : troubles(set->colonization, lie, frame.voxel_m)) {
-        const Problem told{plant.rules_place.path ? *plant.rules_place.path : scene.file.string(),
-                           plant.rules_place.line, plant.rules_place.column,
-                           fmt::format("{}colonization: {}", path, trouble)};
+        const Problem told =
+            problemAt(plant.rules_place, scene.file, fmt::format("{}colonization: {}", path, trouble));
         if (std::none_of(warnings.begin(), warnings.end(), [&](const Problem& w) {
               return w.text.ends_with(": " + trouble) && w.line == told.line && w.column == told.column;
             }))

@@ -1,22 +1,24 @@
 #pragma once
-#include <string>
-#include <string_view>
-
+#include "scenes/problem.h"
 #include "scenes/scene.h"
-#include "sim/base/error.h"
 
 namespace espalier::scenes {
 
-/// Does a part of a scene's work; a sim::InputError that it throws then names the scene's file.
+/// Does a part of a scene's work; what is wrong has this place then, or is the scene's file as a whole where
+/// the place has no path. A PlacedError has its own.
 template <typename Work>
-auto inScene(const Scene& scene, Work work) {
+auto inScene(const Scene& scene, const Place& place, Work work) {
   try {
     return work();
+  } catch (const PlacedError&) {
+    throw;
   } catch (const sim::InputError& error) {
-    const std::string where = scene.file.string() + ":";
-    if (std::string_view(error.what()).starts_with(where)) throw;
-    throw sim::InputError(where + " " + error.what());
+    throw PlacedError({problemAt(place, scene.file, error.what())});
   }
+}
+template <typename Work>
+auto inScene(const Scene& scene, Work work) {
+  return inScene(scene, {}, std::move(work));
 }
 
 }  // namespace espalier::scenes

@@ -3,6 +3,10 @@
 #include <fmt/format.h>
 
 #include <bit>
+#include <map>
+#include <numeric>
+#include <tuple>
+#include <utility>
 
 #include "rules/growth/given_skeleton.h"
 #include "rules/growth/make_process.h"
@@ -13,6 +17,7 @@
 #include "sim/base/counted.h"
 #include "sim/base/error.h"
 #include "sim/base/random.h"
+#include "sim/grow/faults.h"
 
 namespace espalier::scenes {
 namespace {
@@ -55,7 +60,7 @@ std::vector<sim::Vec3> scatter(const sim::World& world, const Scatter& spec, std
 
 /// Those that were given, in their order, then those of a table, then those that were strewn.
 std::vector<sim::Seed> seedsOf(const PlantSpec& spec, const std::vector<sim::Vec3>& listed_m,
-                               const Site& site, std::uint64_t seed) {
+                               const Site& site, const Scene& scene) {
   const sim::Frame& frame = site.world.frame();
   std::vector<sim::Vec3> unnamed_vx;
   for (const SeedSpec& s : spec.seeds) {
@@ -63,7 +68,9 @@ std::vector<sim::Seed> seedsOf(const PlantSpec& spec, const std::vector<sim::Vec
   }
   for (const sim::Vec3& at_m : listed_m) unnamed_vx.push_back(sim::voxelFromWorld(frame, at_m));
   if (spec.scatter) {
-    const auto strewn_vx = scatter(site.world, *spec.scatter, sim::streamOf(seed, spec.name));
+    std::vector<sim::Vec3> strewn_vx;
+    inScene(scene, spec.scatter->region_place,
+            [&] { strewn_vx = scatter(site.world, *spec.scatter, sim::streamOf(scene.seed, spec.name)); });
     unnamed_vx.insert(unnamed_vx.end(), strewn_vx.begin(), strewn_vx.end());
   }
   std::vector<sim::Seed> seeds = sim::seedsAt(frame, unnamed_vx);
@@ -114,7 +121,7 @@ sim::Planting given(const PlantSpec& spec, const std::vector<FileTree>& trees, c
   std::vector<rules::GivenTree> all;
   std::vector<sim::Vec3> roots_vx;
   for (const FileTree& tree : trees) {
-    all.push_back(givenTree(tree, *spec.skeleton, frame));
+    inScene(scene, spec.skeleton->place, [&] { all.push_back(givenTree(tree, *spec.skeleton, frame)); });
     roots_vx.push_back(all.back().position_vx.front());
   }
   return {spec.name,
@@ -124,25 +131,81 @@ sim::Planting given(const PlantSpec& spec, const std::vector<FileTree>& trees, c
 }
 
 sim::Planting plant(const PlantSpec& spec, const std::vector<sim::Vec3>& listed_m, const Site& site,
-                    std::uint64_t seed) {
+                    const Scene& scene) {
   return {spec.name, rules::makeProcess(rulesOf(spec), site.world.frame()),
-          seedsOf(spec, listed_m, site, seed)};
+          seedsOf(spec, listed_m, site, scene)};
+}
+
+/// Where a scene's file has a seed of a planting: those that were given come first, the others hang on the
+/// table or the region.
+const Place& placeOfSeed(const PlantSpec& spec, std::size_t seed) {
+  if (spec.skeleton) return spec.skeleton->place;
+  if (seed < spec.seeds.size()) return spec.seeds[seed].place;
+  return spec.table.file.empty() ? spec.scatter->region_place : spec.table.place;
+}
+
+/// `of`: which of the scene's plants each planting is of. Of many seeds of one place, such as a table's, the
+/// first is told of.
+void addFaults(const std::vector<sim::PlantingFault>& faults, const Scene& scene,
+               const std::vector<std::size_t>& of, Gathering& wrong) {
+  std::vector<std::pair<Problem, std::size_t>> told;  // and how many more there are
+  std::map<std::tuple<std::size_t, int, int>, std::size_t> at;
+  for (const sim::PlantingFault& fault : faults) {
+    const PlantSpec& spec = scene.plants.at(of.at(fault.planting));
+    const Place& place = fault.seed ? placeOfSeed(spec, *fault.seed) : spec.rules_place;
+    const auto [known, is_new] = at.try_emplace({fault.planting, place.line, place.column}, told.size());
+    if (is_new) {
+      told.emplace_back(problemAt(place, scene.file, fault.text), 0);
+    } else {
+      ++told[known->second].second;
+    }
+  }
+  for (auto& [problem, more] : told) {
+    if (more > 0) problem.text += fmt::format("; {} more of its seeds are as wrong", more);
+    wrong.add(std::move(problem));
+  }
 }
 
 }  // namespace
 
 std::vector<sim::Planting> makePlantings(const Scene& scene, const Site& site) {
   std::vector<sim::Planting> plantings;
-  inScene(scene, [&] {
-    requireRegionsToScatterOver(scene, site.world);
-    for (std::size_t i = 0; i < scene.plants.size(); ++i) {
-      const PlantSpec& spec = scene.plants[i];
+  std::vector<std::size_t> of;
+  Gathering wrong(scene.file);
+  const auto unknown = unknownToScatterOver(scene, site.world);
+  for (std::size_t i = 0; i < scene.plants.size(); ++i) {
+    const PlantSpec& spec = scene.plants[i];
+    if (unknown[i]) {
+      wrong.add(*unknown[i]);
+      continue;
+    }
+    wrong.part(spec.rules_place, [&] {
       plantings.push_back(spec.skeleton
                               ? given(spec, site.skeletons.at(i), scene, site.world.frame())
-                              : plant(spec, site.listed_m.at(scene.attractors.size() + i), site, scene.seed));
+                              : plant(spec, site.listed_m.at(scene.attractors.size() + i), site, scene));
+      of.push_back(i);
+    });
+  }
+  addFaults(sim::seedFaults(site.world, plantings), scene, of, wrong);
+  wrong.end();
+  return plantings;
+}
+
+std::unique_ptr<sim::Growing> beginGrowth(const Scene& scene, Site& site,
+                                          const std::vector<sim::Planting>& plantings,
+                                          const sim::GrowthSettings& settings) {
+  return inScene(scene, [&] {
+    try {
+      return std::make_unique<sim::Growing>(site.world, plantings, settings);
+    } catch (const sim::PlantingFaults& error) {
+      Gathering wrong(scene.file);
+      std::vector<std::size_t> of(plantings.size());
+      std::iota(of.begin(), of.end(), std::size_t{0});
+      addFaults(error.faults(), scene, of, wrong);
+      wrong.end();
+      throw;
     }
   });
-  return plantings;
 }
 
 sim::GrowthSettings growthSettings(const Scene& scene, const Site& site,

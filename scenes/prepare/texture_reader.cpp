@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <set>
 #include <stdexcept>
 
@@ -36,9 +37,15 @@ std::shared_ptr<const sim::Picture> readTexture(const sim::Texture& texture) {
   }
 }
 
+Place placeOfMesh(const Scene& scene, const std::string& name) {
+  const auto at = std::find_if(scene.meshes.begin(), scene.meshes.end(),
+                               [&](const SceneMesh& mesh) { return mesh.name == name; });
+  return at == scene.meshes.end() ? Place{} : at->place;
+}
+
 }  // namespace
 
-ReadTextures readTextures(const std::vector<sim::TiledMesh>& meshes) {
+ReadTextures readTextures(const Scene& scene, const std::vector<sim::TiledMesh>& meshes) {
   ReadTextures read;
   std::set<const sim::Texture*> tried;
   for (const sim::TiledMesh& tiled : meshes) {
@@ -52,9 +59,10 @@ ReadTextures readTextures(const std::vector<sim::TiledMesh>& meshes) {
       try {
         read.pictures[texture] = readTexture(*texture);
       } catch (const sim::InputError& error) {
-        read.unread.push_back(
+        read.unread.push_back(problemAt(
+            placeOfMesh(scene, mesh.name), scene.file,
             fmt::format("mesh '{}': its texture '{}' is not drawn, but in its material's colour: {}",
-                        cleanText(mesh.name), cleanText(texture->name), cleanText(error.what())));
+                        cleanText(mesh.name), cleanText(texture->name), cleanText(error.what()))));
       }
     }
   }

@@ -11,11 +11,6 @@ namespace {
 
 constexpr double kSmall_m = 0.3;
 
-Problem hintAt(const Scene& scene, const SceneMesh& mesh, std::string text) {
-  if (!mesh.place.path) return {scene.file.string(), 0, 0, std::move(text)};
-  return {*mesh.place.path, mesh.place.line, mesh.place.column, std::move(text)};
-}
-
 std::string tooLarge(const SceneMesh& mesh, const MeshShape& shape) {
   std::string cures;
   for (const UnitReading& reading : likelyUnits(shape.longest())) {
@@ -66,11 +61,11 @@ std::vector<Problem> unitHints(const Scene& scene, const std::vector<const sim::
     if (spec.placement.unit || shape.longest() < kLarge_m) continue;
     if (made == WorldMade::yes && !isTooHighForAHouse(shape, UpAxis::y)) continue;
     if (auto text = tooLarge(spec, shape); !text.empty())
-      hints.push_back(hintAt(scene, spec, std::move(text)));
+      hints.push_back(problemAt(spec.place, scene.file, std::move(text)));
   }
   if (!first) return hints;
   if (auto text = tooSmall(scene, all); !text.empty())
-    hints.push_back(hintAt(scene, *first, std::move(text)));
+    hints.push_back(problemAt(first->place, scene.file, std::move(text)));
   return hints;
 }
 

@@ -2,11 +2,8 @@
 
 #include <fmt/format.h>
 
-#include <memory>
 #include <set>
 #include <string>
-
-#include "sim/base/error.h"
 
 namespace espalier::scenes {
 namespace {
@@ -21,11 +18,12 @@ class Regions {
     }
   }
 
-  void require(const std::string& region, const Place& place, Problems& problems) const {
-    if (known_.contains(region) || problems.full()) return;
+  bool has(const std::string& region) const { return known_.contains(region); }
+  /// What is said of one that is not there.
+  std::string unknown(const std::string& region) const {
     const auto expected = names_.empty() ? "a mesh that has it" : "one of " + listed(names_, region);
-    problems.add(place, fmt::format("no mesh of the scene has a region {}; expected {}{}", inQuotes(region),
-                                    expected, didYouMean(region, names_)));
+    return fmt::format("no mesh of the scene has a region {}; expected {}{}", inQuotes(region), expected,
+                       didYouMean(region, names_));
   }
 
  private:
@@ -38,20 +36,22 @@ class Regions {
 std::vector<Problem> unknownRegions(const Scene& scene, const sim::World& world) {
   const Regions regions(world);
   Problems problems;
-  for (const auto& [region, place] : scene.region_mentions) regions.require(region, place, problems);
+  for (const auto& [region, place] : scene.region_mentions) {
+    if (!regions.has(region) && !problems.full()) problems.add(place, regions.unknown(region));
+  }
   return problems.sorted();
 }
 
-void requireRegionsToScatterOver(const Scene& scene, const sim::World& world) {
+std::vector<std::optional<Problem>> unknownToScatterOver(const Scene& scene, const sim::World& world) {
   const Regions regions(world);
-  Problems problems;
-  const auto file = std::make_shared<const std::string>(scene.file.string());
+  std::vector<std::optional<Problem>> unknown;
   for (const PlantSpec& plant : scene.plants) {
-    if (!plant.scatter) continue;
-    const Place& place = plant.scatter->region_place;
-    regions.require(plant.scatter->region, place.path ? place : Place{file, 0, 0}, problems);
+    unknown.emplace_back();
+    if (!plant.scatter || regions.has(plant.scatter->region)) continue;
+    unknown.back() =
+        problemAt(plant.scatter->region_place, scene.file, regions.unknown(plant.scatter->region));
   }
-  if (!problems.empty()) throw ManyLines(problems.sorted());
+  return unknown;
 }
 
 }  // namespace espalier::scenes

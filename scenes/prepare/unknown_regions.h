@@ -1,4 +1,5 @@
 #pragma once
+#include <optional>
 #include <vector>
 
 #include "scenes/problem.h"
@@ -11,8 +12,8 @@ namespace espalier::scenes {
 /// In rule files: warnings, each with its place, for a rule file is made for more than one scene.
 std::vector<Problem> unknownRegions(const Scene& scene, const sim::World& world);
 
-/// In the scene file, which knows its meshes: throws sim::InputError with the place of each region over which
-/// seeds should be scattered and cannot be.
-void requireRegionsToScatterOver(const Scene& scene, const sim::World& world);
+/// In the scene file, which knows its meshes: of each of its plants, whether its seeds should be scattered
+/// over such a region.
+std::vector<std::optional<Problem>> unknownToScatterOver(const Scene& scene, const sim::World& world);
 
 }  // namespace espalier::scenes

@@ -13,6 +13,8 @@
 #include "scenes/read/registry.h"
 #include "scenes/read/rule_library.h"
 #include "scenes/read/rule_loader.h"
+#include "scenes/read/scene_places.h"
+#include "scenes/yaml/yaml_text.h"
 
 namespace espalier::scenes {
 namespace {
@@ -151,20 +153,7 @@ Scene sceneOf(const Document& document, const fs::path& path, Problems& problems
   }
   for (const SceneMesh& mesh : scene.meshes) scene.read_paths.push_back(mesh.file);
   scene.warnings = loader.warnings().sorted();
-  for (std::size_t i = 0; i < scene.meshes.size(); ++i)
-    scene.meshes[i].place = placeOf({&root}, fmt::format("meshes[{}]", i));
-  for (AttractorsSpec& attractors : scene.attractors)
-    attractors.place = placeOf({&root}, "attractors." + attractors.name);
-  for (FieldSpec& field : scene.fields) {
-    field.file_place = placeOf({&root}, fmt::format("fields.{}.file", field.name));
-    field.within_place = placeOf({&root}, fmt::format("fields.{}.within", field.name));
-  }
-  for (std::size_t i = 0; i < scene.plants.size(); ++i) {
-    scene.plants[i].rules_place = placeOf({&root}, fmt::format("plants[{}].rules", i));
-    auto& scatter = scene.plants[i].scatter;
-    if (scatter) scatter->region_place = placeOf({&root}, fmt::format("plants[{}].scatter.region", i));
-  }
-  scene.images_place = placeOf({&root}, root.entry("image") != nullptr ? "image" : "images");
+  notePlaces(scene, root);
   runChecks(checks, &scene, {&root}, reading);
   return scene;
 }
@@ -176,6 +165,26 @@ Result<Scene> sceneOrProblems(const Document& document, const fs::path& path, Pr
   return scene;
 }
 
+Result<RulesOrScene> rulesOrScene(const Document& document, const fs::path& path, Problems& problems) {
+  const auto kind = document.root ? headerOf(*document.root, problems) : std::nullopt;
+  RulesOrScene read;
+  if (kind == FileKind::scene) {
+    read.scene = sceneOf(document, path, problems);
+    read.warnings = read.scene->warnings;
+  }
+  if (kind == FileKind::rules) {
+    RuleLoader loader(problems);
+    loader.file(path, document);
+    read.warnings = loader.warnings().sorted();
+  }
+  if (!problems.empty()) return problems.sorted();
+  return read;
+}
+
+Place wholeFile(const fs::path& path) {
+  return {std::make_shared<const std::string>(path.string()), 0, 0};
+}
+
 }  // namespace
 
 Result<Scene> readScene(const fs::path& path) {
@@ -185,19 +194,24 @@ Result<Scene> readScene(const fs::path& path) {
 
 Result<Scene> readSceneText(const std::string& text, const fs::path& path) {
   Problems problems;
-  const Place whole{std::make_shared<const std::string>(path.string()), 0, 0};
-  return sceneOrProblems(documentOf(text, path.string(), whole, FileKind::scene, problems), path, problems);
+  const Document document = documentOf(text, path.string(), wholeFile(path), FileKind::scene, problems);
+  return sceneOrProblems(document, path, problems);
 }
 
-Result<std::optional<Scene>> readRulesOrScene(const fs::path& path) {
+Result<RulesOrScene> readRulesOrScene(const fs::path& path) {
   Problems problems;
-  const Document document = readDocument(path, std::nullopt, problems);
-  const auto kind = document.root ? headerOf(*document.root, problems) : std::nullopt;
-  std::optional<Scene> scene;
-  if (kind == FileKind::scene) scene = sceneOf(document, path, problems);
-  if (kind == FileKind::rules) RuleLoader(problems).file(path, document);
-  if (!problems.empty()) return problems.sorted();
-  return scene;
+  return rulesOrScene(readDocument(path, std::nullopt, problems), path, problems);
+}
+
+Result<RulesOrScene> readRulesOrSceneText(std::string text, const fs::path& path) {
+  Problems problems;
+  const Place whole = wholeFile(path);
+  if (text.size() > kMaxTextBytes) {
+    problems.add(whole, fmt::format("is too large; expected at most {} bytes", kMaxTextBytes));
+    return problems.sorted();
+  }
+  if (text.starts_with("\xef\xbb\xbf")) text.erase(0, 3);
+  return rulesOrScene(documentOf(text, path.string(), whole, std::nullopt, problems), path, problems);
 }
 
 }  // namespace espalier::scenes

@@ -2,6 +2,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "scenes/problem.h"
 #include "scenes/scene.h"
@@ -16,8 +17,16 @@ Result<Scene> readScene(const std::filesystem::path& path);
 /// The same for a text that is to become the file `path`.
 Result<Scene> readSceneText(const std::string& text, const std::filesystem::path& path);
 
+struct RulesOrScene {
+  std::optional<Scene> scene;     ///< without one they are rules
+  std::vector<Problem> warnings;  ///< what its files say without effect
+};
+
 /// Reads a rule or scene file, whichever its first key says that it is, and the files that it names, each
-/// once: a scene, nothing for rules, or every problem in all of those files.
-Result<std::optional<Scene>> readRulesOrScene(const std::filesystem::path& path);
+/// once: or every problem in all of those files.
+Result<RulesOrScene> readRulesOrScene(const std::filesystem::path& path);
+
+/// The same for a text that is to become the file `path`.
+Result<RulesOrScene> readRulesOrSceneText(std::string text, const std::filesystem::path& path);
 
 }  // namespace espalier::scenes

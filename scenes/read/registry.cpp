@@ -121,6 +121,11 @@ std::shared_ptr<const Table> exposureKeys() {
              {.unit = "voxels",
               .limits = {1.0, 64.0},
               .meaning = "How far the free space near surfaces reaches, for where: band."})
+      .choice<Unreached>(
+          "unreached", &ExposureSpec::unreached,
+          {{"count", Unreached::count}, {"leave_out", Unreached::leave_out}},
+          {.meaning = "What the tables make of surfaces from which no sky and no sun is seen, as "
+                      "inside of a closed room: count their zeros, or leave them out."})
       .shared();
 }
 
@@ -282,7 +287,8 @@ Table makeTable() {
       .section("sun", &Scene::sun, sunKeys(),
                {.meaning = "How sun_exposure is found: Greene's inclined arc, or with a place the real sun."})
       .section("exposure", &Scene::exposure, exposureKeys(),
-               {.meaning = "What espalier expose finds beside the exposure of surfaces."})
+               {.meaning =
+                    "What espalier expose finds beside the exposure of surfaces, and what its tables count."})
       .list<AttractorsSpec>(
           "attractors", Kind::named, &Scene::attractors, attractorKeys(),
           {.meaning = "Points that plants grow towards, by names that rules use.", .most = kMostEntries})

@@ -146,9 +146,9 @@ void checkNames(const std::vector<Item>& items, std::string_view what, const Com
 }
 
 void checkCameras(const Scene& scene, const Given&, const Complain& complain) {
-  for (const auto& [name, camera] : scene.cameras) {
-    if (camera.eye_m == camera.target_m) {
-      complain(fmt::format("cameras.{}.target", name),
+  for (const NamedCamera& named : scene.cameras) {
+    if (named.camera.eye_m == named.camera.target_m) {
+      complain(fmt::format("cameras.{}.target", named.name),
                "the camera looks at the point where it stands; expected target to differ from eye");
     }
   }

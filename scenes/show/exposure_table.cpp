@@ -94,6 +94,7 @@ Json rowJson(const ExposureTable& table, const ExposureRow& row) {
   }
   json["voxels"] = row.voxels;
   json["area_m2"] = row.area_m2;
+  if (table.unreached == Unreached::leave_out) json["left_out_m2"] = row.left_out_m2;
   for (std::size_t q = 0; q < table.quantities.size(); ++q) {
     Json spread = Json::object();
     for (const auto& [name, value] : numbersOf(row.spreads[q])) spread[name] = value;
@@ -114,13 +115,40 @@ std::size_t wayNumber(sim::Vec3f normal, double north_deg) {
   return static_cast<std::size_t>(((std::lround(compass_deg / 45.0) % 8) + 8) % 8);
 }
 
-/// What the light of some surfaces is like; `of` are their numbers.
+double areaOf(const sim::Lighting& light, const std::vector<std::size_t>& of) {
+  double area = 0.0;
+  for (const std::size_t i : of) area += static_cast<double>(light.surfaces[i].surface.coverage);
+  return sixDigits(area * light.about.voxel_m * light.about.voxel_m);
+}
+
+/// Numbers of surfaces: those that a table counts, and those that it leaves out.
+struct Sorted {
+  std::vector<std::size_t> counted, left_out;
+};
+
+/// Whether any of the sky or the sun is seen from in front of a surface, also where that lies behind the
+/// surface's plane, as it does below a balcony.
+bool isReached(const sim::Lighting& light, std::size_t i) {
+  constexpr float kRounding = 1e-5f;  // sums over no open direction; one alone brings more
+  return light.brightest[i] != sim::Vec3f(0.0f) || light.sky.values[i] > kRounding ||
+         light.sun.values[i] > kRounding;
+}
+
+Sorted sorted(const sim::Lighting& light, const std::vector<std::size_t>& of, Unreached unreached) {
+  if (unreached == Unreached::count) return {of, {}};
+  Sorted result;
+  for (const std::size_t i : of) (isReached(light, i) ? result.counted : result.left_out).push_back(i);
+  return result;
+}
+
+/// What the light of some surfaces is like.
 ExposureRow rowOf(const ExposureTable& table, const sim::Lighting& light,
-                  const std::vector<const sim::Received*>& received, const std::vector<std::size_t>& of) {
+                  const std::vector<const sim::Received*>& received, const Sorted& surfaces) {
+  const std::vector<std::size_t>& of = surfaces.counted;
   ExposureRow row;
   row.voxels = of.size();
-  for (const std::size_t i : of) row.area_m2 += static_cast<double>(light.surfaces[i].surface.coverage);
-  row.area_m2 = sixDigits(row.area_m2 * table.about.voxel_m * table.about.voxel_m);
+  row.area_m2 = areaOf(light, of);
+  row.left_out_m2 = areaOf(light, surfaces.left_out);
   row.spreads.resize(received.size());
   sim::parallelForEach(received.size(), [&](std::size_t q) {
     std::vector<std::pair<float, float>> values;
@@ -139,8 +167,8 @@ std::string wayOf(sim::Vec3f normal, double north_deg) {
 }
 
 ExposureTable exposureTable(const std::string& scene, const sim::World& world, const sim::Lighting& light,
-                            double north_deg) {
-  ExposureTable table{scene, light.about, {}, {}};
+                            double north_deg, Unreached unreached) {
+  ExposureTable table{scene, light.about, {}, {}, unreached};
   std::vector<const sim::Received*> received = {&light.sky};
   table.quantities.push_back(
       {"sky_exposure", "1", "what a surface receives of the sky by its own normal; open ground: 1", 1.0});
@@ -156,8 +184,9 @@ ExposureTable exposureTable(const std::string& scene, const sim::World& world, c
   of.back().resize(light.surfaces.size());
   std::iota(of.back().begin(), of.back().end(), std::size_t{0});
   for (std::size_t p = 0; p <= parts; ++p) {
-    if (of[p].empty()) continue;
-    const auto add = [&](const std::vector<std::size_t>& surfaces, const std::string& faces) {
+    const auto add = [&](const std::vector<std::size_t>& those, const std::string& faces) {
+      const Sorted surfaces = sorted(light, those, unreached);
+      if (surfaces.counted.empty()) return;
       ExposureRow row = rowOf(table, light, received, surfaces);
       row.faces = faces;
       if (p < parts) {
@@ -171,15 +200,18 @@ ExposureTable exposureTable(const std::string& scene, const sim::World& world, c
     for (const std::size_t i : of[p])
       facing[wayNumber(light.surfaces[i].surface.normal, north_deg)].push_back(i);
     for (std::size_t way = 0; way < kWays.size(); ++way) {
-      if (!facing[way].empty()) add(facing[way], kWays[way]);
+      add(facing[way], kWays[way]);
     }
   }
+  const std::vector<std::size_t> left_out = sorted(light, of.back(), unreached).left_out;
+  table.left_out = left_out.size();
+  table.left_out_m2 = areaOf(light, left_out);
   return table;
 }
 
 std::string toCsv(const ExposureTable& table) {
-  std::vector<std::string> header = {"scene",  "voxel_m", "object",   "region", "faces",
-                                     "voxels", "area_m2", "quantity", "unit"};
+  std::vector<std::string> header = {"scene",  "voxel_m", "object",      "region",   "faces",
+                                     "voxels", "area_m2", "left_out_m2", "quantity", "unit"};
   for (const auto& [name, value] : numbersOf({})) header.emplace_back(name);
   header.emplace_back("histogram_to");
   for (std::size_t bin = 1; bin <= Spread::kBins; ++bin) header.push_back(fmt::format("share_{}", bin));
@@ -195,6 +227,7 @@ std::string toCsv(const ExposureTable& table) {
                                          row.faces.empty() ? "all" : row.faces,
                                          std::to_string(row.voxels),
                                          fmt::format("{}", row.area_m2),
+                                         fmt::format("{}", row.left_out_m2),
                                          table.quantities[q].name,
                                          table.quantities[q].unit};
       for (const auto& [name, value] : numbersOf(row.spreads[q])) fields.push_back(fmt::format("{}", value));
@@ -217,6 +250,11 @@ std::string toJson(const ExposureTable& table) {
                                          {"histogram_to", rounded(quantity.range, kDecimals)}};
   }
   json["weighted_by"] = "area";
+  if (table.unreached == Unreached::leave_out) {
+    json["left_out"] = {{"voxels", table.left_out},
+                        {"area_m2", table.left_out_m2},
+                        {"meaning", "surfaces from which no sky and no sun is seen"}};
+  }
   json["regions"] = Json::array();
   for (const ExposureRow& row : table.rows) {
     if (!row.faces.empty()) {
@@ -290,6 +328,10 @@ std::string toText(const ExposureTable& table) {
   const auto left = regions(table.rows, [](const ExposureRow& row) -> const ExposureRow& { return row; }) -
                     regions(rows, [](const ExposureRow* row) -> const ExposureRow& { return *row; });
   if (left > 0) text += fmt::format("and {} smaller regions, in exposure.csv\n", left);
+  if (table.unreached == Unreached::leave_out) {
+    text += fmt::format("left out: {:.2f} m2 from which no sky and no sun is seen ({} voxels)\n",
+                        table.left_out_m2, table.left_out);
+  }
   return text + "means by area, with the quartiles\n";
 }
 

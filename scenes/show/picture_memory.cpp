@@ -118,15 +118,13 @@ void requirePicturesFit(const Scene& scene, const PicturesWanted& wanted) {
       smaller.width_px < 16 || smaller.height_px < 16
           ? std::string("fewer images")
           : fmt::format("at most {} x {} pixels, or fewer images", smaller.width_px, smaller.height_px);
-  const Place& at = scene.images_place;
-  const Problem problem{
-      at.path ? *at.path : scene.file.string(), at.line, at.column,
-      fmt::format("{} of {} x {} pixels need{} {} of memory, and {} are free for it "
-                  "here; expected {}",
-                  sim::counted(wanted.images.size(), "image"), wanted.width_px, wanted.height_px,
-                  wanted.images.size() == 1 ? "s" : "", sim::inGigabytes(bytes),
-                  sim::inGigabytes(sim::memoryBudget()), expected)};
-  throw sim::InputError(format(problem));
+  throw PlacedError(
+      {problemAt(scene.images_place, scene.file,
+                 fmt::format("{} of {} x {} pixels need{} {} of memory, and {} are free for it "
+                             "here; expected {}",
+                             sim::counted(wanted.images.size(), "image"), wanted.width_px, wanted.height_px,
+                             wanted.images.size() == 1 ? "s" : "", sim::inGigabytes(bytes),
+                             sim::inGigabytes(sim::memoryBudget()), expected))});
 }
 
 }  // namespace espalier::scenes

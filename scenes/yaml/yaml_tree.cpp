@@ -53,6 +53,11 @@ class Places {
         std::min(start + static_cast<std::size_t>(std::max(mark.column, 0)), characters_.size() - 1);
     return {path_, static_cast<int>(line) + 1, characters_[byte] - characters_[start] + 1};
   }
+  /// The column behind so many bytes from a place on, in the same line.
+  int behind(const Place& place, std::size_t byte, std::size_t bytes) const {
+    const std::size_t end = std::min(byte + bytes, characters_.size() - 1);
+    return place.column + characters_[end] - characters_[std::min(byte, end)];
+  }
   std::size_t byteOf(const YAML::Mark& mark) const {
     const auto line = std::min(static_cast<std::size_t>(std::max(mark.line, 0)), line_starts_.size() - 1);
     return line_starts_[line] + static_cast<std::size_t>(std::max(mark.column, 0));
@@ -101,13 +106,16 @@ class TreeBuilder : public YAML::EventHandler {
     auto node = fresh(YamlNode::Kind::scalar, mark);
     node.text = value;
     node.quoted = tag == "!";
-    const char first = at(places_.byteOf(mark));
+    const std::size_t begin = places_.byteOf(mark);
+    const char first = at(begin);
     const bool in_quotes = first == '"' || first == '\'';
+    if (const std::size_t bytes = in_quotes ? quotedBytes(begin) : plainBytes(begin, value); bytes > 0)
+      node.place.end_column = places_.behind(node.place, begin, bytes);
     if (!(tag == "?" || tag.empty()) && !(tag == "!" && first != '!')) {
       refuseTag(mark, tag);
       node.refused = true;
     }
-    if (node.quoted && in_quotes && spansLines(places_.byteOf(mark))) {
+    if (node.quoted && in_quotes && quotedBytes(begin) == 0) {
       node.refused = true;
       problems_.add(
           node.place,
@@ -140,23 +148,43 @@ class TreeBuilder : public YAML::EventHandler {
     YamlNode node;
     bool waiting_for_value = false;
     bool keep = true;  ///< false: the key was refused, its value goes nowhere
+    std::string key;   ///< whose value is read
     std::unordered_map<std::string, Place> keys;
   };
 
   char at(std::size_t byte) const { return byte < text_.size() ? text_[byte] : '\0'; }
 
-  bool spansLines(std::size_t start) const {
+  /// Of a text in quotes that begins there, with its quotes; 0 where it runs over the end of its line.
+  std::size_t quotedBytes(std::size_t start) const {
     const char quote = at(start);
     for (std::size_t i = start + 1; i < text_.size() && text_[i] != '\n'; ++i) {
       if (quote == '"' && text_[i] == '\\') {
         ++i;
-        if (at(i) == '\n') return true;
+        if (at(i) == '\n') return 0;
       } else if (text_[i] == quote) {
-        if (quote == '"' || at(i + 1) != quote) return false;
+        if (quote == '"' || at(i + 1) != quote) return i + 1 - start;
         ++i;
       }
     }
-    return true;
+    return 0;
+  }
+  /// Of a text without quotes; 0 where it is not written as it reads, as over several lines.
+  std::size_t plainBytes(std::size_t start, const std::string& value) const {
+    return text_.compare(start, value.size(), value) == 0 && value.find('\n') == value.npos ? value.size()
+                                                                                            : 0;
+  }
+
+  /// The path of what comes next.
+  std::string pathHere() const {
+    if (levels_.empty()) return "";
+    const Level& level = levels_.back();
+    const std::string& around = level.node.place.key;
+    if (level.node.kind == YamlNode::Kind::list)
+      return fmt::format("{}[{}]", around, level.node.items.size());
+    return level.waiting_for_value ? joined(around, level.key) : around;
+  }
+  static std::string joined(const std::string& around, const std::string& key) {
+    return around.empty() ? key : around + "." + key;
   }
 
   void refuseAnchor(const YAML::Mark& mark, YAML::anchor_t anchor) {
@@ -181,6 +209,7 @@ class TreeBuilder : public YAML::EventHandler {
     YamlNode node;
     node.kind = kind;
     node.place = places_.at(mark);
+    node.place.key = pathHere();
     return node;
   }
 
@@ -192,7 +221,7 @@ class TreeBuilder : public YAML::EventHandler {
                     fmt::format("lists and mappings nested too deep; expected at most {} levels", kMaxDepth));
       throw Enough{};
     }
-    levels_.push_back({fresh(kind, mark), false, true, {}});
+    levels_.push_back({fresh(kind, mark), false, true, {}, {}});
   }
 
   void close() {
@@ -228,6 +257,8 @@ class TreeBuilder : public YAML::EventHandler {
       problems_.add(key.place, fmt::format("{} as a key; expected a name", described(key)));
       return false;
     }
+    level.key = key.text;
+    key.place.key = joined(level.node.place.key, key.text);
     const auto [first, is_new] = level.keys.emplace(key.text, key.place);
     if (!is_new) {
       problems_.add(

@@ -12,6 +12,7 @@
 #include "sim/base/parallel.h"
 #include "sim/base/stop.h"
 #include "sim/grow/claims.h"
+#include "sim/grow/faults.h"
 #include "sim/grow/pieces.h"
 #include "sim/grow/seeded.h"
 
@@ -103,8 +104,15 @@ Growing::Growing(World& world, std::vector<Planting> plantings, GrowthSettings s
 
 Growing::Growing(World& world, std::vector<Planting> plantings, GrowthSettings settings)
     : Growing(world, plantings, settings, seeded(world, plantings, settings)) {
-  for (std::size_t i = 0; i < plantings_.size(); ++i)
-    plantings_[i].process->begin(view(i), growth_.stands[i].memory, growth_.commons);
+  std::vector<PlantingFault> faults;
+  for (std::size_t i = 0; i < plantings_.size(); ++i) {
+    try {
+      plantings_[i].process->begin(view(i), growth_.stands[i].memory, growth_.commons);
+    } catch (const InputError& error) {
+      faults.push_back({i, std::nullopt, error.what()});
+    }
+  }
+  if (!faults.empty()) throw PlantingFaults(std::move(faults));
 }
 
 Growing::~Growing() = default;

@@ -58,9 +58,9 @@ struct Due {
 /// BrokenContract, whatever the build.
 class Growing {
  public:
-  /// Seeds the plantings. The world is borrowed: it grows with every step. Throws InputError, and leaves the
-  /// world as it was, if a seed lies outside the world or inside something, or two of a name have the same
-  /// key.
+  /// Seeds the plantings. The world is borrowed: it grows with every step. Throws PlantingFaults
+  /// (sim/grow/faults.h), and leaves the world as it was, if a seed lies outside the world or inside
+  /// something, or two of a name have the same key; and with what the processes say that cannot begin.
   Growing(World& world, std::vector<Planting> plantings, GrowthSettings settings);
   /// Goes on from what was grown before in this world, which holds all of it, by the same plantings.
   Growing(World& world, std::vector<Planting> plantings, GrowthSettings settings, Growth grown);

@@ -2,48 +2,15 @@
 
 #include <fmt/format.h>
 
-#include <set>
 #include <utility>
 
-#include "sim/base/error.h"
+#include "sim/grow/faults.h"
 
 namespace espalier::sim {
-namespace {
-
-void requireFree(const World& world, const Planting& planting, Vec3 seed_vx) {
-  const Voxel v = voxelAt(seed_vx);
-  const Vec3 m = worldFromVoxel(world.frame(), seed_vx);
-  if (!contains(world.frame().size, v)) {
-    throw InputError(fmt::format("a seed of '{}' at [{:.3f}, {:.3f}, {:.3f}] lies outside the world",
-                                 planting.name, m.x, m.y, m.z));
-  }
-  if (const PartId part = world.partAt(v); part != kFree && !planting.anywhere) {
-    throw InputError(fmt::format(
-        "a seed of '{}' at [{:.3f}, {:.3f}, {:.3f}] lies inside '{}' ({}); move it into the open{}",
-        planting.name, m.x, m.y, m.z, world.part(part).object, world.part(part).region,
-        orLeaveHollow(world.part(part))));
-  }
-}
-
-void requireSeeds(const World& world, const std::vector<Planting>& plantings) {
-  std::set<std::pair<std::string, std::uint64_t>> keys;  // two of one name may be two plantings
-  for (const Planting& planting : plantings) {
-    for (const Seed& seed : planting.seeds) {
-      requireFree(world, planting, seed.at_vx);
-      if (!keys.emplace(planting.name, seed.key).second)
-        throw InputError(fmt::format(
-            "two seeds of '{}' have the same key, or stand in one place; expected keys that differ, "
-            "places, or names of the plants",
-            planting.name));
-    }
-  }
-}
-
-}  // namespace
 
 Growth seeded(World& world, const std::vector<Planting>& plantings, const GrowthSettings& settings) {
   requireProcesses(plantings);
-  requireSeeds(world, plantings);
+  if (auto faults = seedFaults(world, plantings); !faults.empty()) throw PlantingFaults(std::move(faults));
   Growth growth;
   growth.commons = settings.commons;
   growth.recorded = settings.record_attempts;

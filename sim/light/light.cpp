@@ -13,10 +13,6 @@ std::size_t voxelsIn(Voxel size) {
          static_cast<std::size_t>(size.z);
 }
 
-/// With more places, a sweep of so many voxels takes less time than finding a place's open rays. As measured
-/// on worlds of 5 to 13 million voxels.
-constexpr std::size_t kVoxelsPerFound = 200;
-
 /// With fewer places, casting their rays takes less time than finding what the bricks say, or than following
 /// it if it is known. In small worlds that hangs on how many bricks there are; in large ones it costs less
 /// for each, and the longer the world, the dearer are rays. As measured on worlds of 5 to 390 million voxels,
@@ -32,6 +28,11 @@ DirectionSet both(DirectionSet sky, const DirectionSet& sun) {
 }
 
 }  // namespace
+
+bool sweepIsCheaper(Voxel size, std::size_t places) {
+  constexpr std::size_t kVoxelsPerPlace = 200;  // as measured on worlds of 5 to 13 million voxels
+  return places >= voxelsIn(size) / kVoxelsPerPlace;
+}
 
 LightSensor::LightSensor(const BitVolume& shape, const LightSource& source)
     : rays_(shape, both(source.random_sky ? DirectionSet{} : source.sky, source.sun)),
@@ -49,9 +50,9 @@ std::vector<Light> LightSensor::at(const BitVolume& opaque, std::span<const Voxe
   // to find it in the end, at the latest when casting rays has cost as much.
   const std::size_t asked = ahead.known() ? places.size() : ahead.cast(places.size());
   std::vector<Light> lights = asked < fewestForOpenRays(size, ahead.known()) ? byRays(opaque, places)
-                              : places.size() < voxelsIn(size) / kVoxelsPerFound
-                                  ? byOpenRays(opaque, places, ahead, filled)
-                                  : bySweep(opaque, places);
+                              : sweepIsCheaper(size, places.size())
+                                  ? bySweep(opaque, places)
+                                  : byOpenRays(opaque, places, ahead, filled);
   if (!random_sky_) return lights;
   parallelFor(places.size(), 4, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i)

@@ -25,6 +25,10 @@ struct LightSource {
   Weighting weighting = Weighting::uniform;            ///< of the random rays
 };
 
+/// Whether a sweep of a whole world takes less time than finding the open rays (sim/light/open_rays.h) of so
+/// many places in it, whose bricks are not known yet.
+bool sweepIsCheaper(Voxel size, std::size_t places);
+
 /// Asks for the light at some places, again and again while a world of one shape fills. There are three ways
 /// to find it, and all give the same answer bit for bit.
 class LightSensor {

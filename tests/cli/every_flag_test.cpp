@@ -318,9 +318,14 @@ TEST_F(EveryFlag, OfTheOthersChangesWhatIsSaid) {
   const std::string scene = scratch_.path("scene.yaml").string();
   const auto said = [](const std::string& arguments) { return tests::espalier(arguments).output; };
 
-  EXPECT_EQ(optionsOf(*app_.get_subcommand("check")), (std::set<std::string>{"file"}));
-  EXPECT_NE(said("check " + scratch_.write("bad.yaml", "espalier: rules\nnam: x\n").string()),
-            said("check " + scene));
+  EXPECT_EQ(optionsOf(*app_.get_subcommand("check")),
+            (std::set<std::string>{"file", "text-only", "as", "json"}));
+  const std::string bad = scratch_.write("bad.yaml", "espalier: rules\nnam: x\n").string();
+  EXPECT_NE(said("check " + bad), said("check " + scene));
+  EXPECT_NE(said("check " + scene), said("check --text-only " + scene));
+  EXPECT_TRUE(nlohmann::json::accept(said("check --json " + bad)));
+  EXPECT_EQ(said("check - --as " + scratch_.path("other.yaml").string() + " < " + bad),
+            scratch_.path("other.yaml").string() + said("check " + bad).substr(bad.size()));
 
   EXPECT_EQ(optionsOf(*app_.get_subcommand("certify")), (std::set<std::string>{"json", "scene"}));
   std::string finer = tests::kPlotScene;

@@ -190,7 +190,8 @@ TEST_F(Overhang, ACameraInAWallIsAnError) {
                  std::string(kScene) + "cameras:\n  low: {eye: [2, 0, 2], target: [2, 2, 2]}\n");
   const auto ran = expose();
   EXPECT_EQ(ran.status, 2) << ran.output;
-  EXPECT_NE(ran.output.find("scene.yaml: camera 'low' stands inside 'overhang' (floor)"), std::string::npos)
+  EXPECT_NE(ran.output.find("scene.yaml:11:9: camera 'low' stands inside 'overhang' (floor)"),
+            std::string::npos)
       << ran.output;
 }
 

@@ -1,9 +1,13 @@
 // Options take their values as files do, and a command line that is wrong is answered in words of ours.
 #include <gtest/gtest.h>
 
+#include <CLI/App.hpp>
+#include <CLI/Config.hpp>
+#include <CLI/Formatter.hpp>
 #include <string>
 #include <utility>
 
+#include "cli/commands.h"
 #include "scenes/read/read_scene.h"
 #include "tests/cli/plot.h"
 
@@ -103,6 +107,44 @@ TEST_F(Options, AWrongCommandLineIsAnsweredWithWhatIsRight) {
   EXPECT_TRUE(unknown.output.starts_with("espalier grow: there is no option '--sede'; expected one of "))
       << unknown.output;
   EXPECT_NE(unknown.output.find("; did you mean '--seed'?"), std::string::npos) << unknown.output;
+}
+
+/// Each option of each command, and each command, with a letter left out.
+TEST_F(Options, EveryMisspeltOneIsRecognized) {
+  CLI::App app;
+  int status = 0;
+  for (const auto add : {cli::addGrow, cli::addRender, cli::addExpose, cli::addCheck, cli::addCertify,
+                         cli::addInspect, cli::addRules, cli::addSchema, cli::addInit, cli::addExplain})
+    add(app, status);
+  const auto misspelt = [](std::string word) { return word.erase(word.size() - 2, 1); };
+  std::size_t options = 0;
+  for (const CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; })) {
+    const std::string name = command->get_name();
+    EXPECT_NE(tests::espalier(misspelt(name)).output.find("; did you mean '" + name + "'?"),
+              std::string::npos)
+        << name;
+    for (const CLI::Option* option : command->get_options()) {
+      for (const std::string& word : option->get_lnames()) {
+        if (word.size() < 4) continue;
+        ++options;
+        const Ran ran = tests::espalier(name + " --" + misspelt(word));
+        EXPECT_EQ(ran.status, 2) << name << ' ' << word;
+        EXPECT_NE(ran.output.find("; did you mean '--" + word + "'?"), std::string::npos) << ran.output;
+      }
+    }
+  }
+  EXPECT_GT(options, 30u);
+}
+
+TEST_F(Options, AMisspeltKeyIsExplainedAsTheOneThatIsMeant) {
+  for (const auto& [asked, meant] : {std::pair("voxell", "voxel"),
+                                     {"bias.upp", "bias.up"},
+                                     {"wrold.voxel", "world.voxel"},
+                                     {"exposure.unreachd", "exposure.unreached"}}) {
+    const Ran ran = tests::espalier("explain " + std::string(asked));
+    EXPECT_EQ(ran.status, 2);
+    EXPECT_NE(ran.output.find("did you mean '" + std::string(meant) + "'?"), std::string::npos) << ran.output;
+  }
 }
 
 }  // namespace

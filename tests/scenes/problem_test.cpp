@@ -41,9 +41,39 @@ TEST(Listed, NamesAFewOfManyAndHowManyMoreThereAre) {
 TEST(Format, MakesOneLineOfAProblem) {
   const Problem problem{"a\nb.yaml", 3, 1, "the key '\x1b[31m' is unknown"};
   EXPECT_EQ(format(problem), "a\\nb.yaml:3:1: the key '\\x1b[31m' is unknown");
-  const ManyLines error({problem, {"c", 0, 0, "wrong"}});
+  const PlacedError error({problem, {"c", 0, 0, "wrong"}});
   EXPECT_EQ(error.lines(), (Words{format(problem), "c: wrong"}));
   EXPECT_EQ(error.what(), format(problem) + "\nc: wrong");
+}
+
+TEST(Gathering, TellsAllThatIsWrongWithItsPlaces) {
+  Gathering wrong("a.yaml");
+  wrong.part([] {});
+  wrong.end();
+  const Place place{std::make_shared<const std::string>("b.yaml"), 3, 5, 9, "x.y"};
+  wrong.part(place, [] { throw sim::InputError("one"); });
+  wrong.part([] { throw sim::InputError("two"); });
+  wrong.part(place, [] { throw PlacedError({{"c.yaml", 1, 2, "three"}, {"a.yaml", 0, 0, "two"}}); });
+  try {
+    wrong.end();
+    FAIL() << "nothing was said";
+  } catch (const PlacedError& error) {
+    EXPECT_EQ(error.problems(),
+              (std::vector<Problem>{
+                  {"b.yaml", 3, 5, "one", 9, "x.y"}, {"a.yaml", 0, 0, "two"}, {"c.yaml", 1, 2, "three"}}));
+  }
+}
+
+TEST(Gathering, EndsWhereNobodyReadsOn) {
+  Gathering wrong("a.yaml");
+  for (std::size_t i = 0; i < 2 * kMostProblems; ++i) wrong.add({"a.yaml", 0, 0, std::to_string(i)});
+  try {
+    wrong.end();
+    FAIL() << "nothing was said";
+  } catch (const PlacedError& error) {
+    ASSERT_EQ(error.problems().size(), kMostProblems + 1);
+    EXPECT_EQ(error.lines().back(), "a.yaml: 1000 problems and perhaps more; the rest is not shown");
+  }
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include "scenes/import/mesh_import.h"
 #include "scenes/inspect/inspected.h"
 #include "tests/support/meshes.h"
 #include "tests/support/scratch.h"
@@ -76,7 +77,7 @@ TEST(Looks, OfAFileBecomeTheLinesOfAScene) {
   const Mesh mesh = scaled(lying(walls()), 100.0);
   for (const Vec3& p : mesh.vertices_m) text += fmt::format("v {} {} {}\n", p.x, p.y, p.z);
   for (const auto& [a, b, c] : mesh.triangles) text += fmt::format("f {} {} {}\n", a + 1, b + 1, c + 1);
-  const Inspected found = inspectMesh(scratch.write("walls.obj", text));
+  const Inspected found = inspectMesh(scratch.write("walls.obj", text)).found;
   EXPECT_EQ(found.line.placement.unit, LengthUnit::cm);
   EXPECT_EQ(found.line.placement.up, UpAxis::z);
   EXPECT_EQ(found.line.name, "walls");
@@ -91,10 +92,27 @@ TEST(Looks, WhatLiesFarAwayIsBroughtToTheOrigin) {
   std::string text;
   for (const Vec3& p : walls().vertices_m) text += fmt::format("v {} {} {}\n", p.x + 20'000, p.y + 400, p.z);
   const Inspected found =
-      inspectMesh(scratch.write("far.obj", text + "f 1 2 3\nf 2 3 4\nf 5 6 7\nf 1 2 5\n"));
+      inspectMesh(scratch.write("far.obj", text + "f 1 2 3\nf 2 3 4\nf 5 6 7\nf 1 2 5\n")).found;
   EXPECT_NEAR(found.from_origin_m, 20'004, 1.0);
   EXPECT_EQ(found.line.placement.translate_m, Vec3(-20'000, -400, 0));
   EXPECT_LT(std::abs(found.low_m.x + 4.0), 0.01);
+}
+
+/// A mesh is read once, and has the regions all the same that reading it by materials would give it.
+TEST(Looks, RegionsFromMaterialsAreThoseOfTheReader) {
+  const tests::Scratch scratch;
+  scratch.write("walls.mtl", "newmtl lime\nKd 1 1 1\nnewmtl brick\nKd 0.5 0.1 0.1\n");
+  std::string text = "mtllib walls.mtl\ng all\n";
+  for (const Vec3& p : walls().vertices_m) text += fmt::format("v {} {} {}\n", p.x, p.y, p.z);
+  const auto file = scratch.write("walls.obj", text +
+                                                   "usemtl brick\nf 1 2 3\nusemtl lime\nf 2 3 4\n"
+                                                   "usemtl brick\nf 5 6 7\nusemtl lime\nf 1 1 5\n");
+  const Inspection inspection = inspectMesh(file);
+  const sim::Mesh read = importMesh(file, RegionsFrom::material);
+  EXPECT_EQ(inspection.found.regions, RegionsFrom::material);
+  EXPECT_EQ(inspection.placed.regions, read.regions);
+  EXPECT_EQ(inspection.placed.region, read.region);
+  ASSERT_EQ(read.regions.size(), 2u);
 }
 
 }  // namespace

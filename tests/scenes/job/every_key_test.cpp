@@ -147,6 +147,13 @@ const std::map<std::string, Change>& changes() {
        {"expose: exposure.vdb",
         {{"seed: 5", "seed: 5\nexposure: {where: band, band: 1}"}},
         {"band: 1", "band: 3"}}},
+      {"exposure.unreached",  // a block in a hollow one
+       {sun,
+        {{kMeshes,
+          "meshes:\n  - {file: block.obj, name: outer, solid: false, scale: 1.6, translate: [-1.4, 0.1, "
+          "-1.4]}\n"
+          "  - {file: block.obj, name: inner, scale: 0.6, translate: [-0.85, 0.45, -0.85]}\n"}},
+        {"seed: 5", "seed: 5\nexposure: {unreached: leave_out}"}}},
       {"plants[].rules", {"state_hash", {}, {"rules: vine.yaml", "rules: {bias: {up: 1}}"}}},
       {"plants[].name", {"report.json", {}, {"name: vine,", "name: ivy,"}}},
       {"plants[].seeds[].at", {"state_hash", {}, {"[[-0.4,", "[[-0.2,"}}},

@@ -31,9 +31,9 @@ class MeshScene : public testing::Test {
     return scratch_.write(name, text);
   }
   InScene sceneOf(const std::vector<std::filesystem::path>& files) {
-    std::vector<Inspected> meshes;
+    std::vector<Inspection> meshes;
     for (const auto& file : files) meshes.push_back(inspectMesh(file));
-    return sceneWith(meshes, scratch_.path("scene.yaml"));
+    return sceneWith(std::move(meshes), scratch_.path("scene.yaml"));
   }
   /// Writes the scene, and lets it grow.
   Report grown(const InScene& made) {

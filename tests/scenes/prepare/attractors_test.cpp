@@ -152,13 +152,14 @@ TEST_F(Attractors, FromATable) {
             "attractors 'main': of 3 points 1 lies beyond the world and 0 in what stands there");
   EXPECT_EQ(site_->mesh_files.back().name, "p.csv");
   EXPECT_EQ(site_->mesh_files.back().kind, "points");
-  const std::string expected = "; expected x, y, z in metres, each from -1000000 to 1000000";
+  const std::string expected = "; expected x, y, z in metres, each from -1000000 to 1000000",
+                    table = "scene.yaml:5:18: " + scratch_.path("p.csv").string();
   for (const std::string bad : {"1,2", "1,2,nan", "1;2;3", "1,2,3e7", "1,2,x", "x,y,z"}) {
     scratch_.write("p.csv", "0,1,0\n" + bad + "\n");
-    EXPECT_EQ(refusal("{points: p.csv}"), "p.csv:2: '" + bad + "' is no point" + expected);
+    EXPECT_EQ(refusal("{points: p.csv}"), table + ":2: '" + bad + "' is no point" + expected);
   }
   scratch_.write("p.csv", "x,y,z\n");
-  EXPECT_EQ(refusal("{points: p.csv}"), "p.csv: has no points; expected x, y, z on each line");
+  EXPECT_EQ(refusal("{points: p.csv}"), table + ": has no points; expected x, y, z on each line");
 }
 
 TEST_F(Attractors, OfOneTypeInATable) {
@@ -168,13 +169,15 @@ TEST_F(Attractors, OfOneTypeInATable) {
   ASSERT_EQ(second[0].at_vx.size(), 1u);
   EXPECT_LT(glm::distance(metres(second[0].at_vx[0]), sim::Vec3(-0.5, 4, 0)), 1e-12);
   EXPECT_EQ(made("{points: p.csv}")[0].at_vx.size(), 4u);
+  const std::string table = "scene.yaml:5:18: " + scratch_.path("p.csv").string();
   EXPECT_EQ(refusal("{points: p.csv, type: 3}"),
-            "p.csv: has no points of type 3; expected x, y, z on each line");
+            table + ": has no points of type 3; expected x, y, z on each line");
   scratch_.write("p.csv", "0,1,0,1\n0,1,0\n");
   EXPECT_EQ(
       refusal("{points: p.csv, type: 1}"),
-      "p.csv:2: '0,1,0' is no point with a type; expected x, y, z in metres, each from -1000000 to 1000000, "
-      "and a whole number");
+      table +
+          ":2: '0,1,0' is no point with a type; expected x, y, z in metres, each from -1000000 to 1000000, "
+          "and a whole number");
   // Those of another type may be where plants start.
   scratch_.write("p.csv", "0,1,3,0\n0.5,1,3.1,0\n0,4,3,1\n");
   made(

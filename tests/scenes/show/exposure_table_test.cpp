@@ -1,13 +1,16 @@
 #include "scenes/show/exposure_table.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <numbers>
+#include <optional>
 
 #include "sim/tile/build_world.h"
+#include "tests/support/meshes.h"
 
 namespace espalier::scenes {
 namespace {
@@ -149,6 +152,104 @@ TEST(ExposureTable, NamesWaysByTheCompass) {
   EXPECT_EQ(wayOf(leaning(31.0), 0.0), "S");
   EXPECT_EQ(wayOf(leaning(149.0), 0.0), "S");
   EXPECT_EQ(wayOf(leaning(151.0), 0.0), "down");
+}
+
+/// Ground with a room on it that has no door, a block that lies on the ground, and a roof on nothing.
+class Rooms : public testing::Test {
+ protected:
+  Rooms() {
+    std::vector<sim::TiledMesh> meshes;
+    const auto add = [&](sim::Vec3 low, sim::Vec3 high, const char* name) {
+      meshes.push_back({tests::boxMesh(low, high, name), true});
+    };
+    add({0, 0, 0}, {12, 0.5, 12}, "ground");
+    add({2, 0.5, 2}, {6, 3, 2.5}, "room");
+    add({2, 0.5, 5.5}, {6, 3, 6}, "room");
+    add({2, 0.5, 2.5}, {2.5, 3, 5.5}, "room");
+    add({5.5, 0.5, 2.5}, {6, 3, 5.5}, "room");
+    add({2, 3, 2}, {6, 3.5, 6}, "room");
+    add({8, 0.5, 2}, {10, 2, 4}, "block");
+    add({7, 3, 7}, {11, 3.25, 11}, "roof");
+    const sim::Frame frame{sim::Vec3(-0.445), 0.11, {118, 46, 118}};
+    world_.emplace(sim::buildWorld(frame, meshes, 0));
+    sim::LightWanted wanted;
+    wanted.brightest = true;
+    light_ = sim::lightOf(*world_, sim::makeSky({.directions = 200}), {}, wanted);
+  }
+  ExposureTable table(Unreached unreached) const {
+    return exposureTable("rooms", *world_, light_, 0.0, unreached);
+  }
+  /// 0 where there is no such row.
+  static double area(const ExposureTable& table, const std::string& object, const std::string& faces) {
+    double area = 0.0;
+    for (const ExposureRow& row : table.rows) {
+      if (row.object == object && row.faces == faces) area += row.area_m2;
+    }
+    return area;
+  }
+
+  std::optional<sim::World> world_;
+  sim::Lighting light_;
+};
+
+TEST_F(Rooms, WhatNoSkyReachesIsLeftOutAndItsAreaTold) {
+  const ExposureTable all = table(Unreached::count), reached = table(Unreached::leave_out);
+  EXPECT_EQ(all.left_out, 0u);
+  EXPECT_EQ(all.left_out_m2, 0.0);
+  constexpr double kRim_m2 = 2.0;                     // of the floor's voxels, below the walls
+  const double inside = 3 * 3 + 3 * 3 + 4 * 3 * 2.5;  // floor, ceiling, walls
+  EXPECT_NEAR(reached.left_out_m2, inside, 0.1 * inside);
+  EXPECT_NEAR(area(all, "", "") - area(reached, "", ""), reached.left_out_m2, 0.01);
+  EXPECT_NEAR(area(all, "ground", "up") - area(reached, "ground", "up"), 9.0, kRim_m2);
+  EXPECT_NEAR(area(all, "room", "down"), 9.0, 0.9);
+  EXPECT_EQ(area(reached, "room", "down"), 0.0);
+  EXPECT_NEAR(area(reached, "room", "N"), 4 * 2.5 + 4 * 0.5, 1.2);  // its outside alone
+  EXPECT_EQ(area(reached, "block", "down"), 0.0);
+  EXPECT_EQ(area(all, "block", ""), area(reached, "block", ""));
+  // Below a roof that one can see out from, surfaces receive nothing, and are there all the same.
+  EXPECT_NEAR(area(reached, "roof", "down"), 16.0, 0.5);
+  for (const ExposureRow& row : reached.rows) {
+    if (row.object == "roof" && row.faces == "down") {
+      EXPECT_EQ(row.spreads[0].upper_quartile, 0.0);
+    }
+    if (row.object == "ground" && row.faces.empty()) {
+      EXPECT_NEAR(row.left_out_m2, 9.0, kRim_m2);
+    }
+    if (row.object == "block") {
+      EXPECT_EQ(row.left_out_m2, 0.0);
+    }
+  }
+}
+
+TEST_F(Rooms, TablesSayWhatWasLeftOut) {
+  const ExposureTable all = table(Unreached::count), reached = table(Unreached::leave_out);
+  EXPECT_EQ(toText(all).find("left out"), std::string::npos);
+  EXPECT_NE(
+      toText(reached).find(fmt::format("left out: {:.2f} m2 from which no sky and no sun is seen ({} voxels)",
+                                       reached.left_out_m2, reached.left_out)),
+      std::string::npos)
+      << toText(reached);
+  EXPECT_FALSE(json::parse(toJson(all)).contains("left_out"));
+  const json told = json::parse(toJson(reached));
+  EXPECT_EQ(told["left_out"]["voxels"], reached.left_out);
+  EXPECT_EQ(told["left_out"]["area_m2"], reached.left_out_m2);
+  EXPECT_EQ(told["total"]["left_out_m2"], reached.left_out_m2);
+  const auto rows = readCsv(toCsv(reached));
+  const auto column = std::find(rows[0].begin(), rows[0].end(), "left_out_m2") - rows[0].begin();
+  ASSERT_LT(static_cast<std::size_t>(column), rows[0].size());
+  EXPECT_EQ(std::stod(rows[1].at(static_cast<std::size_t>(column))), reached.rows[0].left_out_m2);
+}
+
+/// All that is there may lie in the dark.
+TEST_F(Rooms, ATableMayBeLeftWithoutRows) {
+  light_.brightest.assign(light_.surfaces.size(), sim::Vec3f(0.0f));
+  light_.sky.values.assign(light_.sky.values.size(), 0.0f);
+  const ExposureTable none = table(Unreached::leave_out);
+  EXPECT_TRUE(none.rows.empty());
+  EXPECT_EQ(none.left_out, light_.surfaces.size());
+  EXPECT_NE(toText(none).find("left out: "), std::string::npos);
+  EXPECT_EQ(readCsv(toCsv(none)).size(), 1u);
+  EXPECT_TRUE(json::accept(toJson(none)));
 }
 
 TEST(ExposureTable, CsvFollowsItsRfcAndSaysWhatJsonSays) {

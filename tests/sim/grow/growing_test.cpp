@@ -2,10 +2,13 @@
 
 #include <atomic>
 #include <cmath>
+#include <optional>
 #include <set>
+#include <utility>
 
 #include "sim/base/error.h"
 #include "sim/base/parallel.h"
+#include "sim/grow/faults.h"
 #include "sim/grow/grow.h"
 #include "sim/grow/state.h"
 #include "tests/support/plots.h"
@@ -290,6 +293,34 @@ TEST(Growing, SeedsAreCheckedBeforeTheWorldIsTouched) {
   EXPECT_EQ(world.parts().size(), parts);
   EXPECT_EQ(sim::seedsAt(world.frame(), {{5, 5, 5}, {5, 5, 5}, {5, 5, 5}}).size(), 3u);
   grow(sim::seedsAt(world.frame(), {{5, 9, 5}, {5, 9, 5}}));  // in one place, but told apart
+}
+
+TEST(Growing, SaysAllThatIsWrongWithItsPlantings) {
+  class Unwilling final : public Creeper {
+    void begin(const sim::StandView&, sim::Columns&, sim::Commons&) const override {
+      throw sim::InputError("it has no wish to");
+    }
+  };
+  using Found = std::vector<std::pair<std::size_t, std::optional<std::size_t>>>;
+  sim::World world = tests::wallPlot();
+  const auto found = [&](const std::vector<sim::Planting>& of) {
+    Found all;
+    try {
+      const sim::Growing growing(world, of, settings(1));
+    } catch (const sim::PlantingFaults& error) {
+      EXPECT_EQ(error.what(), error.faults().front().text);
+      for (const sim::PlantingFault& fault : error.faults()) all.emplace_back(fault.planting, fault.seed);
+    }
+    return all;
+  };
+  const auto creeper = std::make_shared<Creeper>();
+  const auto unwilling = std::make_shared<Unwilling>();
+  const auto at = [&](const std::vector<Vec3>& places) { return sim::seedsAt(world.frame(), places); };
+  EXPECT_EQ(found({{"a", creeper, at({{5, 5, 5}, {10, 10, 20}, {10, -10, 20}})},
+                   {"b", unwilling, {{{5, 9, 5}, 1}, {{9, 9, 9}, 1}}}}),
+            (Found{{0, 1}, {0, 2}, {1, 1}}));
+  EXPECT_EQ(found({{"a", creeper, at({{5, 5, 5}})}, {"b", unwilling, at({{5, 9, 5}})}, {"c", unwilling, {}}}),
+            (Found{{1, std::nullopt}, {2, std::nullopt}}));
 }
 
 TEST(Growing, AProcessThatWantsATableOfTheSkyMustBeGivenOne) {

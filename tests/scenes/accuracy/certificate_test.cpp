@@ -85,33 +85,29 @@ TEST(KnownShapes, ARoundPit) {
   }
 }
 
-/// What a scene that says nothing of its sky gets, from voxels of a fortieth of the width: streets and
-/// courts, walls along the voxels and turned by 20 degrees.
-TEST(Certificate, FloorsAreWithinTwoPointFiveThousandthsByDefault) {
-  const auto weightings = {Weighting::uniform, Weighting::cosine, Weighting::cie_overcast};
-  for (const Weighting weighting : weightings) {
-    const sim::Sky sky = sim::makeSky({.weighting = weighting, .standard_error = SkySpec::kMapError});
-    double squares = 0.0;
-    int count = 0;
-    for (const double turn : {0.0, 20.0}) {
-      for (const double height : {0.5, 1.0, 2.0}) {
-        std::vector<KnownShape> shapes{court(10.0, 10.0 * height, turn, 0.25)};
-        if (turn == 0.0) shapes.push_back(street(10.0, 10.0 * height, turn, 0.25));
-        for (const KnownShape& shape : shapes) {
-          const auto lines = compareShape(shape, sky, {weighting}, 0.25, 1);
-          for (const auto& line : lines[0]) {
-            if (line.place.find("floor") == std::string::npos) continue;
-            EXPECT_LT(std::abs(line.error()), 0.0025) << shape.name << ' ' << line.place << ' ' << height;
-            EXPECT_LT(std::abs(line.worst), 0.012) << shape.name << ' ' << line.place << ' ' << height;
-            squares += line.rms * line.rms;
-            ++count;
-          }
-        }
+/// What a scene that says nothing of its sky gets, from voxels of a fortieth of the width: courts with walls
+/// along the voxels and turned by 20 degrees. Without evening, or with half of the directions, the RMS is
+/// beyond the bound.
+TEST(Certificate, FloorsAreTrueByDefault) {
+  const auto weighting = Weighting::cosine;
+  const sim::Sky sky = sim::makeSky({.weighting = weighting, .standard_error = SkySpec::kMapError});
+  double squares = 0.0;
+  int count = 0;
+  for (const double turn : {0.0, 20.0}) {
+    for (const double height : {5.0, 10.0, 20.0}) {
+      const auto lines = compareShape(court(10.0, height, turn, 0.25), sky, {weighting}, 0.25, 0);
+      for (const auto& line : lines[0]) {
+        if (line.place.find("floor") == std::string::npos) continue;
+        SCOPED_TRACE(fmt::format("{} {} m high: {}", line.shape, height, line.place));
+        EXPECT_LT(std::abs(line.error()), line.place == "floor" ? 0.0025 : 0.01);
+        EXPECT_LT(std::abs(line.worst), 0.01);
+        squares += line.rms * line.rms;
+        ++count;
       }
     }
-    EXPECT_EQ(count, 18);
-    EXPECT_LT(std::sqrt(squares / count), 0.0025);
   }
+  EXPECT_EQ(count, 12);
+  EXPECT_LT(std::sqrt(squares / count), 0.0025);
 }
 
 /// With so many directions that what is left is the voxels' error.

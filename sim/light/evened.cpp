@@ -11,7 +11,7 @@
 namespace espalier::sim {
 namespace {
 
-constexpr int kReach = 3;         // voxels
+constexpr int kReach = 2;         // voxels
 constexpr float kAlike = 0.995f;  // cosine between normals
 constexpr float kBend = 5.0f;     // standard errors: what bends more is no chance
 

@@ -9,7 +9,7 @@ namespace espalier::sim {
 
 /// What surfaces receive of the sky, evened over their neighbours. A sky of so many directions errs a little
 /// at each place, by chance, and by another chance where the directions meet the edges of what stands there a
-/// little farther along; so the mean over a surface errs less (docs/accuracy.md). Of neighbours up to three
+/// little farther along; so the mean over a surface errs less (docs/accuracy.md). Of neighbours up to two
 /// voxels off in the same plane, with nothing between, opposite pairs count: what rises or falls evenly along
 /// the surface keeps its value, at its edges too. A pair counts where it differs from the surface by no more
 /// than chance makes it: shadows of what is near keep their edges. Equal values stay what they are, exactly.

@@ -42,6 +42,7 @@ class Judge {
       givers_.give(normal, amounts);
       front = {normal, std::accumulate(amounts, amounts + 64 * givers_.words(), std::uint32_t{0})};
     }
+    if (taps.empty()) return {0.0f, givers_.inFull(front.most)};
     // The weights add up to 1 but for rounding: what is missing is counted, so that nothing missing is exact.
     float missing = 0.0f;
     for (const Tap& tap : taps) {

@@ -288,6 +288,22 @@ TEST(SurfaceLight, IsThePlainSum) {
   }
 }
 
+/// A face within a wall of two sheets has nothing in front: it was as bright as open ground.
+TEST(SurfaceLight, WhatHasNoPlaceInFrontIsDark) {
+  const World world = garden();
+  const Sky sky = makeSky({.directions = 64});
+  const Sun sun = makeSun(SunArc{});
+  SurfaceSensors sensors = surfaceSensors(world);
+  sensors.surfaces.push_back(sensors.surfaces.front());
+  sensors.own.push_back({0, 0, 0});
+  const auto open = sweepOpen(world.opaque(), sky.directions, sensors.places);
+  const auto sunny = sweepOpen(world.opaque(), sun.directions, sensors.places);
+  EXPECT_GT(surfaceSky(sensors, open, sky).front(), 0.0f);
+  EXPECT_EQ(surfaceSky(sensors, open, sky).back(), 0.0f);
+  EXPECT_EQ(surfaceSun(sensors, sunny, sun).back(), 0.0f);
+  EXPECT_EQ(surfaceSunHours(sensors, sunny, sun).back(), 0.0f);
+}
+
 TEST(SurfaceLight, IsTheSameOnAnyNumberOfThreads) {
   const World world = garden();
   const Sky sky = makeSky({.directions = 64});

@@ -185,8 +185,10 @@ std::string endOfSummary(const Report& report, const std::filesystem::path& fold
       text += fmt::format("note: '{}' is closed, or nearly, and was filled; solid: false leaves it hollow\n",
                           fill.object);
     } else if (fill.doubtful > 0) {
-      text += fmt::format("note: '{}' leaks; {} of {} voxels inside are doubtful\n", fill.object,
-                          fill.doubtful, fill.filled);
+      text += fmt::format(
+          "note: '{}' leaks: {} of its voxels were filled, and of {} a vote decided whether they lie "
+          "inside\n",
+          fill.object, fill.filled, fill.doubtful);
     }
   }
   std::string stages;

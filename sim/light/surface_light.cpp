@@ -10,6 +10,7 @@
 
 #include "sim/base/parallel.h"
 #include "sim/light/givers.h"
+#include "sim/light/seen_along.h"
 #include "sim/light/sky_shares.h"
 #include "sim/light/surface.h"
 #include "sim/world/field.h"
@@ -18,6 +19,8 @@ namespace espalier::sim {
 namespace {
 
 using Tap = SurfaceSensors::Tap;
+
+constexpr std::size_t kGrain = 8192;  // surfaces that are judged one after the other
 
 /// Judges surfaces one after the other.
 class Judge {
@@ -34,21 +37,21 @@ class Judge {
     float most;      ///< what all directions in front would give
   };
 
+  /// What of the directions with a bit reaches a surface.
+  float of(const std::uint64_t* bits, Vec3f normal) {
+    return givers_.inFull(sumOfSet(bits, before(normal, hashOf(normal)).amounts, givers_.words()));
+  }
+
   Light at(std::span<const Tap> taps, Vec3f normal) {
-    const std::size_t hash = hashOf(normal), slot = hash % kFronts;
-    std::uint32_t* const amounts = amounts_.data() + slot * 64 * givers_.words();
-    Front& front = fronts_[slot];
-    if (front.normal != normal) {
-      givers_.give(normal, amounts);
-      front = {normal, std::accumulate(amounts, amounts + 64 * givers_.words(), std::uint32_t{0})};
-    }
+    const std::size_t hash = hashOf(normal);
+    const Front& front = before(normal, hash);
     if (taps.empty()) return {0.0f, givers_.inFull(front.most)};
     // The weights add up to 1 but for rounding: what is missing is counted, so that nothing missing is exact.
     float missing = 0.0f;
     for (const Tap& tap : taps) {
       Known& known = known_[(tap.place + hash) % kKnown];
       if (known.place != tap.place || known.normal != normal)
-        known = {tap.place, normal, sumOfSet(open_.row(tap.place).data(), amounts, givers_.words())};
+        known = {tap.place, normal, sumOfSet(open_.row(tap.place).data(), front.amounts, givers_.words())};
       missing += tap.weight * givers_.inFull(front.most - known.sum);
     }
     const float most = givers_.inFull(front.most);
@@ -59,13 +62,26 @@ class Judge {
   static constexpr std::size_t kFronts = 64, kKnown = std::size_t{1} << 14;
   struct Front {
     Vec3f normal{0.0f};
-    std::uint32_t most = 0;
+    const std::uint32_t* amounts = nullptr;
+    std::uint32_t most = 0;  ///< what they add up to
   };
   struct Known {
     std::uint32_t place = 0;
     Vec3f normal{0.0f};  ///< no surface's
     std::uint32_t sum = 0;
   };
+
+  /// What the directions before a receiver give.
+  const Front& before(Vec3f normal, std::size_t hash) {
+    const std::size_t slot = hash % kFronts;
+    Front& front = fronts_[slot];
+    if (front.normal != normal) {
+      std::uint32_t* const amounts = amounts_.data() + slot * 64 * givers_.words();
+      givers_.give(normal, amounts);
+      front = {normal, amounts, std::accumulate(amounts, amounts + 64 * givers_.words(), std::uint32_t{0})};
+    }
+    return front;
+  }
 
   static std::size_t hashOf(Vec3f n) {
     std::uint64_t hash = std::bit_cast<std::uint32_t>(n.x);
@@ -86,7 +102,6 @@ template <typename Finish>
 std::vector<float> gathered(const SurfaceSensors& sensors, const OpenTable& open, const Givers& givers,
                             Finish finished) {
   std::vector<float> values(sensors.surfaces.size());
-  constexpr std::size_t kGrain = 8192;
   parallelFor(values.size(), kGrain, [&](std::size_t begin, std::size_t end) {
     Judge judge(open, givers);
     for (std::size_t i = begin; i < end; ++i) {
@@ -97,15 +112,30 @@ std::vector<float> gathered(const SurfaceSensors& sensors, const OpenTable& open
   return values;
 }
 
-/// By scalar amounts, as they are.
+/// By scalar amounts, as they are, of the sun: it is in one place, so that it matters where a surface looks
+/// from.
 std::vector<float> summed(const SurfaceSensors& sensors, const OpenTable& open,
                           const DirectionSet& directions, const std::function<double(std::size_t)>& amount) {
   std::vector<Givers::Amount> amounts;
   for (std::size_t d = 0; d < directions.size(); ++d)
     amounts.push_back({static_cast<float>(amount(d)), 0.0f, 0.0f, 0.0f});
-  return gathered(
-      sensors, open, {directions, amounts, Givers::Along::half},
-      [](const Judge::Light& light, Vec3f) { return std::clamp(light.received, 0.0f, light.most); });
+  const Givers givers(directions, amounts, Givers::Along::half);
+  std::vector<float> values(sensors.surfaces.size());
+  parallelFor(values.size(), kGrain, [&](std::size_t begin, std::size_t end) {
+    Judge judge(open, givers);
+    SeenAlong along(open, directions);
+    for (std::size_t i = begin; i < end; ++i) {
+      const TiledVoxel& tiled = sensors.surfaces[i];
+      const Vec3f normal = tiled.surface.normal;
+      if (const std::uint64_t* const seen = sensors.of(i).empty() ? nullptr : along.from(tiled)) {
+        values[i] = judge.of(seen, normal);
+      } else {
+        const Judge::Light light = judge.at(sensors.of(i), normal);
+        values[i] = std::clamp(light.received, 0.0f, light.most);
+      }
+    }
+  });
+  return values;
 }
 
 }  // namespace

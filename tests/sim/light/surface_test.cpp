@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <optional>
 #include <random>
 
 #include "sim/base/parallel.h"
@@ -244,11 +245,39 @@ TEST(SurfaceSun, AWallInTheSunsPlaneSeesHalfOfTheStep) {
   EXPECT_GT(walls, 200u);
 }
 
+/// Where a surface along an axis looks along a direction from: as far as places lead towards where the ray
+/// from the surface comes through their layer, four voxels at most.
+std::optional<std::size_t> placeAlong(const VoxelSet& places, const TiledVoxel& tiled, Voxel direction) {
+  const Vec3f n = tiled.surface.normal, size = glm::abs(n);
+  const int up = size.y > 0.998f ? 1 : size.x > 0.998f ? 0 : 2;
+  if (size[up] < 0.998f) return std::nullopt;
+  const auto layer = static_cast<int>(std::max(1.0f, std::ceil(tiled.surface.offset_vx + 0.4f)));
+  Voxel place = tiled.voxel;
+  place[up] += n[up] > 0.0f ? layer : -layer;
+  const auto isPlace = [&](Voxel v) { return contains(places.bits().size(), v) && places.has(v); };
+  if (!isPlace(place)) return std::nullopt;
+  Vec3f across(glm::normalize(Vec3(direction)));
+  const float rising = std::max(std::abs(across[up]), 1e-6f);
+  across[up] = 0.0f;
+  const float height = static_cast<float>(layer) - tiled.surface.offset_vx;
+  across *= std::min(height / rising, 4.0f / std::max(glm::length(across), 1e-6f));
+  const Voxel aside(glm::round(across)), before = place;
+  const int steps = std::max({std::abs(aside.x), std::abs(aside.y), std::abs(aside.z)});
+  for (int i = 1; i <= steps; ++i) {
+    const float part = static_cast<float>(i) / static_cast<float>(steps);
+    const Voxel next = before + Voxel(glm::round(Vec3f(aside) * part));
+    if (!isPlace(next)) break;
+    place = next;
+  }
+  return places.number(place);
+}
+
 /// What the tables add up to, in double precision and one by one.
 TEST(SurfaceLight, IsThePlainSum) {
   const World world = garden();
   Sun sun = makeSun(SunArc{});
   const SurfaceSensors sensors = surfaceSensors(world);
+  int along_axes = 0;
   for (const Weighting weighting : kWeightings) {
     const Sky sky = makeSky({.weighting = weighting, .directions = 77});
     const OpenTable open = sweepOpen(world.opaque(), sky.directions, sensors.places);
@@ -274,11 +303,13 @@ TEST(SurfaceLight, IsThePlainSum) {
         const double amount = part * sun.directions[d].weight / 65535.0;
         sun_most += amount;
         hour_most += part * sun.hours[d];
-        for (const auto& tap : sensors.of(i)) {
-          if (!sunny.open(tap.place, d)) continue;
-          sun_sum += tap.weight * amount;
-          hour_sum += part * tap.weight * sun.hours[d];
-        }
+        const auto along = placeAlong(*sensors.places, sensors.surfaces[i], sun.directions[d].v);
+        double open_part = 0.0;
+        for (const auto& tap : sensors.of(i)) open_part += sunny.open(tap.place, d) ? tap.weight : 0.0f;
+        if (along) open_part = sunny.open(*along, d) ? 1.0 : 0.0;
+        along_axes += along ? 1 : 0;
+        sun_sum += open_part * amount;
+        hour_sum += open_part * part * sun.hours[d];
       }
       const double part = most > 0.0 ? std::clamp(sum / most, 0.0, 1.0) : 0.0;
       ASSERT_NEAR(light[i], part * openSky(weighting, normal), 2e-5);
@@ -286,6 +317,7 @@ TEST(SurfaceLight, IsThePlainSum) {
       ASSERT_NEAR(hours[i], std::clamp(hour_sum, 0.0, hour_most), 2e-4);
     }
   }
+  EXPECT_GT(along_axes, 1000);
 }
 
 /// A face within a wall of two sheets has nothing in front: it was as bright as open ground.

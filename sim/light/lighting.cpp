@@ -220,8 +220,9 @@ Lighting lightOf(const World& world, const Sky& sky, const Sun& sun, const Light
   findSky(light, world, sky, wanted, sensors, count);
   {
     const OpenTable open = sweepOpen(world.opaque(), sun.directions, sensors.places);
-    light.sun.values = surfaceSun(sensors, open, sun);
-    light.sun_hours.values = surfaceSunHours(sensors, open, sun);
+    SunOnSurfaces both = sunOnSurfaces(sensors, open, sun);
+    light.sun.values = std::move(both.shares);
+    light.sun_hours.values = std::move(both.hours);
   }
   light.surfaces = std::move(sensors.surfaces);
   light.surfaces.resize(count);

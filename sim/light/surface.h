@@ -63,4 +63,10 @@ std::vector<float> surfaceSun(const SurfaceSensors& sensors, const OpenTable& op
 /// Hours of direct sun.
 std::vector<float> surfaceSunHours(const SurfaceSensors& sensors, const OpenTable& open, const Sun& sun);
 
+/// Both at once.
+struct SunOnSurfaces {
+  std::vector<float> shares, hours;
+};
+SunOnSurfaces sunOnSurfaces(const SurfaceSensors& sensors, const OpenTable& open, const Sun& sun);
+
 }  // namespace espalier::sim

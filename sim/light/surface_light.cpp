@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
-#include <functional>
 #include <numbers>
 #include <numeric>
 
@@ -113,29 +112,42 @@ std::vector<float> gathered(const SurfaceSensors& sensors, const OpenTable& open
 }
 
 /// By scalar amounts, as they are, of the sun: it is in one place, so that it matters where a surface looks
-/// from.
-std::vector<float> summed(const SurfaceSensors& sensors, const OpenTable& open,
-                          const DirectionSet& directions, const std::function<double(std::size_t)>& amount) {
-  std::vector<Givers::Amount> amounts;
-  for (std::size_t d = 0; d < directions.size(); ++d)
-    amounts.push_back({static_cast<float>(amount(d)), 0.0f, 0.0f, 0.0f});
-  const Givers givers(directions, amounts, Givers::Along::half);
-  std::vector<float> values(sensors.surfaces.size());
-  parallelFor(values.size(), kGrain, [&](std::size_t begin, std::size_t end) {
-    Judge judge(open, givers);
+/// from. For each list of amounts the surfaces' values.
+std::vector<std::vector<float>> summed(const SurfaceSensors& sensors, const OpenTable& open,
+                                       const DirectionSet& directions,
+                                       const std::vector<std::vector<double>>& lists) {
+  std::vector<Givers> givers;
+  for (const std::vector<double>& list : lists) {
+    std::vector<Givers::Amount> amounts;
+    for (const double amount : list) amounts.push_back({static_cast<float>(amount), 0.0f, 0.0f, 0.0f});
+    givers.emplace_back(directions, amounts, Givers::Along::half);
+  }
+  std::vector<std::vector<float>> values(lists.size(), std::vector<float>(sensors.surfaces.size()));
+  parallelFor(sensors.surfaces.size(), kGrain, [&](std::size_t begin, std::size_t end) {
+    std::vector<Judge> judges;
+    for (const Givers& each : givers) judges.emplace_back(open, each);
     SeenAlong along(open, directions);
     for (std::size_t i = begin; i < end; ++i) {
       const TiledVoxel& tiled = sensors.surfaces[i];
       const Vec3f normal = tiled.surface.normal;
-      if (const std::uint64_t* const seen = sensors.of(i).empty() ? nullptr : along.from(tiled)) {
-        values[i] = judge.of(seen, normal);
-      } else {
-        const Judge::Light light = judge.at(sensors.of(i), normal);
-        values[i] = std::clamp(light.received, 0.0f, light.most);
+      const std::uint64_t* const seen = sensors.of(i).empty() ? nullptr : along.from(tiled);
+      for (std::size_t list = 0; list < lists.size(); ++list) {
+        if (seen) {
+          values[list][i] = judges[list].of(seen, normal);
+        } else {
+          const Judge::Light light = judges[list].at(sensors.of(i), normal);
+          values[list][i] = std::clamp(light.received, 0.0f, light.most);
+        }
       }
     }
   });
   return values;
+}
+
+std::vector<double> sharesOf(const Sun& sun) {
+  std::vector<double> shares;
+  for (const LatticeDirection& d : sun.directions) shares.push_back(shareOf(d));
+  return shares;
 }
 
 }  // namespace
@@ -167,11 +179,16 @@ std::vector<float> surfaceSky(const SurfaceSensors& sensors, const OpenTable& op
 }
 
 std::vector<float> surfaceSun(const SurfaceSensors& sensors, const OpenTable& open, const Sun& sun) {
-  return summed(sensors, open, sun.directions, [&](std::size_t d) { return shareOf(sun.directions[d]); });
+  return summed(sensors, open, sun.directions, {sharesOf(sun)})[0];
 }
 
 std::vector<float> surfaceSunHours(const SurfaceSensors& sensors, const OpenTable& open, const Sun& sun) {
-  return summed(sensors, open, sun.directions, [&](std::size_t d) { return sun.hours[d]; });
+  return summed(sensors, open, sun.directions, {sun.hours})[0];
+}
+
+SunOnSurfaces sunOnSurfaces(const SurfaceSensors& sensors, const OpenTable& open, const Sun& sun) {
+  auto both = summed(sensors, open, sun.directions, {sharesOf(sun), sun.hours});
+  return {std::move(both[0]), std::move(both[1])};
 }
 
 }  // namespace espalier::sim

@@ -336,6 +336,17 @@ TEST(SurfaceLight, WhatHasNoPlaceInFrontIsDark) {
   EXPECT_EQ(surfaceSunHours(sensors, sunny, sun).back(), 0.0f);
 }
 
+TEST(SurfaceLight, OfTheSunComesBothAtOnceAsEachAlone) {
+  const World world = garden();
+  const Sun sun = makeSun(SunArc{});
+  const SurfaceSensors sensors = surfaceSensors(world);
+  const auto open = sweepOpen(world.opaque(), sun.directions, sensors.places);
+  const SunOnSurfaces both = sunOnSurfaces(sensors, open, sun);
+  EXPECT_EQ(both.shares, surfaceSun(sensors, open, sun));
+  EXPECT_EQ(both.hours, surfaceSunHours(sensors, open, sun));
+  EXPECT_NE(both.shares, both.hours);
+}
+
 TEST(SurfaceLight, IsTheSameOnAnyNumberOfThreads) {
   const World world = garden();
   const Sky sky = makeSky({.directions = 64});

@@ -31,8 +31,8 @@ int certify(const CertifyArguments& arguments) {
     if (!scene) return sayProblems(scene.problems());
     try {
       const scenes::Site site = scenes::makeSiteForLight(*scene);
-      const scenes::Certificate certificate =
-          scenes::certifyWithShapes(site, sim::lightOf(site.world, site.sky), scene->seed);
+      const scenes::Certificate certificate = scenes::certifyWithShapes(
+          site, sim::lightOf(site.world, site.sky, {}, {.faces = false}), scene->seed);
       if (arguments.json) {
         printJson(scenes::toJson(certificate));
       } else {

@@ -260,7 +260,8 @@ std::string accuracyOnMeshes(const std::vector<std::filesystem::path>& meshes) {
       scene.world.resolution = resolution;
       scene.sky.directions = 512;
       const Site site = makeSiteForLight(scene);
-      const auto check = spotCheck(site, sim::lightOf(site.world, site.sky), scene.seed);
+      const auto check =
+          spotCheck(site, sim::lightOf(site.world, site.sky, {}, {.faces = false}), scene.seed);
       if (!check) continue;
       text += fmt::format("| {} | {:.3g} m | {} | {} | {:+.4f} | {:.4f} | {:.4f} | {:.4f} | {} | {:.4f} |\n",
                           file.filename().string(), site.world.frame().voxel_m, resolution, check->points,

@@ -2,11 +2,11 @@
 
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <cmath>
 #include <glm/matrix.hpp>
 
 #include "sim/light/in_plane.h"
+#include "sim/light/lie_alike.h"
 
 namespace espalier::sim {
 namespace {
@@ -119,13 +119,6 @@ void appendTaps(const Places& places, Vec3f normal, float offset, std::vector<Ta
   }
 }
 
-std::size_t hashOf(const Surface& surface) {
-  std::uint64_t hash = std::bit_cast<std::uint32_t>(surface.offset_vx);
-  for (int axis = 0; axis < 3; ++axis)
-    hash = hash * 0x9e3779b97f4a7c15u + std::bit_cast<std::uint32_t>(surface.normal[axis]);
-  return static_cast<std::size_t>((hash * 0x9e3779b97f4a7c15u) >> 32);
-}
-
 /// 64 bits of a row from a voxel on, zeros before it and behind it.
 std::uint64_t bitsFrom(const BitVolume& volume, Voxel from) {
   const std::uint64_t* const row = volume.row(from.y, from.z) + (from.x >> 6);
@@ -151,7 +144,7 @@ std::uint32_t PlacesBefore::appendPlainly(const TiledVoxel& tiled, std::vector<T
 std::uint32_t PlacesBefore::append(const TiledVoxel& tiled, std::vector<Tap>& taps) {
   const Surface& surface = tiled.surface;
   Pattern& pattern = patterns_[hashOf(surface) % kPatterns];
-  if (pattern.surface.normal != surface.normal || pattern.surface.offset_vx != surface.offset_vx) {
+  if (!lieAlike(pattern.surface, surface)) {
     pattern.surface = surface;  // most on curved surfaces are met only once
     pattern.known = false;
     return appendPlainly(tiled, taps);

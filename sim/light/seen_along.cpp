@@ -1,10 +1,10 @@
 #include "sim/light/seen_along.h"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 
 #include "sim/light/in_plane.h"
+#include "sim/light/lie_alike.h"
 
 namespace espalier::sim {
 namespace {
@@ -13,13 +13,6 @@ constexpr float kAlongAxis = 0.998f;  // cosine: surfaces that have no stairs
 constexpr float kLayer = 0.4f;        // so high is the layer of places, in voxel widths, at least
 constexpr float kFarthest = 4.0f;     // so far aside a low ray is followed: beyond, layers hide each other
 constexpr std::size_t kKept = 64;
-
-std::size_t slotOf(const Surface& surface) {
-  std::uint64_t hash = std::bit_cast<std::uint32_t>(surface.offset_vx);
-  for (int axis = 0; axis < 3; ++axis)
-    hash = hash * 0x9e3779b97f4a7c15u + std::bit_cast<std::uint32_t>(surface.normal[axis]);
-  return static_cast<std::size_t>((hash * 0x9e3779b97f4a7c15u) >> 32) % kKept;
-}
 
 }  // namespace
 
@@ -31,8 +24,8 @@ SeenAlong::SeenAlong(const OpenTable& open, const DirectionSet& directions)
 const std::uint64_t* SeenAlong::from(const TiledVoxel& tiled) {
   const Surface& surface = tiled.surface;
   if (std::abs(surface.normal[longestAxis(surface.normal)]) < kAlongAxis) return nullptr;
-  Rays& rays = rays_[slotOf(surface)];
-  if (rays.surface.normal != surface.normal || rays.surface.offset_vx != surface.offset_vx) {
+  Rays& rays = rays_[hashOf(surface) % kKept];
+  if (!lieAlike(rays.surface, surface)) {
     rays.surface = surface;
     find(rays);
   }

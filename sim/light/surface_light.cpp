@@ -2,13 +2,13 @@
 // normal and read the same places, so what directions give to a normal, and what a place gives, is kept for a
 // while.
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <numbers>
 #include <numeric>
 
 #include "sim/base/parallel.h"
 #include "sim/light/givers.h"
+#include "sim/light/lie_alike.h"
 #include "sim/light/seen_along.h"
 #include "sim/light/sky_shares.h"
 #include "sim/light/surface.h"
@@ -80,13 +80,6 @@ class Judge {
       front = {normal, amounts, std::accumulate(amounts, amounts + 64 * givers_.words(), std::uint32_t{0})};
     }
     return front;
-  }
-
-  static std::size_t hashOf(Vec3f n) {
-    std::uint64_t hash = std::bit_cast<std::uint32_t>(n.x);
-    hash = hash * 0x9e3779b97f4a7c15u + std::bit_cast<std::uint32_t>(n.y);
-    hash = hash * 0x9e3779b97f4a7c15u + std::bit_cast<std::uint32_t>(n.z);
-    return static_cast<std::size_t>((hash * 0x9e3779b97f4a7c15u) >> 32);
   }
 
   const OpenTable& open_;

@@ -12,12 +12,10 @@ namespace espalier::sim {
 namespace {
 
 // How places are chosen, in voxel widths. Found by trying (docs/decisions.md).
-constexpr float kClear = 0.4f;     // of |n.x| + |n.y| + |n.z|: above this height the stairs of a slanting
-                                   // surface hide almost nothing; the stairs' tips reach up to a half of it
-constexpr float kLoose = 0.1f;     // height that must do in narrow gaps
-constexpr float kDepth = 2.0f;     // from the lowest to the highest place
-constexpr float kRadius = 1.4f;    // places lie so near to the normal
-constexpr float kDamping = 0.02f;  // added to the heights' variance, which may be little
+constexpr float kLoose = 0.1f;         // height that must do in narrow gaps
+constexpr float kDepth = 2.0f;         // from the lowest to the highest place
+constexpr float kRadius = 1.4f;        // places lie so near to the normal
+constexpr float kDamping = 0.02f;      // added to the heights' variance, which may be little
 constexpr float kDampingAside = 0.4f;  // and to that along the surface
 
 using Tap = SurfaceSensors::Tap;

@@ -7,6 +7,10 @@
 // Internal to the room: from which free places a surface is judged (sim/light/surface.h).
 namespace espalier::sim {
 
+/// Places stand so high above a surface, in voxel widths, times |n.x| + |n.y| + |n.z| of its normal: there
+/// the stairs of a slanting surface, whose tips reach up to a half of it, hide almost nothing.
+inline constexpr float kClear = 0.4f;
+
 inline constexpr int kWayBits = 5, kWayZero = 1 << (kWayBits - 1);
 
 /// Until all places are known, a tap's place is the way from the surface's voxel to it.

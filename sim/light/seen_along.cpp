@@ -5,12 +5,12 @@
 
 #include "sim/light/in_plane.h"
 #include "sim/light/lie_alike.h"
+#include "sim/light/places_before.h"
 
 namespace espalier::sim {
 namespace {
 
 constexpr float kAlongAxis = 0.998f;  // cosine: surfaces that have no stairs
-constexpr float kLayer = 0.4f;        // so high is the layer of places, in voxel widths, at least
 constexpr float kFarthest = 4.0f;     // so far aside a low ray is followed: beyond, layers hide each other
 constexpr std::size_t kKept = 64;
 
@@ -54,7 +54,7 @@ const std::uint64_t* SeenAlong::from(const TiledVoxel& tiled) {
 void SeenAlong::find(Rays& rays) const {
   const int up = longestAxis(rays.surface.normal);
   const float side = rays.surface.normal[up] > 0.0f ? 1.0f : -1.0f;
-  const float layer = std::max(1.0f, std::ceil(rays.surface.offset_vx + kLayer));
+  const float layer = std::max(1.0f, std::ceil(rays.surface.offset_vx + kClear));
   const float height = layer - rays.surface.offset_vx;
   rays.before = Voxel(0);
   rays.before[up] = static_cast<int>(side * layer);

@@ -198,7 +198,9 @@ void PieceGrid::gather(const LatticeBox& box, std::uint32_t from, int but, Nearb
   nearby.clear();
   nearby.grid_ = this;
   const CellBox wanted = cellsOf(box);
-  std::vector<std::uint32_t> listed_by_parts;
+  // All of the cells first: pieces lie anywhere in memory, and are waited for together.
+  auto& listed = nearby.listed_;
+  listed.clear();
   forEachCell(wanted.low, wanted.high, [&](Voxel cell) {
     const std::uint32_t block = block_of_[indexIn(blocks_, cell / 2)];
     if (block == 0) return;
@@ -207,29 +209,34 @@ void PieceGrid::gather(const LatticeBox& box, std::uint32_t from, int but, Nearb
       for (std::size_t i = numbers.size(); i-- > 0;) {
         if (numbers[i] == 0) continue;
         if (numbers[i] <= from) return;  // the older ones too
-        const Piece& piece = pieces_[numbers[i] - 1];
-        const LatticeBox bounds = boxOf(piece.a, piece.b);
-        if (!meet(bounds, box)) continue;
-        if (piece.part > 0 && but >= 0 && kinds_[static_cast<std::size_t>(piece.part)].plant == but) continue;
-        // Each once: in the first cell that it shares with the box.
-        if ((piece.data & kByParts) == 0) {
-          if (cell != glm::max(cellAt(bounds.low), wanted.low)) continue;
-        } else {
-          if (std::find(listed_by_parts.begin(), listed_by_parts.end(), numbers[i]) != listed_by_parts.end())
-            continue;
-          listed_by_parts.push_back(numbers[i]);
-        }
-        if (piece.part < 0) {
-          nearby.limb_bounds_.emplace_back(bounds);
-          nearby.limbs_.push_back(
-              {piece.a, piece.b, -piece.part, static_cast<std::int32_t>(piece.data & ~kByParts)});
-        } else {
-          nearby.body_bounds_.emplace_back(bounds);
-          nearby.bodies_.push_back({{}, numbers[i]});
-        }
+        __builtin_prefetch(&pieces_[numbers[i] - 1]);
+        listed.push_back({cell, numbers[i]});
       }
     }
   });
+  std::vector<std::uint32_t> listed_by_parts;
+  for (const auto& [cell, number] : listed) {
+    const Piece& piece = pieces_[number - 1];
+    const LatticeBox bounds = boxOf(piece.a, piece.b);
+    if (!meet(bounds, box)) continue;
+    if (piece.part > 0 && but >= 0 && kinds_[static_cast<std::size_t>(piece.part)].plant == but) continue;
+    // Each once: in the first cell that it shares with the box.
+    if ((piece.data & kByParts) == 0) {
+      if (cell != glm::max(cellAt(bounds.low), wanted.low)) continue;
+    } else {
+      if (std::find(listed_by_parts.begin(), listed_by_parts.end(), number) != listed_by_parts.end())
+        continue;
+      listed_by_parts.push_back(number);
+    }
+    if (piece.part < 0) {
+      nearby.limb_bounds_.emplace_back(bounds);
+      nearby.limbs_.push_back(
+          {piece.a, piece.b, -piece.part, static_cast<std::int32_t>(piece.data & ~kByParts)});
+    } else {
+      nearby.body_bounds_.emplace_back(bounds);
+      nearby.bodies_.push_back({{}, number});
+    }
+  }
 }
 
 }  // namespace espalier::sim

@@ -83,6 +83,12 @@ class Nearby {
     std::uint32_t first = 0, last = 0;  // of facets_, once it is open
   };
 
+  // A piece of the grid, as a cell lists it.
+  struct Listed {
+    Voxel cell;
+    std::uint32_t number;
+  };
+
   static bool apart(const Bounds& a, const Bounds& b);
   static bool apart(const Slab& slab, std::span<const Facet> facets);
   static bool apart(const Slab& slab, const Facets& element);
@@ -91,6 +97,7 @@ class Nearby {
   bool cross(const Body& body, bool near) const;
 
   const PieceGrid* grid_ = nullptr;
+  std::vector<Listed> listed_;
   std::vector<Bounds> limb_bounds_;
   std::vector<Limb> limbs_;
   std::vector<Bounds> body_bounds_;

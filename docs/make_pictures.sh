@@ -51,6 +51,14 @@ done
 oiiotool $work/kept_{12,25,51}/vines.png --mosaic:pad=8 3x1 -o $work/kept_growth.png
 small $work/kept_growth.png kept_growth 1040
 
+grow scenes/library/tendril.yaml
+oiiotool $work/tendril/sky_tables.png --resize 0x960 $work/tendril/vines.png --resize 0x960 --mosaic:pad=8 2x1 -o $work/tendril.png
+small $work/tendril.png tendril 1400
+grow scenes/library/clusters.yaml
+small $work/clusters/vines.png clusters 960
+grow scenes/library/gable.yaml
+small $work/gable/gable.png gable 1200
+
 grow scenes/library/w_dome.yaml
 small $work/w_dome/steps.png colonization_steps 1600
 small $work/w_dome/vines.png w_dome 960

@@ -34,6 +34,31 @@ std::optional<sim::RandomSky> randomSky(const SkySpec& spec, std::uint64_t seed)
   return sim::RandomSky{spec.rays, seed};
 }
 
+sim::Background backgroundOf(const SkySpec& spec, const std::optional<sim::SkyPicture>& picture,
+                             const sim::DirectionSet& sun) {
+  using Kind = BackgroundSpec::Kind;
+  const auto sky = [&]() -> sim::Background {
+    switch (spec.background.kind) {
+      case Kind::weighting:
+        return sim::backgroundOf(spec.weighting);
+      case Kind::uniform:
+        return sim::backgroundOf(sim::Weighting::uniform);
+      case Kind::cie_overcast:
+        return sim::backgroundOf(sim::Weighting::cie_overcast);
+      case Kind::gradient:
+        return sim::gradient(spec.background.horizon);
+      case Kind::picture:
+        return sim::pictured(picture.value(), spec.background.turn_deg);
+    }
+    return sim::backgroundOf(spec.weighting);
+  };
+  return sim::withBand(sky(), sun, spec.background.sun);
+}
+
+sim::SkyTable skyTableOf(const sim::Background& background) {
+  return sim::makeSkyTable(9, 36, background);
+}
+
 sim::Sun makeSun(const SunSpec& spec) {
   return spec.place ? sim::makeSun(realSun(spec)) : sim::makeSun(arc(spec));
 }

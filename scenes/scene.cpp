@@ -46,6 +46,8 @@ std::string_view nameOf(ImageKind kind) {
       return "graph";
     case ImageKind::field:
       return "field";
+    case ImageKind::sky_tables:
+      return "sky_tables";
     case ImageKind::narrow_band:
       return "narrow_band";
     case ImageKind::contact_sheet:

@@ -16,6 +16,7 @@
 #include "scenes/problem.h"
 #include "sim/base/provenance.h"
 #include "sim/base/vec.h"
+#include "sim/light/background.h"
 #include "sim/light/sky.h"
 #include "sim/light/sun.h"
 
@@ -53,6 +54,10 @@ struct SceneMesh {
   std::optional<bool> solid;                      ///< fill the inside; unset: where the mesh is closed
   bool tiled = true;      ///< false: no part of the world, a shape for attractors alone
   bool optional = false;  ///< a missing file skips the scene instead of being an error
+  /// In place of a file, or an .obj file without faces: polylines; one of a single place is a point.
+  std::vector<std::vector<sim::Vec3>> lines_m;
+  double thickness_m = 0.02;  ///< of lines and points as they are drawn
+  bool guide = false;         ///< is felt and stands in nobody's way (sim::TiledMesh)
   Placement placement;
   std::optional<sim::Colour> colour;  ///< instead of the file's materials; linear RGB
   Place place = {};                   ///< where a scene file has it; without a path where none does
@@ -71,6 +76,19 @@ struct WorldSpec {
 /// rays from each place.
 enum class Sampling { lattice, random };
 
+/// What the sky is behind what a plant sees of it that turns to the light.
+struct BackgroundSpec {
+  enum class Kind { weighting, uniform, cie_overcast, gradient, picture };
+
+  Kind kind = Kind::weighting;  ///< weighting: what the sky's own means
+  double horizon = 0.3;         ///< of a gradient: brightness there, over that of the zenith
+  std::filesystem::path file;   ///< of a picture
+  std::string told;             ///< what reports call it
+  double turn_deg = 0.0;        ///< the compass way of the picture's middle: 0 = -z, 90 = +x
+  sim::SunBand sun;
+  Place file_place = {};  ///< where a scene file names the picture; without a path where none does
+};
+
 struct SkySpec {
   static constexpr double kMapError = 0.003, kGrowthError = 0.005;
 
@@ -81,6 +99,7 @@ struct SkySpec {
   std::optional<int> directions;  ///< instead
   Sampling sampling = Sampling::lattice;
   int rays = 100;  ///< from each place, of random sampling
+  BackgroundSpec background;
 };
 
 /// Where on earth a real sun shines. (Not inside SunSpec: an optional of a struct that the struct around it
@@ -225,6 +244,7 @@ enum class ImageKind {
   graph,        // the plants' out-trees as lines
   field,        // a guide field as arrows
   narrow_band,  // a cut through the level set of a mesh
+  sky_tables,   // what a limb's tips saw of the sky (Greene's figure 7)
   contact_sheet
 };
 
@@ -235,7 +255,7 @@ struct ImageSpec {
   std::string name;  ///< file name without an ending
   ImageKind kind = ImageKind::vines;
   std::string camera;  ///< empty: the first one
-  std::string plant;   ///< threshold: whose it is; empty: that of the first one
+  std::string plant;   ///< threshold, sky_tables: whose it is; empty: that of the first one
   std::string caption;
   std::string letter;            ///< on a contact sheet; empty: A, B, C .. in order
   char axis = 'y';               ///< section, narrow_band: which way the cut looks
@@ -244,7 +264,11 @@ struct ImageSpec {
   std::string field;             ///< field: which of the fields; empty: the first one
   std::optional<int> iteration;  ///< points, graph: what stands after so many iterations; without: at the end
   std::vector<std::string> of;   ///< contact_sheet: names of the images on it, in order
+  std::vector<std::string> show{"scene", "stems", "elements"};  ///< vines: what of it; kImageParts
 };
+
+/// What images of vines may show.
+inline constexpr std::array<std::string_view, 4> kImageParts{"scene", "stems", "elements", "guides"};
 
 /// A region that a rule file names, and where.
 struct RegionMention {

@@ -35,6 +35,11 @@ struct Oiio {
   Texels (*read_png)(const std::string& bytes, int most_pixels, int most_side);
   /// The same of a JPEG's.
   Texels (*read_jpeg)(const std::string& bytes, int most_pixels, int most_side);
+  /// The first picture of an EXR, HDR, PNG or JPEG file by its first one or three channels, rows from the
+  /// top; `display` where its values are display values (sRGB), and not linear. Its size is judged before any
+  /// pixel is read: it must be twice as wide as high. On the calling thread alone, and for a process of its
+  /// own: what it sets for OpenEXR stays set.
+  Image (*read_panorama)(const std::string& path, int most_pixels, bool& display);
   /// Nothing where the font is not installed.
   std::optional<TextBox> (*text_box)(const std::string& ascii, int size_px, const char* font);
   /// Draws white letters into a picture of one channel.

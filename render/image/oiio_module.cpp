@@ -102,6 +102,27 @@ Texels readJpeg(const std::string& bytes, int most_pixels, int most_side) {
   return readAs({"JPEG", "jpeg", {"\xff\xd8\xff", 3}}, bytes, most_pixels, most_side);
 }
 
+Image readPanorama(const std::string& path, int most_pixels, bool& display) {
+  OIIO::attribute("exr_threads", -1);
+  const std::unique_ptr<OIIO::ImageInput> in = OIIO::ImageInput::open(path);
+  if (!in) throw sim::InputError(fmt::format("no picture that can be read ({})", OIIO::geterror()));
+  in->threads(1);
+  const OIIO::ImageSpec spec = in->spec();
+  if (spec.width < 1 || spec.height < 1 || spec.depth > 1 || spec.width > most_pixels / spec.height)
+    throw sim::InputError(fmt::format("it has {} x {} pixels; expected {} in all at most", spec.width,
+                                      spec.height, most_pixels));
+  if (spec.width != 2 * spec.height)
+    throw sim::InputError(
+        fmt::format("it is {} x {} pixels; expected twice as wide as high: a picture all around "
+                    "by latitude and longitude",
+                    spec.width, spec.height));
+  Image read(spec.width, spec.height, spec.nchannels < 3 ? 1 : 3);
+  if (!in->read_image(0, 0, 0, read.channels, OIIO::TypeDesc::FLOAT, read.pixels.data()))
+    throw sim::InputError(fmt::format("the file is damaged or cut ({})", in->geterror()));
+  display = spec.format == OIIO::TypeDesc::UINT8 || spec.format == OIIO::TypeDesc::UINT16;
+  return read;
+}
+
 std::string exr(const Image& measured, const std::vector<std::string>& channels, const Metadata& texts) {
   const bool colour = !channels.empty() && channels.front() == "R";
   OIIO::ImageSpec spec = specOf(measured, colour ? OIIO::TypeDesc::HALF : OIIO::TypeDesc::FLOAT);
@@ -169,7 +190,8 @@ std::vector<sim::Colour> colourMap(const std::string& name, int entries) {
 }  // namespace espalier::render
 
 extern "C" const espalier::render::Oiio espalierOiio;
-const espalier::render::Oiio espalierOiio{
-    espalier::render::png,      espalier::render::exr,     espalier::render::readPng,
-    espalier::render::readJpeg, espalier::render::textBox, espalier::render::text,
-    espalier::render::paste,    espalier::render::resize,  espalier::render::colourMap};
+const espalier::render::Oiio espalierOiio{espalier::render::png,          espalier::render::exr,
+                                          espalier::render::readPng,      espalier::render::readJpeg,
+                                          espalier::render::readPanorama, espalier::render::textBox,
+                                          espalier::render::text,         espalier::render::paste,
+                                          espalier::render::resize,       espalier::render::colourMap};

@@ -127,8 +127,11 @@ std::vector<Vec3> keepRingsApart(std::vector<TubeStation>& line,
   std::vector<Vec3> along = chordsOverThickness(line);
   std::vector<std::size_t> kept{0};
   const std::size_t last = line.size() - 1;
+  // Rings that lie beyond each other's reach stay, however the line turns between them: else all that follows
+  // a sharp bend would be left out.
   const auto apart = [&](std::size_t a, std::size_t b) {
-    return shareApart(line[a], along[a], line[b], along[b]) >= 1.0;
+    return shareApart(line[a], along[a], line[b], along[b]) >= 1.0 ||
+           glm::distance(line[a].centre_m, line[b].centre_m) > line[a].radius_m + line[b].radius_m;
   };
   for (std::size_t i = 1; i < last; ++i) {
     if (apart(kept.back(), i)) kept.push_back(i);

@@ -10,10 +10,34 @@ namespace {
 
 using sim::Outcome;
 
+/// Whether the limb that ends here has as many segments near one region as a set lets it have.
+bool stayedTooLong(const sim::SiteView& view, const sim::Site& site, const RuleSet& rules) {
+  if (rules.require.in_region_max == kNoAge) return false;
+  const sim::Skeleton& skeleton = view.plant.skeleton;
+  const auto regionAt = [&](sim::NodeId node) -> const std::string* {
+    const auto near =
+        view.world.nearnessAt(sim::voxelAt(skeleton.position_vx[static_cast<std::size_t>(node)]));
+    return near ? &view.world.part(near->part).region : nullptr;
+  };
+  const std::string* const here = regionAt(site.node);
+  if (here == nullptr) return false;
+  int segments = 0;
+  for (sim::NodeId node = skeleton.parent[static_cast<std::size_t>(site.node)];
+       node != sim::kNoNode && segments < rules.require.in_region_max;
+       node = skeleton.parent[static_cast<std::size_t>(node)]) {
+    const std::string* const there = regionAt(node);
+    if (there == nullptr || *there != *here) break;
+    ++segments;
+  }
+  return segments >= rules.require.in_region_max;
+}
+
 /// Why a set does not grow here; grown if it does, and then the proposal says what.
 Outcome tryToGrow(const sim::SiteView& view, const RuleSet& rules, const sim::Site& site,
                   const sim::RandomKey& key, unsigned set, const RuleBook& book, int order, const Step& step,
                   sim::Proposal& proposal) {
+  if (view.iteration < rules.require.age_min) return Outcome::resting;
+  if (view.iteration > rules.require.age_max || stayedTooLong(view, site, rules)) return Outcome::forbidden;
   const Exposure seen = seenAt(view);
   const Vigour light = vigourOf(seen, rules);
   if (light.exposure < rules.require.exposure_min) return Outcome::too_dark;

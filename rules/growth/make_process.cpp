@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "rules/growth/book_site.h"
 #include "rules/growth/buds.h"
 #include "rules/growth/colonization.h"
@@ -28,7 +30,11 @@ void requireOneWayOfGrowing(const RuleBook& book) {
 /// Greene's tree-structured random walk, from buds.
 class WalkProcess final : public sim::Process {
  public:
-  explicit WalkProcess(RuleBook book) : book_(std::move(book)), wants_(wantsOf(book_)) {}
+  explicit WalkProcess(RuleBook book) : book_(std::move(book)), wants_(wantsOf(book_)) {
+    forEachSet(book_.top(), [&](const RuleSet& set, const std::string&) {
+      most_limbs_ = std::max(most_limbs_, static_cast<std::uint32_t>(set.random_tree.fork_max));
+    });
+  }
 
   sim::Wants wants() const override { return wants_; }
   sim::Plant seedling() const override { return seedlingOf(book_); }
@@ -56,12 +62,9 @@ class WalkProcess final : public sim::Process {
                       [&](const RuleSet& rules, const Surroundings& around, const Senses& senses,
                           unsigned set, sim::Proposal& counts) {
                         grew_by = &rules.random_tree;
-                        return bestStep(view, rules, around, senses, key, set, counts);
+                        return stepBy(view, rules, around, senses, key, set, counts);
                       });
-    if (proposal.outcome == Outcome::grown) {
-      sim::Draws age(key, sim::Purpose::branch_age);
-      proposal.sprouts = {{0, 1}, {1, age.whole(grew_by->branch_age_min, grew_by->branch_age_max)}};
-    }
+    if (proposal.outcome == Outcome::grown) proposal.sprouts = sproutsOf(*grew_by, key);
     const bool seed = view.plant.skeleton.parent[static_cast<std::size_t>(site.node)] == sim::kNoNode;
     // A seed that found no way may find one in the next iteration, by other trials; without it there is no
     // plant.
@@ -71,8 +74,30 @@ class WalkProcess final : public sim::Process {
   }
 
  private:
+  bool forks() const { return most_limbs_ > 1; }
+
+  std::optional<Candidate> stepBy(const sim::SiteView& view, const RuleSet& rules, const Surroundings& around,
+                                  const Senses& senses, const sim::RandomKey& key, unsigned set,
+                                  sim::Proposal& counts) const {
+    if (rules.random_tree.fork_max > 1) return forkStep(view, rules, around, senses, key, set, counts);
+    if (forks() && key.number > 0) return std::nullopt;  // a limb of a fork that this set does not make
+    return bestStep(view, rules, around, senses, key, set, counts);
+  }
+
+  /// A tip of a plant that forks has a site for each limb that it may lay down.
+  std::vector<sim::Sprout> sproutsOf(const RandomTree& grew_by, const sim::RandomKey& key) const {
+    if (!forks()) {
+      sim::Draws age(key, sim::Purpose::branch_age);
+      return {{0, 1}, {1, age.whole(grew_by.branch_age_min, grew_by.branch_age_max)}};
+    }
+    std::vector<sim::Sprout> sprouts;
+    for (std::uint32_t limb = 0; limb < most_limbs_; ++limb) sprouts.push_back({limb, 1});
+    return sprouts;
+  }
+
   RuleBook book_;
   sim::Wants wants_;
+  std::uint32_t most_limbs_ = 1;
 };
 
 std::shared_ptr<const sim::Process> made(RuleBook book) {

@@ -38,12 +38,11 @@ void record(const RuleSet& rules, const Surroundings& around, const sim::Offsets
   }
 }
 
-/// The voxels that segments of a set may reach along any axis.
+}  // namespace
+
 int reachOf(const Ways& ways) {
   return static_cast<int>(std::max(ways.length_vx.low, ways.length_vx.low + ways.length_vx.span)) + 1;
 }
-
-}  // namespace
 
 Outcome judged(const RuleSet& rules, double proximity_vx) {
   if (proximity_vx > rules.require.proximity_max.number) return Outcome::too_far;

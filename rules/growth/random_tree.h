@@ -23,6 +23,9 @@ struct Candidate {
   double proximity_vx = 0.0;                    ///< mean distance from the scene along it
 };
 
+/// The voxels that segments of a set may reach along any axis.
+int reachOf(const Ways& ways);
+
 /// What the rules say to a segment that has room.
 sim::Outcome judged(const RuleSet& rules, double proximity_vx);
 
@@ -44,6 +47,13 @@ std::optional<Candidate> bestTrial(const sim::SiteView& view, const RuleSet& rul
 /// Greene's walk: the same for a tip or a side under one rule set. `set` numbers the rule sets that one site
 /// tries, from 0.
 std::optional<Candidate> bestStep(const sim::SiteView& view, const RuleSet& rules, const Surroundings& around,
+                                  const Senses& senses, const sim::RandomKey& key, unsigned set,
+                                  sim::Proposal& proposal);
+
+/// One of the segments that a tip lays at once, as the rule set's `fork` says: that of the site's number,
+/// each number a site of its own. All of a tip's sites make the same trials, and take the best of them, then
+/// the best of those that lie far enough from it, and so on; none grows where there are fewer than the least.
+std::optional<Candidate> forkStep(const sim::SiteView& view, const RuleSet& rules, const Surroundings& around,
                                   const Senses& senses, const sim::RandomKey& key, unsigned set,
                                   sim::Proposal& proposal);
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <iterator>
 
+#include "rules/growth/apices.h"
 #include "sim/sense/mass.h"
 #include "sim/sense/proximity.h"
 #include "sim/tile/tiling.h"
@@ -78,6 +79,14 @@ Senses sense(const sim::SiteView& view, const Surroundings& around, const Vigour
   if (highest(rules.bias.twist) != 0.0 || lowest(rules.bias.twist) != 0.0) {
     const auto mass = sim::centreOfMass(view.world.occupied(), around.voxel, rules.bias.twist_radius.number);
     if (mass) senses.twist = unitOrZero(glm::cross(around.heading, *mass - around.at_vx));
+  }
+  if (highest(rules.bias.apex) != 0.0 || lowest(rules.bias.apex) != 0.0)
+    senses.apex = towardApex(view, around, rules.bias.apex_of);
+  for (std::size_t i = 0; i < rules.bias.towards.size(); ++i) {
+    const PullSpec& pull = rules.bias.towards[i];
+    senses.towards[i] =
+        unitOrZero(pull.direction ? *pull.direction
+                                  : sim::voxelFromWorld(view.world.frame(), *pull.point_m) - around.at_vx);
   }
   senses.circumstance = {senses.exposure, static_cast<double>(view.iteration),
                          around.at_vx.y * view.world.frame().voxel_m};

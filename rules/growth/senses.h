@@ -1,4 +1,5 @@
 #pragma once
+#include <array>
 #include <vector>
 
 #include "rules/language/rule_set.h"
@@ -33,9 +34,11 @@ struct Senses {
   /// Unit, normal to the plane through the heading and the local centre of mass; zero without a twist, at a
   /// seed, and where nothing stands near.
   sim::Vec3 twist{0.0};
-  double exposure = 0.0;      ///< blended
-  double vigour = 1.0;        ///< growth rate over that at the least exposure: 1 .. boost
-  Circumstance circumstance;  ///< what the rule set's values may depend on
+  sim::Vec3 apex{0.0};  ///< unit, to the nearest apex that `bias.apex` means; zero where there is none
+  std::array<sim::Vec3, kMostPulls> towards{};  ///< unit, as `bias.towards` has them
+  double exposure = 0.0;                        ///< blended
+  double vigour = 1.0;                          ///< growth rate over that at the least exposure: 1 .. boost
+  Circumstance circumstance;                    ///< what the rule set's values may depend on
 };
 
 Exposure exposureOf(const sim::Light& light);

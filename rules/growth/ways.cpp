@@ -116,8 +116,9 @@ HWY_INLINE Direction leaning(const Axes& to, F along, F across, F turn) {
 struct Numbers {
   const Ways& ways;
   hn::Vec<Words> trials;
-  sim::HWY_NAMESPACE::FourNumbers<Words> four[3];
-  bool drawn[3] = {};
+  static constexpr std::size_t kBlocks = (kTrialSlots + 3) / 4;
+  sim::HWY_NAMESPACE::FourNumbers<Words> four[kBlocks];
+  bool drawn[kBlocks] = {};
 
   HWY_INLINE F uniform(TrialSlot slot) {
     const auto number = static_cast<unsigned>(slot), block = number / 4;
@@ -224,16 +225,15 @@ Ways waysOf(const RuleSet& rules, const Surroundings& around, const Senses& sens
   ways.numbers = sim::philoxInput(key, sim::Purpose::trial, set);
   if (around.heading == sim::Vec3(0.0)) {
     // A seed has no way of its own yet: a shoot makes for the open above, or along the wall that it stands
-    // at.
+    // at; and where neither is to be had, along whatever there is.
     ways.wander_deg = {60.0f, 0.0f};
-    ways.narrow = tree.trials_max;
   } else {
     ways.axis = sim::Vec3f(around.heading);
     ways.branch = key.number != 0;
     ways.side_angle_deg = spreadOf(tree.branch_angle_deg, senses.circumstance);
     ways.wander_deg = spreadOf(tree.wander_deg, senses.circumstance);
-    ways.narrow = tree.trials_min;
   }
+  ways.narrow = tree.trials_min;
   ways.widest = tree.trials_max;
   ways.length_vx = spreadOf(tree.length.value, senses.circumstance);
   bendBy(rules, around, senses, world_size, ways);
@@ -253,6 +253,10 @@ void bendBy(const RuleSet& rules, const Surroundings& around, const Senses& sens
   pull(around.away, rules.bias.away, TrialSlot::away);
   pull(-around.away, rules.bias.toward, TrialSlot::toward);
   pull(senses.twist, rules.bias.twist, TrialSlot::twist);
+  pull(senses.apex, rules.bias.apex, TrialSlot::apex);
+  for (std::size_t i = 0; i < rules.bias.towards.size(); ++i)
+    pull(senses.towards[i], rules.bias.towards[i].amount,
+         static_cast<TrialSlot>(static_cast<std::size_t>(TrialSlot::towards) + i));
   for (int axis = 0; axis < 3; ++axis) ways.flat[static_cast<std::size_t>(axis)] = world_size[axis] == 1;
 }
 

@@ -150,6 +150,8 @@ std::string expectation(const Key& key) {
           "a list of polygons, each a list of points [x, y, z]{}, all numbers or all lengths such as \"2 "
           "cm\"",
           inUnit(key));
+    case Kind::lines:
+      return fmt::format("a list of lines, each a list of points [x, y, z]{}", inUnit(key));
     case Kind::choice:
       return fmt::format("one of {}", fmt::join(key.choices, ", "));
     case Kind::date:

@@ -38,6 +38,7 @@ enum class Kind {
   pairs,        ///< Pairs: a list of [a, b], both numbers; the limits are of b
   outline,      ///< Pairs: the same, each number as in `metres`
   polygons,     ///< Polygons: a list of them, each a list of points [x, y, z], each as in `distance`
+  lines,        ///< Polygons, in metres: a list of lines, each a list of places
   choice,       ///< one of a few words
   name,         ///< a word that may become part of a file name
   text,         ///< any text of one line

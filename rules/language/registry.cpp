@@ -50,6 +50,13 @@ std::shared_ptr<const Table> randomTreeKeys() {
               .meaning = "A trial's direction lies within this angle of the way that the limb was going."})
       .section("trials", std::identity{}, trials,
                {.meaning = "How hard a tip tries to find a place for its next segment."})
+      .wholeRange("fork", &RandomTree::fork_min, &RandomTree::fork_max,
+                  {.unit = "segments",
+                   .limits = {1.0, 8.0},
+                   .meaning = "Segments that a tip lays at once; with more than 1 anywhere, nothing "
+                              "branches at its side."})
+      .number("fork_angle", &RandomTree::fork_angle_deg,
+              {.unit = kDegrees, .limits = kAngle, .meaning = "Between any two of those, at least."})
       .shared();
 }
 
@@ -119,13 +126,35 @@ std::shared_ptr<const Table> biasKeys() {
     return About{
         .unit = "weight", .limits = kWeight, .meaning = std::move(meaning), .greene = std::move(greene)};
   };
-  const auto light = TableOf<Bias>()
-                         .value("amount", &Bias::light, weight("How far it bends.", "seeksun_bias"))
-                         .choice<Brightest>("brightest", &Bias::brightest,
-                                            {{"moment", Brightest::moment}, {"table", Brightest::table}},
-                                            {.meaning = "moment: the mean of what is in sight, quick; table: "
-                                                        "Greene's own way, one of several openings."})
-                         .shared();
+  const auto either = [](std::string meaning, std::string greene = "") {
+    return About{
+        .unit = "weight", .limits = {-1.0, 1.0}, .meaning = std::move(meaning), .greene = std::move(greene)};
+  };
+  const auto light =
+      TableOf<Bias>()
+          .value("amount", &Bias::light, either("How far it bends; below 0 away from there.", "seeksun_bias"))
+          .choice<Brightest>("brightest", &Bias::brightest,
+                             {{"table", Brightest::table}, {"moment", Brightest::moment}},
+                             {.meaning = "table: Greene's own way, one of several openings; "
+                                         "moment: the mean of what is in sight, quick."})
+          .shared();
+  const auto apex =
+      TableOf<Bias>()
+          .value("amount", &Bias::apex, either("How far it bends; below 0 away from there."))
+          .text("of", &Bias::apex_of,
+                {.meaning = "Of which of the scene's regions; without it, of the one that is nearest.",
+                 .most = 100})
+          .shared();
+  auto pull =
+      TableOf<PullSpec>()
+          .place("point", &PullSpec::point_m,
+                 {.unit = "metres",
+                  .limits = {-1e6, 1e6},
+                  .meaning = "A place of the scene; either this or a direction."})
+          .point("direction", &PullSpec::direction,
+                 {.unit = "vector", .limits = {-1e6, 1e6}, .meaning = "A way; its length is nothing."})
+          .value("amount", &PullSpec::amount, either("How far it bends; below 0 away from there."))
+          .shared();
   const auto twist =
       TableOf<Bias>()
           .value(
@@ -150,6 +179,14 @@ std::shared_ptr<const Table> biasKeys() {
       .value("toward", &Bias::toward, weight("To the nearest scene object."))
       .section("twist", std::identity{}, twist,
                {.meaning = "Winds limbs around what stands near; a number stands for its amount."}, "amount")
+      .section(
+          "apex", std::identity{}, apex,
+          {.meaning = "To the nearest of a region's highest points, as of arches; a number stands for its "
+                      "amount."},
+          "amount")
+      .list<PullSpec>("towards", Kind::entries, &Bias::towards, pull,
+                      {.meaning = "To places and along ways of the scene; a list replaces that of the base.",
+                       .most = kMostPulls})
       .shared();
 }
 
@@ -178,6 +215,22 @@ std::shared_ptr<const Table> requireKeys() {
                                      .meaning = "A tip in more light than this becomes inactive.",
                                      .greene = "exposure max"})
                             .shared();
+  const auto age =
+      TableOf<Require>()
+          .whole("min", &Require::age_min,
+                 {.unit = "iterations",
+                  .limits = {0.0, kNoAge},
+                  .meaning = "Nothing grows by this set in earlier iterations."})
+          .whole("max", &Require::age_max,
+                 {.unit = "iterations", .limits = {0.0, kNoAge}, .meaning = "Nor in later ones."})
+          .shared();
+  const auto in_region =
+      TableOf<Require>()
+          .whole("max", &Require::in_region_max,
+                 {.unit = "segments",
+                  .limits = {1.0, kNoAge},
+                  .meaning = "A limb ends after so many segments, one after another, near one region."})
+          .shared();
   return TableOf<Require>()
       .flag("clear", &Require::clear,
             {.meaning = "A segment intersects nothing but the limb from which it grows."})
@@ -185,6 +238,10 @@ std::shared_ptr<const Table> requireKeys() {
                {.meaning = "How near to the scene a segment must stay."})
       .section("exposure", std::identity{}, exposure,
                {.meaning = "How much light a tip needs, as blended by light.blend."})
+      .section("age", std::identity{}, age,
+               {.meaning = "When a tip grows, counted from the first iteration."})
+      .section("in_region", std::identity{}, in_region,
+               {.meaning = "How long a limb stays near one region of the scene."})
       .shared();
 }
 

@@ -110,6 +110,17 @@ void checkElements(const RuleSet& rules, const Check::Given& given, const Check:
   }
 }
 
+void checkPulls(const RuleSet& rules, const Check::Given&, const Check::Complain& complain) {
+  for (std::size_t i = 0; i < rules.bias.towards.size(); ++i) {
+    const PullSpec& pull = rules.bias.towards[i];
+    const auto path = fmt::format("bias.towards[{}]", i);
+    if (pull.point_m.has_value() == pull.direction.has_value())
+      complain(path, "expected either a point or a direction");
+    else if (pull.direction && *pull.direction == sim::Vec3(0.0))
+      complain(path + ".direction", "[0, 0, 0] is no direction; expected one that leads somewhere");
+  }
+}
+
 void checkColonization(const RuleSet& rules, const Check::Given& given, const Check::Complain& complain) {
   const Colonization& front = rules.colonization;
   if (front.crown) checkCrown(*front.crown, "colonization.crown", complain);
@@ -150,6 +161,10 @@ const std::vector<Check>& ruleChecks() {
                 complain("light.blend", "both weights are 0; expected sun or sky to be more than 0");
               }
             }),
+      ordered(
+          "require.age.min", "require.age.max", [](auto& r) { return Distance{double(r.require.age_min)}; },
+          [](auto& r) { return Distance{double(r.require.age_max)}; }, true),
+      check({}, checkPulls),
       check({}, checkElements),
       check({}, checkColonization),
   };

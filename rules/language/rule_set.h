@@ -19,6 +19,7 @@
 namespace espalier::rules {
 
 inline constexpr double kNoLimit = std::numeric_limits<double>::infinity();
+inline constexpr int kNoAge = 1'000'000;  ///< iterations or segments: beyond all that grows
 
 /// A length as it was written: in voxel widths, or in metres until a job's voxel size is known
 /// (rules/growth/voxel_widths.h). What grows by a rule set sees voxel widths alone.
@@ -51,6 +52,10 @@ struct RandomTree {
   Value wander_deg = 20.0;  ///< a trial's direction lies within this angle of the way that the limb was going
   int trials_min = 150;     ///< trials before the best one is taken
   int trials_max = 300;     ///< trials before the tip gives up
+  /// Segments that a tip lays at once: as many as find room, and none where fewer do. Where a plant's rules
+  /// have more than one anywhere, limbs leave each other in no other way.
+  int fork_min = 1, fork_max = 1;
+  double fork_angle_deg = 30.0;  ///< at least, between any two of them
 };
 
 /// Who chooses whom, of attractors and nodes.
@@ -88,20 +93,31 @@ struct Colonization {
 
 /// How the brightest part of the sky is found.
 enum class Brightest {
-  moment,  ///< the weighted sum of the directions in sight
-  table    ///< Greene's table of the sky, filtered with the cosine lobe
+  table,  ///< Greene's table of the sky, filtered with the cosine lobe
+  moment  ///< the weighted sum of the directions in sight
 };
+
+/// A place or a way of the scene that trials are bent towards.
+struct PullSpec {
+  std::optional<sim::Vec3> point_m;    ///< either this, in world space
+  std::optional<sim::Vec3> direction;  ///< or this, of any length
+  Value amount = 0.0;                  ///< below 0: away from it
+};
+inline constexpr std::size_t kMostPulls = 8;
 
 /// Each bends a trial's direction towards a vector by its weight: 0 not at all, 1 all the way.
 struct Bias {
   Value up = 0.0;
   Value gravity = 0.0;
-  Value light = 0.0;  ///< towards the brightest part of the sky
-  Brightest brightest = Brightest::moment;
+  Value light = 0.0;  ///< towards the brightest part of the sky; below 0 away from it
+  Brightest brightest = Brightest::table;
   Value away = 0.0;    ///< from the nearest scene object
   Value toward = 0.0;  ///< to the nearest scene object
   Value twist = 0.0;   ///< to one side of the plane through the last segment and the local centre of mass
   Distance twist_radius{8.0};  ///< how far the centre of mass looks
+  Value apex = 0.0;            ///< to the nearest apex of a region; below 0 away from it
+  std::string apex_of;         ///< which region's; empty: of that which is nearest
+  std::vector<PullSpec> towards;
 };
 
 /// A trial that does not meet these is rejected.
@@ -111,6 +127,8 @@ struct Require {
   Distance proximity_max{kNoLimit};
   double exposure_min = 0.0;
   double exposure_max = 1.0;
+  int age_min = 0, age_max = kNoAge;  ///< iterations since growth began
+  int in_region_max = kNoAge;         ///< segments of a limb, one after another, near one region
 };
 
 /// Ranks the trials that are left.

@@ -42,6 +42,7 @@ std::vector<Point> drawPoints(const Site& site, std::uint64_t seed) {
   std::vector<std::pair<std::size_t, std::size_t>> triangles;
   double area = 0.0;
   for (std::size_t m = 0; m < site.meshes.size(); ++m) {
+    if (!site.meshes[m].lit()) continue;
     const sim::Mesh& mesh = site.meshes[m].mesh;
     for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
       const auto& [a, b, c] = mesh.triangles[t];
@@ -223,7 +224,9 @@ bool onFace(const Site& site, const render::RayScene& scene, const MappedVoxels&
 std::optional<Certificate::SpotCheck> spotCheck(const Site& site, const sim::Lighting& light,
                                                 std::uint64_t seed) {
   render::ModelScene model;
-  for (const sim::TiledMesh& tiled : site.meshes) model.meshes.push_back(&tiled.mesh);
+  for (const sim::TiledMesh& tiled : site.meshes) {
+    if (tiled.lit()) model.meshes.push_back(&tiled.mesh);
+  }
   const render::RayScene scene(model);
   const std::vector<Point> points = drawPoints(site, seed);
   if (points.empty()) return std::nullopt;

@@ -123,7 +123,7 @@ std::vector<FacingReport> findFacing(std::vector<sim::TiledMesh>& meshes) {
   render::ModelScene model;
   Vec3 low(INFINITY), high(-INFINITY);
   for (const sim::TiledMesh& tiled : meshes) {
-    model.meshes.push_back(&tiled.mesh);
+    if (tiled.lit()) model.meshes.push_back(&tiled.mesh);
     for (const Vec3& p : tiled.mesh.vertices_m) {
       low = glm::min(low, p);
       high = glm::max(high, p);

@@ -21,7 +21,9 @@ std::string levelFile(int level) {
 
 std::vector<const sim::Mesh*> meshesOf(const Site& site) {
   std::vector<const sim::Mesh*> meshes;
-  for (const auto& tiled : site.meshes) meshes.push_back(&tiled.mesh);
+  for (const auto& tiled : site.meshes) {
+    if (!tiled.guide) meshes.push_back(&tiled.mesh);
+  }
   return meshes;
 }
 

@@ -271,7 +271,14 @@ Report runScene(const Scene& scene, const RunOptions& options, const Keeping& ke
     stages.run("drawing", [&] {
       ReadTextures textures = texturesFor(drawsVines(scene.images), scene, site.meshes, options, report);
       for (const Problem& unread : textures.unread) late_warnings.push_back(unread.text);
-      const Finished finished{site.meshes, world, bare, growth, light, models, std::move(textures.pictures)};
+      const Finished finished{site.meshes,
+                              world,
+                              bare,
+                              growth,
+                              light,
+                              models,
+                              std::move(textures.pictures),
+                              growthSettings(scene, site, {}).sky_table};
       auto pictures =
           inScene(scene, [&] { return drawPictures(picturesOf(scene, report.made_by), finished); });
       for (OutputFile& file : pictures) files.push_back(std::move(file));
@@ -349,8 +356,14 @@ Report renderScene(Scene scene, const std::filesystem::path& from, const RunOpti
   std::vector<OutputFile> files = stages.run("drawing", [&] {
     ReadTextures textures = texturesFor(drawsVines(scene.images), scene, site.meshes, options, report);
     for (const Problem& one : textures.unread) unread.push_back(one.text);
-    const Finished finished{
-        site.meshes, site.world, bare, growth, light, models, std::move(textures.pictures)};
+    const Finished finished{site.meshes,
+                            site.world,
+                            bare,
+                            growth,
+                            light,
+                            models,
+                            std::move(textures.pictures),
+                            growthSettings(scene, site, {}).sky_table};
     return inScene(scene, [&] { return drawPictures(picturesOf(scene, report.made_by), finished); });
   });
   stages.run("writing", [&] { output.write(files); });

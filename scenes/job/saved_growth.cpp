@@ -30,7 +30,7 @@ bool namesAFile(std::string_view path) {
   return (path.starts_with("meshes[") && (path.ends_with("].file") || path.ends_with("].optional"))) ||
          ((path.starts_with("attractors.") || path.starts_with("plants[")) && path.ends_with(".points")) ||
          (path.starts_with("plants[") && path.ends_with(".skeleton.file")) ||
-         (path.starts_with("fields.") && path.ends_with(".file"));
+         (path.starts_with("fields.") && path.ends_with(".file")) || path == "sky.background.file";
 }
 
 std::string difference(const std::string& path, const std::string* was, const std::string* is) {
@@ -140,6 +140,11 @@ sim::Inputs inputsOf(const Scene& scene, const Site& site) {
     hash.add(grid.vectors);
     inputs.emplace_back(fmt::format("fields.{}.contents", scene.fields[i].name),
                         fmt::format("{:016x}", hash.digest()));
+  }
+  if (site.sky_picture) {
+    sim::Hasher hash;
+    hash.add(site.sky_picture->radiance);
+    inputs.emplace_back("sky.background.contents", fmt::format("{:016x}", hash.digest()));
   }
   return inputs;
 }

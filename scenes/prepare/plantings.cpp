@@ -2,15 +2,20 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <bit>
 #include <map>
 #include <numeric>
+#include <set>
 #include <tuple>
 #include <utility>
 
+#include "rules/growth/apices.h"
 #include "rules/growth/given_skeleton.h"
 #include "rules/growth/make_process.h"
+#include "rules/growth/rule_book.h"
 #include "rules/growth/shared_guide.h"
+#include "scenes/lights.h"
 #include "scenes/prepare/in_scene.h"
 #include "scenes/prepare/unknown_regions.h"
 #include "scenes/problem.h"
@@ -18,6 +23,7 @@
 #include "sim/base/error.h"
 #include "sim/base/random.h"
 #include "sim/grow/faults.h"
+#include "sim/sense/peaks.h"
 
 namespace espalier::scenes {
 namespace {
@@ -166,6 +172,31 @@ void addFaults(const std::vector<sim::PlantingFault>& faults, const Scene& scene
   }
 }
 
+/// The apices of all of a scene's regions.
+std::vector<sim::Peak> apicesOf(const sim::World& world) {
+  constexpr int kProminence_vx = 3;  // stairs of what is not level are no apices
+  std::vector<sim::PartId> parts;
+  for (std::size_t i = 0; i < world.parts().size(); ++i) {
+    if (world.parts()[i].kind == sim::PartKind::scene) parts.push_back(static_cast<sim::PartId>(i + 1));
+  }
+  return sim::peaksOf(world, parts, kProminence_vx);
+}
+
+/// Complains where a rule set names a region for its apices that has none.
+void requireApices(const PlantSpec& spec, const Scene& scene, const sim::World& world, Gathering& wrong) {
+  if (!rules::asksForApices(*spec.rules)) return;
+  std::set<std::string> high;
+  for (const sim::Peak& apex : apicesOf(world)) high.insert(world.part(apex.part).region);
+  rules::forEachSet(*spec.rules, [&](const rules::RuleSet& set, const std::string& path) {
+    if (set.bias.apex_of.empty() || high.contains(set.bias.apex_of)) return;
+    wrong.add(problemAt(spec.rules_place, scene.file,
+                        fmt::format("{}bias.apex.of: the scene has no region {} with an apex; expected {}",
+                                    path.empty() ? "" : path + ".", inQuotes(set.bias.apex_of),
+                                    high.empty() ? "a region that is not level"
+                                                 : "one of " + listed({high.begin(), high.end()}))));
+  });
+}
+
 }  // namespace
 
 std::vector<sim::Planting> makePlantings(const Scene& scene, const Site& site) {
@@ -179,6 +210,7 @@ std::vector<sim::Planting> makePlantings(const Scene& scene, const Site& site) {
       wrong.add(*unknown[i]);
       continue;
     }
+    requireApices(spec, scene, site.world, wrong);
     wrong.part(spec.rules_place, [&] {
       plantings.push_back(spec.skeleton
                               ? given(spec, site.skeletons.at(i), scene, site.world.frame())
@@ -214,9 +246,12 @@ sim::GrowthSettings growthSettings(const Scene& scene, const Site& site,
   settings.iterations = scene.iterations;
   settings.seed = scene.seed;
   settings.light = {sim::receivedBy(site.sky), site.sun.directions, site.random_sky, site.sky.weighting};
-  settings.sky_table = [weighting = site.sky.weighting] {
-    return sim::makeSkyTable(9, 36, sim::backgroundOf(weighting));  // cells of 10 degrees
+  settings.sky_table = [background = backgroundOf(scene.sky, site.sky_picture, site.sun.directions)] {
+    return skyTableOf(background);
   };
+  if (std::any_of(scene.plants.begin(), scene.plants.end(),
+                  [](const PlantSpec& plant) { return rules::asksForApices(*plant.rules); }))
+    settings.commons[rules::kApices] = rules::columnsOf(apicesOf(site.world));
   settings.commons = commonsOf(attractors);
   for (std::size_t i = 0; i < scene.fields.size(); ++i) {
     const rules::Guide guide = guideOf(scene.fields[i], site.fields.at(i), site.world.frame());

@@ -112,6 +112,7 @@ Scene forLight(Scene scene) {
   scene.plants.clear();
   scene.attractors.clear();
   scene.fields.clear();
+  scene.sky.background = {};
   scene.world.layers = 0;
   if (!scene.sky.accuracy) scene.sky.accuracy = SkySpec::kMapError;
   return scene;

@@ -7,9 +7,11 @@
 #include <utility>
 
 #include "scenes/clean_text.h"
+#include "scenes/import/line_shape.h"
 #include "scenes/import/mesh_import.h"
 #include "scenes/import/points_reader.h"
 #include "scenes/import/skeleton_reader.h"
+#include "scenes/import/sky_reader.h"
 
 namespace espalier::scenes {
 namespace {
@@ -57,13 +59,26 @@ sim::Mesh readMesh(const SceneMesh& spec, SiteFiles& to) {
 void addMesh(const SceneMesh& spec, sim::Mesh mesh, SiteFiles& to) {
   mesh.name = spec.name;
   if (spec.tiled) {
-    to.meshes.push_back({std::move(mesh), spec.solid.value_or(false), !spec.solid});
+    to.meshes.push_back({std::move(mesh), spec.solid.value_or(false), !spec.solid && !spec.guide});
+    to.meshes.back().guide = spec.guide;
     return;
   }
   mesh.uvs = {};  // nobody sees it
   mesh.normals = {};
   for (sim::Material& material : mesh.materials) material.texture.reset();
   to.shapes.push_back(std::move(mesh));
+}
+
+/// Adds a mesh by its file, or lines.
+void readInto(const SceneMesh& spec, SiteFiles& to) {
+  std::optional<LineArt> art;
+  if (!spec.lines_m.empty()) art = linesOf(spec);
+  if (!art && spec.tiled && spec.file.extension() == ".obj") {
+    sim::InputFile read;
+    if (art = readLineFile(spec.file, spec.regions_from, read); art) addFiles(spec, {read}, to);
+  }
+  if (!art) return addMesh(spec, readMesh(spec, to), to);
+  to.meshes.push_back(lineShape(spec, std::move(*art)));
 }
 
 void addTable(const PointTable& table, SiteFiles& to) {
@@ -105,6 +120,13 @@ void addTheRest(const Scene& scene, SiteFiles& to, Gathering& wrong) {
     wrong.part(plant.skeleton ? plant.skeleton->place : Place{}, [&] { addSkeletons(plant, to); });
   }
   wrong.part([&] { addFields(scene, to); });
+  const BackgroundSpec& background = scene.sky.background;
+  wrong.part(background.file_place, [&] {
+    if (background.file.empty()) return;
+    sim::InputFile read;
+    to.sky_picture = readSky(background.file, read);
+    addFile(background.file, background.told, std::move(read), to);
+  });
   wrong.end();
   to.facings = findFacing(to.meshes);
 }
@@ -125,8 +147,7 @@ SiteFiles readSiteFiles(const Scene& scene) {
   }
   SiteFiles files;
   Gathering wrong(scene.file);
-  for (const SceneMesh& spec : scene.meshes)
-    wrong.part(spec.place, [&] { addMesh(spec, readMesh(spec, files), files); });
+  for (const SceneMesh& spec : scene.meshes) wrong.part(spec.place, [&] { readInto(spec, files); });
   addTheRest(scene, files, wrong);
   return files;
 }

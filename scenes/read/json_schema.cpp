@@ -144,6 +144,9 @@ Json valueOf(const Key& key) {
     case Kind::polygons:
       return anyOf({polygons(key, bounded(key, "number")),
                     polygons(key, anyOf({{{"const", 0}}, lengthText("mm|cm|m")}))});
+    case Kind::lines:
+      return list(list(list(anyOf({bounded(key, "number"), lengthText("mm|cm|m")}), 3, 3), 1, 10'000), 1,
+                  key.most);
     case Kind::choice:
       return {{"enum", key.choices}};
     case Kind::date:

@@ -106,6 +106,49 @@ bool checkDays(const SunSpec& sun, const Complain& complain) {
 
 }  // namespace
 
+namespace {
+
+std::shared_ptr<const Table> backgroundKeys() {
+  using Sky = BackgroundSpec::Kind;
+  const auto band = TableOf<BackgroundSpec>()
+                        .number("brightness", [](auto& b) -> auto& { return b.sun.brightness; },
+                                {.unit = "factor",
+                                 .limits = {0.0, 1000.0},
+                                 .meaning = "In the band's middle, times the mean of the sky."})
+                        .number("width", [](auto& b) -> auto& { return b.sun.width_deg; },
+                                {.unit = kDegrees,
+                                 .limits = {0.0, 180.0, true},
+                                 .meaning = "Across the band; less and less bright towards its rims."})
+                        .shared();
+  return TableOf<BackgroundSpec>()
+      .choice<Sky>("kind", &BackgroundSpec::kind,
+                   {{"weighting", Sky::weighting},
+                    {"uniform", Sky::uniform},
+                    {"cie_overcast", Sky::cie_overcast},
+                    {"gradient", Sky::gradient},
+                    {"picture", Sky::picture}},
+                   {.meaning = "How bright its parts are: as sky.weighting means, alike, the CIE overcast "
+                               "sky, from the zenith to the horizon, or by a picture."})
+      .number("horizon", &BackgroundSpec::horizon,
+              {.unit = "factor",
+               .limits = {0.0, 100.0},
+               .meaning = "Of a gradient: brightness at the horizon, over that of the zenith."})
+      .file("file", &BackgroundSpec::file,
+            {.meaning =
+                 "Of a picture, twice as wide as high: all around from left to right, straight up at the "
+                 "top and straight down at the bottom; .exr, .hdr, .png or .jpg."})
+      .number("turn", &BackgroundSpec::turn_deg,
+              {.unit = kDegrees,
+               .limits = {-360.0, 360.0},
+               .meaning = "The compass way of the picture's middle: 0 is -z, 90 is +x."})
+      .section("sun", std::identity{}, band,
+               {.meaning = "A band of light along the sun's way; a number stands for its brightness."},
+               "brightness")
+      .shared();
+}
+
+}  // namespace
+
 std::shared_ptr<const Table> skyKeys() {
   return TableOf<SkySpec>()
       .choice<sim::Weighting>("weighting", &SkySpec::weighting,
@@ -131,6 +174,9 @@ std::shared_ptr<const Table> skyKeys() {
              {.unit = "rays",
               .limits = {1.0, sim::kMostSkyDirections},
               .meaning = "From each place, of sampling: random."})
+      .section("background", &SkySpec::background, backgroundKeys(),
+               {.meaning = "The sky behind what plants see of it that turn to its brightest part; exposures "
+                           "do not hang on it."})
       .shared();
 }
 
@@ -196,6 +242,23 @@ void checkSky(const Scene& scene, const Given& given, const Complain& complain) 
   } catch (const sim::InputError& error) {
     complain("sky.accuracy", error.what());
   }
+}
+
+void checkBackground(const Scene& scene, const Given& given, const Complain& complain) {
+  using Sky = BackgroundSpec::Kind;
+  const BackgroundSpec& background = scene.sky.background;
+  for (const char* const key : {"file", "turn"}) {
+    const auto path = std::string("sky.background.") + key;
+    if (given(path) && background.kind != Sky::picture)
+      complain(path, fmt::format("{} belongs to kind: picture; expected that kind, or no {}", key, key));
+  }
+  if (background.kind == Sky::picture && background.file.empty())
+    complain("sky.background", "kind: picture without a file; expected file: SKY.exr");
+  if (given("sky.background.horizon") && background.kind != Sky::gradient)
+    complain("sky.background.horizon",
+             "horizon belongs to kind: gradient; expected that kind, or no horizon");
+  if (given("sky.background.sun.width") && background.sun.brightness == 0.0)
+    complain("sky.background.sun.width", "a band without brightness; expected brightness: 3 beside it");
 }
 
 void checkSun(const Scene& scene, const Given& given, const Complain& complain) {

@@ -12,6 +12,8 @@ std::shared_ptr<const rules::Table> sunKeys();
 
 /// What must hold between them.
 void checkSky(const Scene& scene, const rules::Check::Given& given, const rules::Check::Complain& complain);
+void checkBackground(const Scene& scene, const rules::Check::Given& given,
+                     const rules::Check::Complain& complain);
 void checkSun(const Scene& scene, const rules::Check::Given& given, const rules::Check::Complain& complain);
 
 }  // namespace espalier::scenes

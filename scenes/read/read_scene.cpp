@@ -22,8 +22,10 @@ namespace {
 namespace fs = std::filesystem;
 
 void fillNames(Scene& scene) {
-  for (auto& mesh : scene.meshes) {
-    if (mesh.name.empty()) mesh.name = mesh.file.stem().string();
+  for (std::size_t i = 0; i < scene.meshes.size(); ++i) {
+    SceneMesh& mesh = scene.meshes[i];
+    if (!mesh.name.empty()) continue;
+    mesh.name = mesh.file.empty() ? fmt::format("lines_{}", i + 1) : mesh.file.stem().string();
   }
   for (std::size_t i = 0; i < scene.plants.size(); ++i) {
     if (scene.plants[i].name.empty()) scene.plants[i].name = fmt::format("plant_{}", i + 1);
@@ -95,6 +97,24 @@ void findVolumes(Scene& scene, const YamlNode& root, const rules::Check::Complai
   }
 }
 
+/// The same for the sky's picture.
+void findSky(Scene& scene, const YamlNode& root, const rules::Check::Complain& complain) {
+  BackgroundSpec& background = scene.sky.background;
+  if (background.file.empty()) return;
+  const auto written = background.file.string();
+  background.file = beside(root, written);
+  background.told = toldFrom(scene.file, background.file, fs::path(written).is_absolute());
+  std::error_code error;
+  if (!endsIn(background.file, {".exr", ".hdr", ".png", ".jpg", ".jpeg"})) {
+    complain(
+        "sky.background.file",
+        fmt::format("{} is no picture that is known; expected .exr, .hdr, .png or .jpg", inQuotes(written)));
+  } else if (!fs::is_regular_file(background.file, error)) {
+    complain("sky.background.file",
+             fmt::format("there is no picture {}; expected one", background.file.string()));
+  }
+}
+
 /// The same for skeletons.
 void findSkeletons(Scene& scene, const YamlNode& root, const rules::Check::Complain& complain) {
   for (std::size_t i = 0; i < scene.plants.size(); ++i) {
@@ -141,6 +161,8 @@ Scene sceneOf(const Document& document, const fs::path& path, Problems& problems
       {{}, [&](const void*, const auto&, const auto& complain) { findVolumes(scene, root, complain); }});
   checks.push_back(
       {{}, [&](const void*, const auto&, const auto& complain) { findSkeletons(scene, root, complain); }});
+  checks.push_back(
+      {{}, [&](const void*, const auto&, const auto& complain) { findSky(scene, root, complain); }});
   fillNames(scene);
   scene.region_mentions = loader.mentions();
   scene.read_files.push_back({cleanText(path.filename().string()), "scene", document.hash});
@@ -151,7 +173,9 @@ Scene sceneOf(const Document& document, const fs::path& path, Problems& problems
         {of_library ? read.path.string() : toldFrom(path, read.path, read.from_root), read.kind, read.hash});
     if (!of_library) scene.read_paths.push_back(read.path);
   }
-  for (const SceneMesh& mesh : scene.meshes) scene.read_paths.push_back(mesh.file);
+  for (const SceneMesh& mesh : scene.meshes) {
+    if (!mesh.file.empty()) scene.read_paths.push_back(mesh.file);
+  }
   scene.warnings = loader.warnings().sorted();
   notePlaces(scene, root);
   runChecks(checks, &scene, {&root}, reading);

@@ -57,13 +57,14 @@ How values are written:
 - *length*: metres, as a number or as text with a unit: `0.04`, `4 cm`, `40 mm`, `0.04 m`.
 - *point*: `[x, y, z]`; *place*: the same in lengths.
 - *pairs*: a list of `[a, b]`, such as `[[0, 1], [0.5, 3]]`; *outline*: the same in lengths, `[[0, 6 m], [2 m, 6 m]]`.
+- *lines*: a list of lines, each a list of places from one end to the other.
 - *colour*: `"#a05f46"`, in quotes, for an unquoted `#` begins a comment; or `[r, g, b]` from 0 to 1. Both sRGB.
 - *date*: `2026-06-21`; or `06-21`, of 2017, the year of the common tables of the sun.
 - *name*: letters, digits, `_`, `-` and `.`: it may become part of a file's name.
 - *rule set*: a rule file's path; the name of one of the library (`espalier rules` lists them); or a mapping of the keys
   of one (see the page of rule files).
 
-`world` needs either a voxel size or a resolution. An entry of `meshes` may be just a path, one of `images` just its
+`world` needs either a voxel size or a resolution. An entry of `meshes` has a file or lines, and may be just a path; one of `images` just its
 kind, one of `seeds` just its place.
 `sun` is an inclined arc, or with `place` a real sun on a date or a range of dates.
 )";
@@ -101,6 +102,8 @@ std::string kindText(const Key& key) {
       return "outline";
     case Kind::polygons:
       return "polygons";
+    case Kind::lines:
+      return "lines";
     case Kind::choice:
       return fmt::format("`{}`", fmt::join(key.choices, "`, `"));
     case Kind::date:

@@ -51,7 +51,17 @@ std::shared_ptr<const Table> meshKeys() {
   TableOf<SceneMesh> table;
   table
       .file("file", &SceneMesh::file,
-            {.meaning = "The mesh: .obj, .gltf, .glb, .ply or .stl.", .required = true})
+            {.meaning = "The mesh: .obj, .gltf, .glb, .ply or .stl; or an .obj of lines and points alone."})
+      .custom(
+          "lines", Kind::lines,
+          [](SceneMesh& mesh, const Datum& d) { mesh.lines_m = std::get<rules::Polygons>(d).corners; },
+          [](const SceneMesh& mesh) {
+            return mesh.lines_m.empty() ? Datum{} : Datum{rules::Polygons{mesh.lines_m, true}};
+          },
+          {.unit = kMetres,
+           .limits = kCoordinate,
+           .meaning = "Or lines from place to place; one of a single place is a point.",
+           .most = 10'000})
       .name("name", &SceneMesh::name,
             {.meaning = "What reports and outputs call it; without it, the file's name without its ending."})
       .choice<RegionsFrom>(
@@ -64,9 +74,17 @@ std::shared_ptr<const Table> meshKeys() {
       .flag("tiled", &SceneMesh::tiled,
             {.meaning = "Whether it stands in the world; otherwise it is a shape for attractors alone."})
       .flag("optional", &SceneMesh::optional,
-            {.meaning = "Where the file is missing, the scene is skipped instead of being an error."});
+            {.meaning = "Where the file is missing, the scene is skipped instead of being an error."})
+      .flag("guide", &SceneMesh::guide,
+            {.meaning = "Is felt by what grows, as near and as a region, but stands in nobody's way and "
+                        "casts no shadow: a sketch for growth to follow."})
+      .metres("thickness", &SceneMesh::thickness_m,
+              {.unit = kMetres,
+               .limits = {0.0, 1e6, true},
+               .meaning = "Of lines and points, where they are drawn."});
   addPlacement(table);
   return table.colour("colour", &SceneMesh::colour, {.meaning = "Instead of the file's own colours."})
+      .oneOf({"file", "lines"})
       .shared();
 }
 
@@ -232,7 +250,7 @@ std::shared_ptr<const Table> imageKeys() {
        {ImageKind::sun_exposure, ImageKind::sky_exposure, ImageKind::threshold, ImageKind::shadow_matte,
         ImageKind::surface_colour, ImageKind::first_pass, ImageKind::sun_hours, ImageKind::vines,
         ImageKind::section, ImageKind::attempts, ImageKind::points, ImageKind::graph, ImageKind::field,
-        ImageKind::narrow_band, ImageKind::contact_sheet}) {
+        ImageKind::narrow_band, ImageKind::sky_tables, ImageKind::contact_sheet}) {
     kinds.emplace_back(nameOf(kind), kind);
   }
   return TableOf<ImageSpec>()
@@ -241,7 +259,8 @@ std::shared_ptr<const Table> imageKeys() {
             {.meaning = "The picture's file name without an ending; without it, its kind."})
       .text("camera", &ImageSpec::camera, {.meaning = "One of the scene's cameras; without it, the first."})
       .text("plant", &ImageSpec::plant,
-            {.meaning = "Of a threshold: whose, one of the scene's plants; without it, the first's."})
+            {.meaning = "Of a threshold or sky_tables: whose, one of the scene's plants; without it, the "
+                        "first's."})
       .text("caption", &ImageSpec::caption, {.meaning = "A line below the picture."})
       .text("letter", &ImageSpec::letter,
             {.meaning = "On a contact sheet, beside the caption; by default A, B, C .. in order."})
@@ -262,6 +281,8 @@ std::shared_ptr<const Table> imageKeys() {
                          "growth ended before, at the end."})
       .names("of", &ImageSpec::of,
              {.meaning = "Of a contact_sheet: the names of the images on it, in order."})
+      .names("show", &ImageSpec::show,
+             {.meaning = "Of vines: what of scene, stems, elements and guides is shown."})
       .shared();
 }
 

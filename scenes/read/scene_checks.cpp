@@ -108,6 +108,30 @@ void checkUntiled(const Scene& scene, const Given& given, const Complain& compla
   }
 }
 
+/// What belongs to files, to lines, or to what stands in the way.
+void checkLines(const Scene& scene, const Given& given, const Complain& complain) {
+  for (std::size_t i = 0; i < scene.meshes.size(); ++i) {
+    const SceneMesh& mesh = scene.meshes[i];
+    const auto says = [&](const char* key) { return given(fmt::format("meshes[{}].{}", i, key)); };
+    const auto wrong = [&](const char* key, const std::string& why) {
+      complain(fmt::format("meshes[{}].{}", i, key), why);
+    };
+    if (mesh.lines_m.empty() && mesh.file.empty())
+      complain(fmt::format("meshes[{}]", i),
+               "a mesh without a file; expected file: MESH.obj, or lines: [[[x, y, z], [x, y, z]], ...]");
+    if (!mesh.lines_m.empty()) {
+      for (const char* const key : {"file", "regions", "solid", "optional", "unit"})
+        if (says(key)) wrong(key, fmt::format("{} means nothing to lines; expected one of them", key));
+      if (!mesh.tiled)
+        wrong("tiled", "lines with tiled: false are no shape for attractors; expected it without");
+    }
+    if (!mesh.guide) continue;
+    if (!mesh.tiled) wrong("guide", "a guide with tiled: false is felt by nobody; expected one of them");
+    if (says("solid"))
+      wrong("solid", "solid means nothing to a guide, which fills nothing; expected one of them");
+  }
+}
+
 void checkPlants(const Scene& scene, const Given& given, const Complain& complain) {
   for (std::size_t p = 0; p < scene.plants.size(); ++p) {
     const auto& plant = scene.plants[p];
@@ -156,7 +180,7 @@ void checkCameras(const Scene& scene, const Given&, const Complain& complain) {
 
 bool needsCamera(ImageKind kind) {
   return kind != ImageKind::section && kind != ImageKind::attempts && kind != ImageKind::narrow_band &&
-         kind != ImageKind::contact_sheet;
+         kind != ImageKind::sky_tables && kind != ImageKind::contact_sheet;
 }
 
 void checkImageCameras(const Scene& scene, const Given&, const Complain& complain) {
@@ -195,7 +219,14 @@ void checkImages(const Scene& scene, const Given& given, const Complain& complai
     belongsTo("mesh", {ImageKind::narrow_band});
     belongsTo("iteration", {ImageKind::points, ImageKind::graph});
     belongsTo("field", {ImageKind::field});
-    belongsTo("plant", {ImageKind::threshold});
+    belongsTo("plant", {ImageKind::threshold, ImageKind::sky_tables});
+    belongsTo("show", {ImageKind::vines});
+    for (const std::string& part : image.show) {
+      if (std::find(kImageParts.begin(), kImageParts.end(), part) == kImageParts.end())
+        complain(path + ".show", fmt::format("there is no {} to show; expected some of {}", inQuotes(part),
+                                             fmt::join(kImageParts, ", ")));
+    }
+    if (image.show.empty()) complain(path + ".show", "an image of nothing; expected some of it");
     belongsTo("of", {ImageKind::contact_sheet});
     if (image.kind == ImageKind::contact_sheet && image.of.empty())
       complain(path, "a contact_sheet of no images; expected of: [name, ...]");
@@ -226,7 +257,9 @@ void checkImagePlants(const Scene& scene, const Given&, const Complain& complain
   for (const auto& plant : scene.plants) names.push_back(plant.name);
   for (std::size_t i = 0; i < scene.images.size(); ++i) {
     const std::string& plant = scene.images[i].plant;
-    if (scene.images[i].kind != ImageKind::threshold || plant.empty()) continue;
+    const ImageKind kind = scene.images[i].kind;
+    const bool asks = kind == ImageKind::threshold || kind == ImageKind::sky_tables;
+    if (!asks || plant.empty()) continue;
     const std::string wrong = notCalled("plant", plant, names);
     if (!wrong.empty()) complain(fmt::format("images[{}].plant", i), wrong);
   }
@@ -271,7 +304,9 @@ const std::vector<Check>& sceneChecks() {
       check({}, checkSeedKeys),
       check({"meshes", "world.bounds"}, checkMeshes),
       check({"sky"}, checkSky),
+      check({"sky.background"}, checkBackground),
       check({"sun"}, checkSun),
+      check({"meshes"}, checkLines),
       check({}, checkPlants),
       check({"meshes"}, checkUntiled),
       check({"meshes", "attractors"}, checkAttractors),

@@ -157,6 +157,7 @@ Settings settings(const Scene& scene) {
   for (auto& mesh : beside.meshes) place(mesh.file);
   forEachTable(beside, [&](PointTable& table, const std::string&) { place(table.file); });
   for (auto& field : beside.fields) place(field.file);
+  place(beside.sky.background.file);
   for (auto& plant : beside.plants) {
     if (plant.skeleton) place(plant.skeleton->file);
   }

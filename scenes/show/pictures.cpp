@@ -17,7 +17,9 @@
 #include "scenes/show/flat_pictures.h"
 #include "scenes/show/graph_pictures.h"
 #include "scenes/show/light_texts.h"
+#include "scenes/show/model_parts.h"
 #include "scenes/show/picture_memory.h"
+#include "scenes/show/sky_table_pictures.h"
 #include "sim/base/error.h"
 #include "sim/base/parallel.h"
 #include "sim/base/stop.h"
@@ -209,9 +211,18 @@ void Studio::drawLegend(Image& picture, const ImageSpec& image, Panel panel) con
 }
 
 Image Studio::vines(const ImageSpec& image) const {
+  const auto shows = [&](const char* part) {
+    return std::find(image.show.begin(), image.show.end(), part) != image.show.end();
+  };
   render::FinishedScene scene;
-  for (const auto& tiled : finished_.meshes) scene.model.meshes.push_back(&tiled.mesh);
-  for (const auto& model : finished_.models) scene.model.plants.push_back(&model);
+  for (const auto& tiled : finished_.meshes) {
+    if (shows(tiled.guide ? "guides" : "scene")) scene.model.meshes.push_back(&tiled.mesh);
+  }
+  const bool stems = shows("stems"), elements = shows("elements");
+  const bool all = stems && elements;
+  const std::vector<render::PlantModel> parts =
+      all ? std::vector<render::PlantModel>() : partsOf(finished_.models, stems, elements);
+  for (const auto& model : all ? finished_.models : parts) scene.model.plants.push_back(&model);
   scene.pictures = finished_.textures;
   scene.frame = finished_.world.frame();
   scene.occupied = &finished_.world.occupied();
@@ -359,6 +370,9 @@ std::vector<OutputFile> drawPictures(const PicturesWanted& wanted, const Finishe
   drawEach(ImageKind::section, [&](const ImageSpec& image) { return drawSection(finished.world, image); });
   drawEach(ImageKind::narrow_band, [&](const ImageSpec& image) {
     return drawNarrowBand(finished.meshes, finished.world.frame(), image);
+  });
+  drawEach(ImageKind::sky_tables, [&](const ImageSpec& image) {
+    return drawSkyTables(finished.world, finished.bare, finished.growth, finished.sky_table(), image);
   });
   drawEach(ImageKind::attempts, [&](const ImageSpec& image) {
     return drawAttempts(finished.world, finished.growth.attempts, image);

@@ -1,4 +1,5 @@
 #pragma once
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -10,6 +11,7 @@
 #include "scenes/write/output_folder.h"
 #include "sim/base/provenance.h"
 #include "sim/grow/grow.h"
+#include "sim/light/brightest.h"
 #include "sim/light/lighting.h"
 #include "sim/tile/build_world.h"
 #include "sim/world/world.h"
@@ -49,6 +51,7 @@ struct Finished {
   const sim::Lighting& light;                     ///< in all of space too, where there is an image of vines
   const std::vector<render::PlantModel>& models;  ///< one a plant
   render::KnownPictures textures = {};            ///< of the meshes' materials, for images of vines
+  std::function<sim::SkyTable()> sky_table = {};  ///< as growth has it, for images of sky tables
 };
 
 /// Whether it is one of the panels of render/voxels/panels.h.

@@ -271,6 +271,20 @@ Maybe<Polygons> polygons(const ScalarReader& read, const Node& node) {
   return corners ? Maybe<Polygons>(Polygons{std::move(*corners), lengths.metres()}) : std::nullopt;
 }
 
+Maybe<Polygons> lines(const ScalarReader& read, const Node& node) {
+  constexpr std::size_t kMostOfALine = 10'000;
+  const auto place = [&](const Node& n) {
+    return triple(read, n, [&](const Node& c) { return read.metres(c); });
+  };
+  const auto line = [&](const Node& n) -> Maybe<std::vector<sim::Vec3>> {
+    if (n.kind == Node::Kind::list && n.items.empty()) return read.fail(n, "is an empty list");
+    return listOf(read, n, kMostOfALine, place);
+  };
+  if (node.kind == Node::Kind::list && node.items.empty()) return read.fail(node, "is an empty list");
+  auto found = listOf(read, node, read.key.most, line);
+  return found ? Maybe<Polygons>(Polygons{std::move(*found), true}) : std::nullopt;
+}
+
 }  // namespace
 
 std::optional<Datum> readDatum(const Node& node, const Key& key, const std::string& path,
@@ -308,6 +322,8 @@ std::optional<Datum> readDatum(const Node& node, const Key& key, const std::stri
       return datum(pairs(read, node));
     case Kind::polygons:
       return datum(polygons(read, node));
+    case Kind::lines:
+      return datum(lines(read, node));
     case Kind::choice:
       return datum(read.choice(node));
     case Kind::date:

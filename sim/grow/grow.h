@@ -31,8 +31,9 @@ struct GrowthSettings {
   int iterations = 50;
   std::uint64_t seed = 1;
   LightSource light;
-  std::function<SkyTable()> sky_table;  ///< made once, if a process wants it, and then must be there
-  Commons commons;                      ///< what plantings share from the beginning, such as attractors
+  /// Made once, if a process wants it. By default of an even sky, in cells of 10 degrees.
+  std::function<SkyTable()> sky_table = [] { return makeSkyTable(9, 36, backgroundOf(Weighting::uniform)); };
+  Commons commons;  ///< what plantings share from the beginning, such as attractors
   bool record_attempts = false;
   std::stop_token stop;
   MemoryPlan memory;

@@ -57,12 +57,29 @@ Vec3 lightInFront(std::span<const Source> sources, Vec3 facing) {
   return sum;
 }
 
-}  // namespace
-
-Background backgroundOf(Weighting weighting) {
-  if (weighting == Weighting::cie_overcast) return [](Vec3 unit) { return (1.0 + 2.0 * unit.y) / 3.0; };
-  return [](Vec3) { return 1.0; };
+/// Of a cell, from its upper left corner on: the sun's band is narrower than cells are.
+double meanWithin(const Background& background, float top, float row_step, float left, float column_step) {
+  constexpr int kAcross = 4;
+  double sum = 0.0, weights = 0.0;
+  for (int i = 0; i < kAcross; ++i) {
+    const float elevation = top - (static_cast<float>(i) + 0.5f) / kAcross * row_step;
+    for (int k = 0; k < kAcross; ++k) {
+      const Vec3 unit = glm::normalize(
+          Vec3(directionAt(elevation, left + (static_cast<float>(k) + 0.5f) / kAcross * column_step)));
+      const double radiance = background(unit), weight = static_cast<double>(cosf(elevation));
+      if (!(radiance >= 0.0) || !std::isfinite(radiance)) {
+        throw InputError(
+            fmt::format("the sky's radiance at ({:.3f}, {:.3f}, {:.3f}) is {}; expected a number not below 0",
+                        unit.x, unit.y, unit.z, radiance));
+      }
+      sum += weight * radiance;
+      weights += weight;
+    }
+  }
+  return sum / weights;
 }
+
+}  // namespace
 
 SkyTable makeSkyTable(int rows, int columns, const Background& background) {
   if (rows < 2 || rows > kMostRows || columns < 4 || columns > kMostColumns) {
@@ -83,12 +100,8 @@ SkyTable makeSkyTable(int rows, int columns, const Background& background) {
     for (int column = 0; column < columns; ++column) {
       const Vec3f centre =
           directionAt(top - 0.5f * row_step, (static_cast<float>(column) + 0.5f) * column_step);
-      const double radiance = background(Vec3(centre));
-      if (!(radiance >= 0.0) || !std::isfinite(radiance)) {
-        throw InputError(
-            fmt::format("the sky's radiance at ({:.3f}, {:.3f}, {:.3f}) is {}; expected a number not below 0",
-                        centre.x, centre.y, centre.z, radiance));
-      }
+      const double radiance =
+          meanWithin(background, top, row_step, static_cast<float>(column) * column_step, column_step);
       const Voxel v = nearestLatticeVector(glm::normalize(Vec3(centre)), longest);
       const auto [at, is_new] =
           known.try_emplace({v.y, v.z, v.x}, static_cast<std::uint32_t>(vectors.size()));

@@ -1,12 +1,11 @@
 #pragma once
 #include <cstdint>
-#include <functional>
 #include <span>
 #include <vector>
 
 #include "sim/base/bits.h"
+#include "sim/light/background.h"
 #include "sim/light/open_rays.h"
-#include "sim/light/sky.h"
 #include "sim/sweep/open_table.h"
 
 /// Where light comes from: the way that a plant turns to.
@@ -15,12 +14,6 @@
 /// open directions. Where no two of them are more than a right angle apart it is the maximum itself; it is
 /// off where light comes from opposite sides: it then points between them.
 namespace espalier::sim {
-
-/// Radiance of the open sky towards a unit direction with y > 0, in any unit; not below 0.
-using Background = std::function<double(Vec3 unit)>;
-
-/// The sky that a weighting stands for: alike everywhere, or brighter towards the zenith (CIE overcast).
-Background backgroundOf(Weighting weighting);
 
 /// Greene's latitude-longitude table of the sky (Voxel Space Automata, 1989, section 6): cells of equal steps
 /// of elevation and azimuth, the top row first, each with a ray and with the light that it gives where the
@@ -32,7 +25,7 @@ Background backgroundOf(Weighting weighting);
 struct SkyTable {
   struct Cell {
     Vec3f centre{0.0f};     ///< unit direction
-    float light = 0.0f;     ///< background times solid angle, steradians
+    float light = 0.0f;     ///< mean background of its solid angle, times that in steradians
     std::uint32_t ray = 0;  ///< number in `rays`
   };
   int rows = 0, columns = 0;

@@ -15,6 +15,7 @@
 #include "sim/tile/closed.h"
 #include "sim/tile/fill.h"
 #include "sim/tile/memory.h"
+#include "sim/tile/tile_lines.h"
 #include "sim/tile/tile_mesh.h"
 #include "sim/tile/tiling.h"
 
@@ -227,11 +228,30 @@ Mesh asItFaces(const TiledMesh& tiled) {
   return mesh;
 }
 
+/// Puts what takes no light into the world: lines are too thin for it, and guides are not there.
+void addOpen(World& world, const std::vector<TiledVoxel>& surface, bool guide) {
+  if (!guide) return world.occupyClear(surface);
+  for (auto from = surface.begin(); from != surface.end();) {
+    const PartId part = from->surface.part;
+    std::vector<Voxel> voxels;
+    for (; from != surface.end() && from->surface.part == part; ++from) voxels.push_back(from->voxel);
+    world.addGuide(part, voxels);
+  }
+}
+
 /// Puts a mesh into the world; what was found out where it is filled.
 FillReport add(World& world, const TiledMesh& tiled, PartId first_part) {
   const Mesh& mesh = tiled.mesh;
+  if (!tiled.lines.empty()) {
+    addOpen(world, tileLines(tiled, world.frame(), first_part), tiled.guide);
+    return {};
+  }
   const std::vector<Vec3> vertices_vx = verticesIn(world.frame(), mesh);
   std::vector<TiledVoxel> surface = tileMesh(mesh, vertices_vx, world.frame().size, first_part);
+  if (tiled.guide) {
+    addOpen(world, surface, true);
+    return {};
+  }
   BitVolume touched(world.frame().size);
   for (const TiledVoxel& t : surface) touched.set(t.voxel);
   const Triangles triangles = trianglesOf(tiled, vertices_vx, world.frame().size);
@@ -262,10 +282,11 @@ World buildWorld(const Frame& frame, const std::vector<TiledMesh>& meshes, int l
   for (const TiledMesh& m : meshes) {
     const auto first_part = static_cast<PartId>(world.parts().size() + 1);
     for (const std::string& region : m.mesh.regions) world.addPart({.object = m.mesh.name, .region = region});
-    if (m.mesh.triangles.empty()) continue;
-    const FillReport report = m.turned.empty()
-                                  ? add(world, m, first_part)
-                                  : add(world, {asItFaces(m), m.solid, m.where_closed}, first_part);
+    if (m.mesh.triangles.empty() && m.lines.empty()) continue;
+    const FillReport report =
+        m.turned.empty() || !m.lit()
+            ? add(world, m, first_part)
+            : add(world, {asItFaces(m), m.solid, m.where_closed, {}, {}, m.guide}, first_part);
     if (report.found && report.filled > 0) world.setFoundClosed(m.mesh.name);
     if (fills != nullptr && (m.solid || report.filled > 0)) fills->push_back(report);
   }
@@ -290,9 +311,13 @@ Frame frameAround(const std::vector<TiledMesh>& meshes, double voxel_m, double m
         high = glm::max(high, m.mesh.vertices_m[i]);
       }
     }
+    for (const Line& line : m.lines) {
+      low = glm::min(low, glm::min(line.from_m, line.to_m));
+      high = glm::max(high, glm::max(line.from_m, line.to_m));
+    }
   }
   if (low.x > high.x)
-    throw InputError("the meshes hold no triangle, so there is nothing to lay a world around");
+    throw InputError("the meshes hold no triangle and no line, so there is nothing to lay a world around");
   const Vec3 origin = low - margin_m + voxel_m / 2;
   // A face that lies exactly between two layers is tiled in the upper one, so the last voxel is that of the
   // high corner. A thousandth of a voxel more than whole ones is rounding.

@@ -1,5 +1,6 @@
 #pragma once
 #include <cstddef>
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -12,6 +13,12 @@ namespace espalier::sim {
 /// kilometres nothing grows.
 inline constexpr double kLeastVoxel_m = 2e-5, kMostVoxel_m = 1e6;
 
+/// A straight line to be tiled, as a limb is; a point where both ends are one.
+struct Line {
+  Vec3 from_m{0.0}, to_m{0.0};
+  std::uint32_t region = 0;  ///< of its mesh
+};
+
 /// A mesh to be tiled, in place in world space.
 struct TiledMesh {
   Mesh mesh;
@@ -19,6 +26,13 @@ struct TiledMesh {
   /// Fill it where it is closed, or nearly, if it is not called solid. What it does not enclose stays open.
   bool where_closed = false;
   std::vector<bool> turned = {};  ///< of each triangle: it faces the other way than it is wound; empty: none
+  /// In place of the triangles, which then are what the lines look like.
+  std::vector<Line> lines = {};
+  /// Is felt, as near and as a region, and stands in nobody's way: neither of growth nor of light.
+  bool guide = false;
+
+  /// Whether light falls on its triangles.
+  bool lit() const { return !guide && lines.empty(); }
 };
 
 /// What filling found out about a mesh that may leak.

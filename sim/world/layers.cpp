@@ -132,7 +132,8 @@ class Slab {
 
   /// One occupied voxel of the row seen from the eight.
   void spread(Row& row, Voxel from) const {
-    const Key part = static_cast<Key>(world_.partAt(from));
+    const PartId guide = world_.guideAt(from);
+    const Key part = static_cast<Key>(guide != kFree ? guide : world_.partAt(from));
     for (int lane = 0; lane < kLanes; ++lane) {
       const int d = std::abs(first_x_ + lane - from.x);
       if (d > reach_.window) continue;
@@ -242,10 +243,13 @@ std::vector<std::vector<Block>> allSlabs(const World& world, const BitVolume& sc
 
 constexpr std::size_t kPadding = 2;  // steps: 32-bit loads of the last one
 
-/// Without plants, which neither have layers nor stand between.
-BitVolume occupiedByScene(const World& world) {
+/// What has layers: the scene and its guides, and no plants, which do not stand between either. A plant's
+/// voxel may be a guide's.
+BitVolume felt(const World& world) {
   BitVolume scene = world.occupied();
   world.grids().plants.forEach([&](Voxel v, const Surface&) { scene.clear(v); });
+  for (auto at = world.grids().guide->cbeginValueOn(); at; ++at)
+    scene.set({at.getCoord().x(), at.getCoord().y(), at.getCoord().z()});
   return scene;
 }
 
@@ -291,7 +295,7 @@ void World::setLayers(int layers) {
   }
   const int window = static_cast<int>(std::floor(std::sqrt(3.0) * layers));
   const Reach reach{layers, window, static_cast<int>(std::bit_width(parts_.size()))};
-  const BitVolume scene = occupiedByScene(*this);
+  const BitVolume scene = felt(*this);
   const bool short_keys =
       ((std::int64_t{5} * window * window + 1) << reach.part_bits) < (std::int64_t{1} << 31);
   auto slabs =

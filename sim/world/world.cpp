@@ -32,6 +32,7 @@ std::unique_ptr<World::Grids> makeGrids(const Frame& frame) {
       .coverage = makeGrid<openvdb::FloatGrid>("coverage", 0.0f, transform),
       .normal = makeGrid<openvdb::Vec3SGrid>("normal", none, transform),
       .offset_vx = makeGrid<openvdb::FloatGrid>("offset_vx", 0.0f, transform),
+      .guide = makeGrid<openvdb::Int32Grid>("guide", kFree, transform),
       .layer = makeGrid<openvdb::Int32Grid>("layer", -1, transform),
       .nearest = makeGrid<openvdb::Int32Grid>("nearest", kFree, transform),
       .distance_vx = makeGrid<openvdb::FloatGrid>("distance_vx", kFar, transform),
@@ -97,6 +98,7 @@ World::World(const World& other)
           .coverage = other.grids_->coverage->deepCopy(),
           .normal = other.grids_->normal->deepCopy(),
           .offset_vx = other.grids_->offset_vx->deepCopy(),
+          .guide = other.grids_->guide->deepCopy(),
           .layer = other.grids_->layer->deepCopy(),
           .nearest = other.grids_->nearest->deepCopy(),
           .distance_vx = other.grids_->distance_vx->deepCopy(),
@@ -252,6 +254,18 @@ void World::addOpaque(const BitVolume& voxels) {
   opaque_.add(voxels);
   opaque_bricks_.add(Bricks(voxels));
   ++version_;
+}
+
+void World::addGuide(PartId part, std::span<const Voxel> voxels) {
+  for (const Voxel v : voxels) {
+    if (!contains(frame_.size, v)) throw BrokenContract("a guide's voxel lies outside the world");
+    if (!occupied_.at(v) && guideAt(v) == kFree) grids_->guide->tree().setValueOn(coordOf(v), part);
+  }
+  ++version_;
+}
+
+PartId World::guideAt(Voxel v) const {
+  return grids_->guide->tree().getValue(coordOf(v));
 }
 
 PartId World::partAt(Voxel v) const {

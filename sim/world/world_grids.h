@@ -20,6 +20,7 @@ struct World::Grids {
   openvdb::FloatGrid::Ptr coverage;   ///< active where the scene is
   openvdb::Vec3SGrid::Ptr normal;     ///< active where the scene is
   openvdb::FloatGrid::Ptr offset_vx;  ///< active where the scene is
+  openvdb::Int32Grid::Ptr guide;      ///< part of the guide; active where one is; background kFree
   openvdb::Int32Grid::Ptr layer;      ///< active within the boundary layers, 0 on the objects; background -1
   openvdb::Int32Grid::Ptr nearest;    ///< part of the nearest scene object, same topology as layer
   openvdb::FloatGrid::Ptr distance_vx;  ///< distance to it, same topology as layer; background infinity

@@ -191,6 +191,9 @@ std::string ValueDrawer::text(const rules::Key& key, const Limits& usual) {
     }
     case Kind::polygons:
       return polygons(key.limits, key.most);
+    case Kind::lines:
+      return fmt::format("[[{0}, {1}, {0}], [{1}]]", three([&] { return number(key.limits, usual); }),
+                         three([&] { return number(key.limits, usual); }));
     case Kind::choice:
       return numbers_.pick(key.choices);
     case Kind::name:

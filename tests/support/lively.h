@@ -33,6 +33,8 @@ inline rules::RuleSet lively() {
   rules.bias.toward = 0.1;
   rules.bias.twist = 0.2;
   rules.bias.twist_radius = {5.0};
+  rules.bias.apex = 0.05;
+  rules.bias.towards = {{std::nullopt, sim::Vec3(1, 0, 0), 0.05}};
   rules.require.proximity_max = {4.5};
   rules.prefer = {true, {1.8}};
   rules.light = {0.5, 0.5, 1.5};

@@ -3,11 +3,14 @@
 #include <algorithm>
 #include <functional>
 #include <map>
+#include <numeric>
 #include <set>
 #include <string>
 
+#include "rules/growth/apices.h"
 #include "rules/language/registry.h"
 #include "sim/grow/grow.h"
+#include "sim/sense/peaks.h"
 #include "tests/support/lively.h"
 #include "tests/support/plots.h"
 
@@ -30,19 +33,29 @@ const std::map<std::string, Datum>& otherValues() {
       {"random_tree.branch_age_range", WholeRange{2, 2}},
       {"random_tree.branch_angle", Value(35.0)},
       {"random_tree.wander", tests::range(5.0, 60.0)},
+      {"random_tree.fork", WholeRange{1, 3}},
+      {"random_tree.fork_angle", 80.0},
       {"random_tree.trials.min", std::int64_t{3}},
       {"random_tree.trials.max", std::int64_t{60}},
       {"bias.up", Value(0.3)},
       {"bias.gravity", Value(0.2)},
       {"bias.light.amount", Value(0.4)},
-      {"bias.light.brightest", std::string("table")},
+      {"bias.light.brightest", std::string("moment")},
       {"bias.away", Value(0.3)},
       {"bias.toward", Value(0.3)},
       {"bias.twist.amount", Value(-0.5)},
       {"bias.twist.radius", Distance{2.0}},
+      {"bias.apex.amount", Value(-0.4)},
+      {"bias.apex.of", std::string("soil")},
+      {"bias.towards[].point", sim::Vec3(0.4, 1.0, 0.2)},
+      {"bias.towards[].direction", sim::Vec3(-1, 0, 1)},
+      {"bias.towards[].amount", Value(-0.3)},
       {"require.clear", false},
       {"require.proximity.min", Distance{1.6}},
       {"require.proximity.max", Distance{2.2}},
+      {"require.age.min", std::int64_t{2}},
+      {"require.age.max", std::int64_t{4}},
+      {"require.in_region.max", std::int64_t{2}},
       {"require.exposure.min", 0.3},
       {"require.exposure.max", 0.6},
       {"prefer.proximity", Distance{3.0}},
@@ -164,8 +177,12 @@ struct Result {
 
 Result resultOf(const RuleSet& book, int iterations = 7) {
   sim::World world = tests::wallPlot();
-  const auto growth = sim::grow(world, tests::planting(world, book, {tests::kOpenSeed, {30, 2, 23}}),
-                                tests::brightSettings(iterations));
+  sim::GrowthSettings settings = tests::brightSettings(iterations);
+  std::vector<sim::PartId> parts(world.parts().size());
+  std::iota(parts.begin(), parts.end(), 1);
+  settings.commons[kApices] = columnsOf(sim::peaksOf(world, parts, 3));
+  const auto growth =
+      sim::grow(world, tests::planting(world, book, {tests::kOpenSeed, {30, 2, 23}}), settings);
   Result result{sim::stateHash(world, growth), {}, {}, 0, 0};
   const auto colour = [&](const sim::Colour& c) {
     result.colours.insert(result.colours.end(), {c.r, c.g, c.b});
@@ -237,6 +254,8 @@ TEST_P(EveryKey, ChangesWhatGrows) {
     RuleSet changed = lively();
     // Or that there is an order at all would be the difference.
     if (path.starts_with("elements[].phyllotaxis.")) changed.elements.at(0).phyllotaxis.emplace();
+    if (path == "random_tree.fork_angle") changed.random_tree.fork_max = 3;
+    if (path == "bias.towards[].point") changed.bias.towards.at(0).direction.reset();
     ASSERT_TRUE(set(changed, path, other->second)) << path;
     const Result result = resultOf(book(changed));
     if (path == "elements[].name" || path == "elements[].texture") {

@@ -12,9 +12,23 @@ using tests::BadFile;
 // Rule files begin with "espalier: rules" on line 1.
 const std::vector<BadFile> kBadRules = {
     // the words of the language
+    {"a light that is too strong",
+     "bias: {light: -1.5}\n",
+     {"2:15: bias.light.amount is '-1.5', which is out of range"}},
+    {"a place and a way",
+     "bias: {towards: [{point: [0, 0, 0], direction: [1, 0, 0], amount: 0.1}]}\n",
+     {"2:18: expected either a point or a direction"}},
+    {"no way at all",
+     "bias: {towards: [{direction: [0, 0, 0], amount: 0.1}]}\n",
+     {"2:19: [0, 0, 0] is no direction; expected one that leads somewhere"}},
+    {"a fork of none", "random_tree: {fork: 0}\n", {"2:21: random_tree.fork is '0', which is out of range"}},
+    {"ages of growth the wrong way round",
+     "require: {age: {min: 9, max: 3}}\n",
+     {"2:22: require.age.min is 9 and require.age.max is 3; expected the first to be at most"}},
     {"misspelt key",
      "random_tree:\n  lenght: 2\n",
-     {"3:3: unknown key 'lenght'; expected one of length, branch_age_range, branch_angle, wander, trials; "
+     {"3:3: unknown key 'lenght'; expected one of length, branch_age_range, branch_angle, wander, trials, "
+      "fork, fork_angle; "
       "did you mean 'length'?"}},
     {"unknown section",
      "requires: {}\n",
@@ -288,7 +302,7 @@ const std::vector<BadFile> kBadRules = {
      "base: ivi\n",
      {"2:7: there is no file 'ivi' here, and no rule set of that name in the library; expected the path of a "
       "rule "
-      "file, or one of bare_tree, "}},
+      "file, or one of ivy, bare_tree, "}},
     {"one that it nearly has",
      "otherwise: hornbaem\n",
      {"2:12: there is no file 'hornbaem' here, and no rule set"}},
@@ -350,12 +364,13 @@ const std::vector<BadFile> kBadRules = {
      {"4:8: the line above, 'up:0.1', has no ': '"}},
     {"a colon without a space in braces",
      "bias: {up:0.1}\n",
-     {"2:8: unknown key 'up:0.1'; expected one of up, gravity, light, away, toward, twist; did you mean 'up: "
+     {"2:8: unknown key 'up:0.1'; expected one of up, gravity, light, away, toward, twist, apex, towards; "
+      "did you mean 'up: "
       "0.1'?"}},
     {"a colon without a space in the last line",
      "bias:\n  up:0.1\n",
      {"3:3: bias is 'up:0.1'; expected a mapping with some of the keys up, gravity, light, away, toward, "
-      "twist; did you mean 'up: 0.1'?"}},
+      "twist, apex, towards; did you mean 'up: 0.1'?"}},
     {"a key indented too far",
      "bias:\n  up: 0.1\n    light: 0.1\n",
      {"4:10: a ':' where no key can stand; expected one 'key: value' a line, keys of one mapping in the same "

@@ -88,6 +88,8 @@ inline std::vector<std::string> goodTexts(const rules::Key& key) {
     case Kind::polygons:
       return {"[[[0, 0, 0], [1, 0, 0], [0, 1, 0]]]", "[[[0, 0, 0], [1, 0, 0], [0, 1, 0.5]]]",
               "[[[0, 0, 0], [1 cm, 0, 0], [0, 20 mm, \"-1 mm\"]]]"};
+    case Kind::lines:
+      return {"[[[0, 0, 0], [1, 0, 0]]]", "[[[0, 0, 0]], [[1 cm, 0, 0], [0, 20 mm, 1 m], [1, 1, 1]]]"};
     case Kind::choice:
       return key.choices;
     case Kind::date:
@@ -185,6 +187,8 @@ inline std::vector<std::string> badTexts(const rules::Key& key) {
     case Kind::polygons:
       return {"[[0, 0, 0]]", "1", "[[[0, 0, few], [1, 0, 0], [0, 1, 0]]]",
               "[[[0, 0, 0], [1 cm, 0, 0], [0, 2, 0]]]", "[[[0, 0, 0], [1 vx, 0, 0], [0, 1, 0]]]"};
+    case Kind::lines:
+      return {"[]", "[[]]", "[[0, 0, 0]]", "1", "[[[0, 0, few], [1, 0, 0]]]", "[[[1 vx, 0, 0]]]"};
     case Kind::choice:
       return {"none_of_them", "5", "[]", "{}"};
     case Kind::date:

@@ -323,14 +323,17 @@ TEST(Growing, SaysAllThatIsWrongWithItsPlantings) {
             (Found{{1, std::nullopt}, {2, std::nullopt}}));
 }
 
-TEST(Growing, AProcessThatWantsATableOfTheSkyMustBeGivenOne) {
+TEST(Growing, AProcessThatWantsATableOfTheSkyGetsTheUsualOneOrNeedsOne) {
   class Gazer final : public Creeper {
     sim::Wants wants() const override { return {.sky_table = true}; }
   };
   sim::World world = tests::wallPlot();
   const std::vector<sim::Planting> gazer = {
       {"gazer", std::make_shared<Gazer>(), sim::seedsAt(world.frame(), {{5, 5, 5}})}};
-  EXPECT_THROW(sim::grow(world, gazer, settings(1)), sim::InputError);
+  EXPECT_NO_THROW(sim::grow(world, gazer, settings(1)));
+  sim::GrowthSettings without = settings(1);
+  without.sky_table = nullptr;
+  EXPECT_THROW(sim::grow(world, gazer, without), sim::InputError);
 }
 
 /// Breaks the contract in a way of choice.

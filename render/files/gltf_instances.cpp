@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "render/files/gltf_surfaces.h"
+#include "render/files/lean_mesh.h"
 #include "sim/base/hasher.h"
 
 namespace espalier::render {
@@ -43,9 +44,11 @@ int GltfInstances::node(const Instances& instances, const std::string& kind) {
   const int material = plantMaterial(materials_, instances.shape, kind, surface, 1.0f);
   const auto [mesh, is_new] = shapes_.try_emplace({hashOfPlaces(instances.shape), kind, material}, 0);
   if (is_new) {
+    const ModelMesh lean = leanMesh(instances.shape, surface);
+    const ModelMesh& shape = lean.empty() ? instances.shape : lean;
     std::vector<tinygltf::Primitive> primitives;
-    for (const MeshPart& part : partsOf(instances.shape)) {
-      primitives.push_back(shapeOf(file_, instances.shape, part, surface));
+    for (const MeshPart& part : partsOf(shape)) {
+      primitives.push_back(shapeOf(file_, shape, part, surface));
       primitives.back().material = material;
     }
     mesh->second = addMesh(file_, kind, std::move(primitives));

@@ -3,15 +3,15 @@
 #include <algorithm>
 #include <vector>
 
-#include "render/files/flat_mesh.h"
 #include "render/files/gltf_surfaces.h"
+#include "render/files/lean_mesh.h"
 
 namespace espalier::render {
 
 int GltfPlants::surfaceNode(const ModelMesh& drawn, const std::string& material, PlantSurface kind,
                             const std::optional<Steps>& steps) {
-  const ModelMesh flat = kind == PlantSurface::blades ? withoutFlatNormals(drawn) : ModelMesh();
-  const ModelMesh& mesh = flat.empty() ? drawn : flat;
+  const ModelMesh lean = leanMesh(drawn, kind);
+  const ModelMesh& mesh = lean.empty() ? drawn : lean;
   float scale = 1.0f;
   std::vector<Bytes4> tints;
   if (!mesh.tints.empty()) {
@@ -27,8 +27,8 @@ int GltfPlants::surfaceNode(const ModelMesh& drawn, const std::string& material,
   for (const MeshPart& part : partsOf(mesh)) {
     tinygltf::Primitive& primitive = primitives.emplace_back(shapeOf(file_, mesh, part, kind, steps));
     if (!tints.empty()) {
-      primitive.attributes["COLOR_0"] =
-          file_.vertices(part.of(tints), TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE, TINYGLTF_TYPE_VEC4, true);
+      primitive.attributes["COLOR_0"] = file_.vertices<Bytes4>(
+          part.of(tints), TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE, TINYGLTF_TYPE_VEC4, true);
     }
     primitive.attributes["_EXPOSURE"] = file_.numbers(part.of(mesh.exposures));
     primitive.attributes["_AGE"] = file_.numbers(part.of(mesh.youths));

@@ -40,28 +40,56 @@ int plantMaterial(GltfMaterials& materials, const ModelMesh& mesh, const std::st
                       materials.textureOf(mesh.picture->name, mesh.picture->png, "image/png", {wrap, wrap}));
 }
 
+namespace {
+
+constexpr std::size_t kRoom = 2048;  // vertices: a part that has no more left ends with a piece
+
+/// Numbers the corners of some of a mesh's triangles anew, among those in use. `number`: room for as many as
+/// the mesh has vertices.
+MeshPart partOf(std::span<const std::array<std::uint32_t, 3>> triangles, std::vector<std::uint32_t>& number) {
+  MeshPart part;
+  part.triangles.assign(triangles.begin(), triangles.end());
+  for (const auto& triangle : triangles)
+    part.vertices.insert(part.vertices.end(), triangle.begin(), triangle.end());
+  std::sort(part.vertices.begin(), part.vertices.end());
+  part.vertices.erase(std::unique(part.vertices.begin(), part.vertices.end()), part.vertices.end());
+  for (std::uint32_t i = 0; i < part.vertices.size(); ++i) number[part.vertices[i]] = i;
+  for (auto& triangle : part.triangles) {
+    for (std::uint32_t& corner : triangle) corner = number[corner];
+  }
+  return part;
+}
+
+}  // namespace
+
 std::vector<MeshPart> partsOf(const ModelMesh& mesh) {
   const std::size_t all = mesh.positions_m.size();
-  if (all <= kMostShort) return {{0, all, 0, mesh.triangles.size()}};
-  std::vector<MeshPart> parts;
-  std::size_t low = 0, high = 0, vertices = 0;  // of the last part; of all of them
+  std::vector<std::uint32_t> last_part(all, 0);  // in which a vertex was met, counted from 1
+  std::vector<std::size_t> begins{0};            // of parts, among the triangles
+  std::size_t own = 0, vertices = 0;             // of the last part; of all of them
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
-    const auto [least, most] = std::minmax_element(mesh.triangles[t].begin(), mesh.triangles[t].end());
-    if (parts.empty() ||
-        std::max<std::size_t>(high, *most) - std::min<std::size_t>(low, *least) >= kMostShort) {
-      parts.push_back({*least, 0, t, 0});
-      low = *least;
-      high = *most;
+    const auto is_new = [&](std::uint32_t v) { return last_part[v] != begins.size(); };
+    const auto& triangle = mesh.triangles[t];
+    const bool next_piece =
+        t > 0 && !mesh.pieces.empty() && mesh.pieces[triangle[0]] != mesh.pieces[mesh.triangles[t - 1][0]];
+    const auto more = static_cast<std::size_t>(std::count_if(triangle.begin(), triangle.end(), is_new));
+    if (own + more > kMostShort || (next_piece && own + kRoom > kMostShort)) {
+      begins.push_back(t);
+      own = 0;
     }
-    vertices -= parts.back().vertices;
-    low = std::min<std::size_t>(low, *least);
-    high = std::max<std::size_t>(high, *most);
-    parts.back() = {low, high - low + 1, parts.back().first_triangle, t + 1 - parts.back().first_triangle};
-    vertices += parts.back().vertices;
+    for (const std::uint32_t v : triangle) {
+      if (!is_new(v)) continue;
+      last_part[v] = static_cast<std::uint32_t>(begins.size());
+      ++own;
+      ++vertices;
+    }
   }
-  const bool short_ones = std::all_of(parts.begin(), parts.end(),
-                                      [](const MeshPart& part) { return part.vertices <= kMostShort; });
-  if (!short_ones || vertices > all + all / 8) return {{0, all, 0, mesh.triangles.size()}};
+  if (vertices > all + all / 8) begins.resize(1);
+  begins.push_back(mesh.triangles.size());
+  std::vector<MeshPart> parts;
+  for (std::size_t i = 0; i + 1 < begins.size(); ++i)
+    parts.push_back(
+        partOf(std::span(mesh.triangles).subspan(begins[i], begins[i + 1] - begins[i]), last_part));
   return parts;
 }
 
@@ -110,16 +138,15 @@ tinygltf::Primitive shapeOf(GlbFile& file, const ModelMesh& mesh, const MeshPart
                             const std::optional<Steps>& steps) {
   tinygltf::Primitive primitive;
   primitive.mode = TINYGLTF_MODE_TRIANGLES;
-  const auto places = part.of(mesh.positions_m);
+  const std::vector<sim::Vec3f> places = part.of(mesh.positions_m);
   primitive.attributes["POSITION"] = steps ? addPlaces(file, places, *steps) : file.positions(places);
   if (!mesh.normals.empty()) {
-    const auto normals = part.of(mesh.normals);
+    const std::vector<sim::Vec3f> normals = part.of(mesh.normals);
     primitive.attributes["NORMAL"] = steps ? addNormalBytes(file, normals) : file.normals(normals);
   }
-  if (kind != PlantSurface::stalks)  // nothing is laid on those
+  if (!mesh.uvs.empty())
     primitive.attributes["TEXCOORD_0"] = file.uvs(part.of(mesh.uvs), kind == PlantSurface::blades);
-  primitive.indices = file.indices(std::span(mesh.triangles).subspan(part.first_triangle, part.triangles),
-                                   part.vertices, part.first_vertex);
+  primitive.indices = file.indices(part.triangles, part.vertices.size(), kind != PlantSurface::stems);
   return primitive;
 }
 

@@ -30,19 +30,23 @@ Bytes4 bytesOf(sim::Colour tint, float scale);
 int plantMaterial(GltfMaterials& materials, const ModelMesh& mesh, const std::string& name, PlantSurface kind,
                   float scale);
 
-/// Vertices and triangles of a mesh that follow each other.
+/// Triangles of a mesh that follow each other, and the vertices that they use.
 struct MeshPart {
-  std::size_t first_vertex = 0, vertices = 0, first_triangle = 0, triangles = 0;
+  std::vector<std::uint32_t> vertices;                  ///< of the mesh, rising
+  std::vector<std::array<std::uint32_t, 3>> triangles;  ///< of numbers among these
 
   /// What a part has of what all vertices have.
   template <class T>
-  std::span<const T> of(const std::vector<T>& values) const {
-    return std::span(values).subspan(first_vertex, vertices);
+  std::vector<T> of(const std::vector<T>& values) const {
+    std::vector<T> own;
+    own.reserve(vertices.size());
+    for (const std::uint32_t v : vertices) own.push_back(values[v]);
+    return own;
   }
 };
 
-/// Parts of at most kMostShort vertices each, where triangles that follow each other have vertices that do;
-/// some may be in two parts. Else the whole.
+/// Parts of at most kMostShort vertices each, some of which may be in several; the whole where these would be
+/// more than one in eight. They begin with whole blades, so that all of a kind begin alike.
 std::vector<MeshPart> partsOf(const ModelMesh& mesh);
 
 /// Places as so many steps from a corner, 0 .. 65535 each way.

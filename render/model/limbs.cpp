@@ -20,7 +20,7 @@ constexpr double kLeastStep = 0.05;     // radii between two stations
 constexpr double kTipRadius = 0.7;      // of the last segment's
 constexpr double kFootRadii = 1.25;     // how much wider than its limb a foot is
 constexpr double kWidest = 0.45 * kPi;  // half of the angle of the widest foot
-constexpr double kBeside = 0.8;   // radii of the thinnest twig that a centre line may be off, or the error:
+constexpr double kBeside = 1.0;   // radii of the thinnest twig that a centre line may be off, or the error:
                                   // a tube beside its place looks right, a thin or edged one does not
 constexpr double kBent = 0.1;     // radii that a centre line may be off ..
 constexpr double kThinner = 0.2;  // and of their radii

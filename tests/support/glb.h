@@ -42,14 +42,16 @@ inline std::string bytesOfView(const tinygltf::Model& model, int view) {
   return {reinterpret_cast<const char*>(data), about.byteLength};
 }
 
-/// What an accessor holds, as it lies there.
+/// What an accessor holds, as it lies there: more than that may lie in its view.
 template <class T>
 std::vector<T> valuesOf(const tinygltf::Model& model, int accessor) {
   const auto& about = at(model.accessors, accessor);
   const std::string bytes = bytesOfView(model, about.bufferView);
-  std::vector<T> values(bytes.size() / sizeof(T));
-  std::memcpy(values.data(), bytes.data(), values.size() * sizeof(T));
-  EXPECT_EQ(values.size() % about.count, 0u);
+  const auto stride = static_cast<std::size_t>(about.ByteStride(at(model.bufferViews, about.bufferView)));
+  EXPECT_EQ(stride % sizeof(T), 0u);
+  std::vector<T> values(about.count * stride / sizeof(T));
+  EXPECT_LE(values.size() * sizeof(T), bytes.size());
+  std::memcpy(values.data(), bytes.data(), std::min(bytes.size(), values.size() * sizeof(T)));
   return values;
 }
 

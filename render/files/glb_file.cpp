@@ -26,24 +26,30 @@ tinygltf::Value extras(const sim::Provenance& made_by) {
                                                  {"inputs", tinygltf::Value(std::move(inputs))}});
 }
 
-/// `at(element, axis)`: a number.
-void setExtent(tinygltf::Accessor& accessor, const auto& data, const auto& at) {
-  for (int axis = 0; axis < 3; ++axis) {
-    auto low = at(data[0], axis), high = low;
-    for (const auto& element : data) {
-      low = std::min(low, at(element, axis));
-      high = std::max(high, at(element, axis));
-    }
-    accessor.minValues.push_back(static_cast<double>(low));
-    accessor.maxValues.push_back(static_cast<double>(high));
-  }
-}
-
 }  // namespace
 
 std::string validUtf8(const std::string& name) {
   using nlohmann::json;
   return json::parse(json(name).dump(-1, ' ', false, json::error_handler_t::replace)).get<std::string>();
+}
+
+void setExtent(tinygltf::Accessor& accessor, std::span<const sim::Vec3f> places) {
+  sim::Vec3f low = places[0], high = low;
+  for (const sim::Vec3f place : places) {
+    low = glm::min(low, place);
+    high = glm::max(high, place);
+  }
+  for (int axis = 0; axis < 3; ++axis) {
+    accessor.minValues.push_back(static_cast<double>(low[axis]));
+    accessor.maxValues.push_back(static_cast<double>(high[axis]));
+  }
+}
+
+std::vector<glm::vec2> turnedUvs(std::span<const glm::vec2> uvs) {
+  std::vector<glm::vec2> turned;
+  turned.reserve(uvs.size());
+  for (const glm::vec2 uv : uvs) turned.emplace_back(uv.x, 1.0f - uv.y);
+  return turned;
 }
 
 GlbFile::GlbFile(const sim::Provenance& made_by, std::ostream* buffer) : buffer_(buffer) {
@@ -115,14 +121,7 @@ int GlbFile::accessor(const void* data, std::size_t bytes, std::size_t count, in
 
 int GlbFile::positions(std::span<const sim::Vec3f> data) {
   const int index = vertices(data, TINYGLTF_COMPONENT_TYPE_FLOAT, TINYGLTF_TYPE_VEC3);
-  setExtent(model_.accessors.back(), data, [](const sim::Vec3f& p, int axis) { return p[axis]; });
-  return index;
-}
-
-int GlbFile::positions(std::span<const std::array<std::uint16_t, 4>> data) {
-  const int index = vertices(data, TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT, TINYGLTF_TYPE_VEC3);
-  setExtent(model_.accessors.back(), data,
-            [](const auto& p, int axis) { return p[static_cast<std::size_t>(axis)]; });
+  setExtent(model_.accessors.back(), data);
   return index;
 }
 
@@ -150,10 +149,7 @@ int GlbFile::uvs(std::span<const glm::vec2> data, bool blades) {
                     TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT, TINYGLTF_TYPE_VEC2, TINYGLTF_TARGET_ARRAY_BUFFER,
                     true, true);
   }
-  std::vector<glm::vec2> turned;
-  turned.reserve(data.size());
-  for (const glm::vec2 uv : data) turned.emplace_back(uv.x, 1.0f - uv.y);
-  return vertices<glm::vec2>(turned, TINYGLTF_COMPONENT_TYPE_FLOAT, TINYGLTF_TYPE_VEC2);
+  return vertices<glm::vec2>(turnedUvs(data), TINYGLTF_COMPONENT_TYPE_FLOAT, TINYGLTF_TYPE_VEC2);
 }
 
 int GlbFile::indices(std::span<const std::array<std::uint32_t, 3>> triangles, std::size_t vertices,

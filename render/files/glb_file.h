@@ -35,8 +35,6 @@ class GlbFile {
   }
   /// A VEC3 of places, whose box glTF wants to know.
   int positions(std::span<const sim::Vec3f> data);
-  /// The same in whole numbers, of which the fourth is not looked at: needs KHR_mesh_quantization.
-  int positions(std::span<const std::array<std::uint16_t, 4>> data);
   /// A number each.
   int numbers(std::span<const float> data) {
     return vertices(data, TINYGLTF_COMPONENT_TYPE_FLOAT, TINYGLTF_TYPE_SCALAR);
@@ -89,6 +87,12 @@ class GlbFile {
   std::vector<Repeated> repeated_;  // none of which begins as another one does, where they are of one kind
   tinygltf::Model model_;
 };
+
+/// Of a VEC3 of places glTF wants to know the box.
+void setExtent(tinygltf::Accessor& accessor, std::span<const sim::Vec3f> places);
+
+/// UVs as glTF counts them.
+std::vector<glm::vec2> turnedUvs(std::span<const glm::vec2> uvs);
 
 inline int sizeOf(const auto& container) {
   return static_cast<int>(container.size());

@@ -93,57 +93,11 @@ std::vector<MeshPart> partsOf(const ModelMesh& mesh) {
   return parts;
 }
 
-std::optional<Steps> stepsOf(const ModelMesh& mesh, double least_m) {
-  constexpr double kMostSteps = 65535.0, kSteps = 15.0;
-  sim::Vec3f low = mesh.positions_m[0], high = low;
-  for (const sim::Vec3f p : mesh.positions_m) {
-    low = glm::min(low, p);
-    high = glm::max(high, p);
-  }
-  const sim::Vec3 size = sim::Vec3(high) - sim::Vec3(low);
-  const double step_m = std::max({size.x, size.y, size.z}) / kMostSteps;
-  if (!(step_m > 0.0 && kSteps * step_m <= least_m)) return {};
-  return Steps{sim::Vec3(low), step_m};
-}
-
-namespace {
-
-int addPlaces(GlbFile& file, std::span<const sim::Vec3f> places_m, const Steps& steps) {
-  std::vector<std::array<std::uint16_t, 4>> shorts;
-  shorts.reserve(places_m.size());
-  for (const sim::Vec3f place : places_m) {
-    const sim::Vec3 at = (sim::Vec3(place) - steps.from_m) / steps.step_m;
-    const auto shortOf = [&](int axis) { return static_cast<std::uint16_t>(std::lround(at[axis])); };
-    shorts.push_back({shortOf(0), shortOf(1), shortOf(2), 0});
-  }
-  return file.positions(shorts);
-}
-
-int addNormalBytes(GlbFile& file, std::span<const sim::Vec3f> normals) {
-  std::vector<std::array<std::int8_t, 4>> bytes;
-  bytes.reserve(normals.size());
-  for (const sim::Vec3f normal : normals) {
-    const auto signedByteOf = [&](int axis) {
-      return static_cast<std::int8_t>(std::lround(127.0f * normal[axis]));
-    };
-    bytes.push_back({signedByteOf(0), signedByteOf(1), signedByteOf(2), 0});
-  }
-  return file.vertices<std::array<std::int8_t, 4>>(bytes, TINYGLTF_COMPONENT_TYPE_BYTE, TINYGLTF_TYPE_VEC3,
-                                                   true);
-}
-
-}  // namespace
-
-tinygltf::Primitive shapeOf(GlbFile& file, const ModelMesh& mesh, const MeshPart& part, PlantSurface kind,
-                            const std::optional<Steps>& steps) {
+tinygltf::Primitive shapeOf(GlbFile& file, const ModelMesh& mesh, const MeshPart& part, PlantSurface kind) {
   tinygltf::Primitive primitive;
   primitive.mode = TINYGLTF_MODE_TRIANGLES;
-  const std::vector<sim::Vec3f> places = part.of(mesh.positions_m);
-  primitive.attributes["POSITION"] = steps ? addPlaces(file, places, *steps) : file.positions(places);
-  if (!mesh.normals.empty()) {
-    const std::vector<sim::Vec3f> normals = part.of(mesh.normals);
-    primitive.attributes["NORMAL"] = steps ? addNormalBytes(file, normals) : file.normals(normals);
-  }
+  primitive.attributes["POSITION"] = file.positions(part.of(mesh.positions_m));
+  if (!mesh.normals.empty()) primitive.attributes["NORMAL"] = file.normals(part.of(mesh.normals));
   if (!mesh.uvs.empty())
     primitive.attributes["TEXCOORD_0"] = file.uvs(part.of(mesh.uvs), kind == PlantSurface::blades);
   primitive.indices = file.indices(part.triangles, part.vertices.size(), kind != PlantSurface::stems);

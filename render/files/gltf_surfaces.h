@@ -49,19 +49,8 @@ struct MeshPart {
 /// more than one in eight. They begin with whole blades, so that all of a kind begin alike.
 std::vector<MeshPart> partsOf(const ModelMesh& mesh);
 
-/// Places as so many steps from a corner, 0 .. 65535 each way.
-struct Steps {
-  sim::Vec3 from_m{0.0};
-  double step_m = 0.0;
-};
-/// Those in which a mesh's places are off by a thirtieth of `least_m` at most each way; nothing where 16 bits
-/// are not enough for that.
-std::optional<Steps> stepsOf(const ModelMesh& mesh, double least_m);
-
-/// Places, normals where there are some, UVs and triangles. In steps places take 8 bytes in place of 12, and
-/// normals 4.
-tinygltf::Primitive shapeOf(GlbFile& file, const ModelMesh& mesh, const MeshPart& part, PlantSurface kind,
-                            const std::optional<Steps>& steps = {});
+/// Places, normals where there are some, UVs and triangles.
+tinygltf::Primitive shapeOf(GlbFile& file, const ModelMesh& mesh, const MeshPart& part, PlantSurface kind);
 
 /// Adds a mesh; its number.
 int addMesh(GlbFile& file, const std::string& name, std::vector<tinygltf::Primitive> primitives);

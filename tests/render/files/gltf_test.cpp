@@ -232,7 +232,7 @@ TEST_F(Glb, InstancesStandWhereTheMeshesAre) {
   EXPECT_LT(bytes.size(), 2 * bytes_.size());
   const auto model = readGlb(bytes);
   EXPECT_EQ(model.extensionsRequired,
-            (std::vector<std::string>{"EXT_mesh_gpu_instancing", "KHR_mesh_quantization"}));
+            (std::vector<std::string>{"EXT_mesh_gpu_instancing", "KHR_draco_mesh_compression"}));
   EXPECT_EQ(model.extensionsUsed, model.extensionsRequired);
   EXPECT_EQ(model.meshes.size(), 4u);  // two plants' stems, a leaf and a stalk
   for (const auto& [name, mesh] :

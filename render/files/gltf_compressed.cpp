@@ -8,6 +8,7 @@
 #include <glm/common.hpp>
 #include <vector>
 
+#include "render/files/gltf_surfaces.h"
 #include "sim/base/error.h"
 
 namespace espalier::render {
@@ -41,9 +42,9 @@ int bitsFor(double range, double step) {
 /// One mesh on its way into a file.
 class DracoMesh {
  public:
-  explicit DracoMesh(const ModelMesh& mesh) {
-    mesh_.set_num_points(static_cast<std::uint32_t>(mesh.positions_m.size()));
-    for (const auto& t : mesh.triangles)
+  explicit DracoMesh(const MeshPart& whole) {
+    mesh_.set_num_points(static_cast<std::uint32_t>(whole.vertices.size()));
+    for (const auto& t : whole.triangles)
       mesh_.AddFace({draco::PointIndex(t[0]), draco::PointIndex(t[1]), draco::PointIndex(t[2])});
   }
 
@@ -112,24 +113,25 @@ class DracoMesh {
 
 }  // namespace
 
-tinygltf::Primitive compressed(GlbFile& file, const ModelMesh& mesh, double least_m) {
+tinygltf::Primitive compressed(GlbFile& file, const ModelMesh& mesh, const Needed& needed, double least_m) {
   using Attribute = draco::GeometryAttribute;
-  DracoMesh packed(mesh);
-  const int places = packed.add("POSITION", Attribute::POSITION, mesh.positions_m);
-  const int normals = packed.add("NORMAL", Attribute::NORMAL, mesh.normals);
-  const int uvs = mesh.uvs.empty() ? -1 : packed.add("TEXCOORD_0", Attribute::TEX_COORD, turnedUvs(mesh.uvs));
-  const int exposures = packed.add("_EXPOSURE", Attribute::GENERIC, mesh.exposures);
-  const int ages = packed.add("_AGE", Attribute::GENERIC, mesh.youths);
-  const int orders =
-      packed.add("_ORDER", Attribute::GENERIC, std::vector<float>(mesh.orders.begin(), mesh.orders.end()));
+  const MeshPart whole = wholeOf(mesh, needed);
+  DracoMesh packed(whole);
+  const int places = packed.add("POSITION", Attribute::POSITION, whole.of(mesh.positions_m));
+  const int normals = packed.add("NORMAL", Attribute::NORMAL, whole.of(mesh.normals));
+  const std::vector<glm::vec2> chart = needed.uvs ? turnedUvs(whole.of(mesh.uvs)) : std::vector<glm::vec2>();
+  const int uvs = needed.uvs ? packed.add("TEXCOORD_0", Attribute::TEX_COORD, chart) : -1;
+  const int exposures = packed.add("_EXPOSURE", Attribute::GENERIC, whole.of(mesh.exposures));
+  const int ages = packed.add("_AGE", Attribute::GENERIC, whole.of(mesh.youths));
+  const int orders = packed.add("_ORDER", Attribute::GENERIC, whole.of<float>(mesh.orders));
 
   draco::ExpertEncoder encoder(packed.mesh());
   const Cube<sim::Vec3f> box(mesh.positions_m);
   packed.quantize(encoder, places, bitsFor(box.side, least_m / kPlaceSteps), &box.low.x, box.side);
   encoder.SetAttributeQuantization(normals, kNormalBits);
-  if (uvs >= 0) {
-    const Cube<glm::vec2> chart(turnedUvs(mesh.uvs));
-    packed.quantize(encoder, uvs, bitsFor(chart.side, 1.0 / kUvSteps), &chart.low.x, chart.side);
+  if (needed.uvs) {
+    const Cube<glm::vec2> square(chart);
+    packed.quantize(encoder, uvs, bitsFor(square.side, 1.0 / kUvSteps), &square.low.x, square.side);
   }
   constexpr float kZero = 0.0f, kOne = 1.0f, kMostOrder = 255.0f;  // whole numbers of these stay as they are
   packed.quantize(encoder, exposures, kByteBits, &kZero, kOne);

@@ -5,7 +5,6 @@
 #include <vector>
 
 #include "render/files/gltf_surfaces.h"
-#include "render/files/lean_mesh.h"
 #include "sim/base/hasher.h"
 
 namespace espalier::render {
@@ -44,13 +43,12 @@ int GltfInstances::node(const Instances& instances, const std::string& kind) {
   const int material = plantMaterial(materials_, instances.shape, kind, surface, 1.0f);
   const auto [mesh, is_new] = shapes_.try_emplace({hashOfPlaces(instances.shape), kind, material}, 0);
   if (is_new) {
-    const ModelMesh lean = leanMesh(instances.shape, surface);
-    const ModelMesh& shape = lean.empty() ? instances.shape : lean;
+    const Needed needed = neededOf(instances.shape, surface);
     std::vector<tinygltf::Primitive> primitives;
-    for (const MeshPart& part : partsOf(shape)) {
-      primitives.push_back(shapeOf(file_, shape, part, surface));
+    forEachPart(instances.shape, needed, [&](const MeshPart& part) {
+      primitives.push_back(shapeOf(file_, instances.shape, needed, part, surface));
       primitives.back().material = material;
-    }
+    });
     mesh->second = addMesh(file_, kind, std::move(primitives));
   }
   const int node = file_.node(instances.shape.name, mesh->second);

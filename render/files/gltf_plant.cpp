@@ -5,14 +5,12 @@
 
 #include "render/files/gltf_compressed.h"
 #include "render/files/gltf_surfaces.h"
-#include "render/files/lean_mesh.h"
 
 namespace espalier::render {
 
-int GltfPlants::surfaceNode(const ModelMesh& drawn, const std::string& material, PlantSurface kind,
+int GltfPlants::surfaceNode(const ModelMesh& mesh, const std::string& material, PlantSurface kind,
                             double packed_m) {
-  const ModelMesh lean = leanMesh(drawn, kind);
-  const ModelMesh& mesh = lean.empty() ? drawn : lean;
+  const Needed needed = neededOf(mesh, kind);
   float scale = 1.0f;
   std::vector<Bytes4> tints;
   if (!mesh.tints.empty()) {
@@ -24,23 +22,22 @@ int GltfPlants::surfaceNode(const ModelMesh& drawn, const std::string& material,
   }
   std::vector<tinygltf::Primitive> primitives;
   if (packed_m > 0.0) {
-    primitives.push_back(compressed(file_, mesh, packed_m));
+    primitives.push_back(compressed(file_, mesh, needed, packed_m));
   } else {
-    const std::vector<float> orders(mesh.orders.begin(), mesh.orders.end());
-    for (const MeshPart& part : partsOf(mesh)) {
-      tinygltf::Primitive& primitive = primitives.emplace_back(shapeOf(file_, mesh, part, kind));
+    forEachPart(mesh, needed, [&](const MeshPart& part) {
+      tinygltf::Primitive& primitive = primitives.emplace_back(shapeOf(file_, mesh, needed, part, kind));
       if (!tints.empty()) {
         primitive.attributes["COLOR_0"] = file_.vertices<Bytes4>(
             part.of(tints), TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE, TINYGLTF_TYPE_VEC4, true);
       }
       primitive.attributes["_EXPOSURE"] = file_.numbers(part.of(mesh.exposures));
       primitive.attributes["_AGE"] = file_.numbers(part.of(mesh.youths));
-      primitive.attributes["_ORDER"] = file_.numbers(part.of(orders));
-    }
+      primitive.attributes["_ORDER"] = file_.numbers(part.of<float>(mesh.orders));
+    });
   }
   const int number = plantMaterial(materials_, mesh, material, kind, scale);
   for (tinygltf::Primitive& primitive : primitives) primitive.material = number;
-  return file_.node(drawn.name, addMesh(file_, drawn.name, std::move(primitives)));
+  return file_.node(mesh.name, addMesh(file_, mesh.name, std::move(primitives)));
 }
 
 void GltfPlants::add(const PlantModel& plant) {

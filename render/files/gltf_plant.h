@@ -19,7 +19,7 @@ class GltfPlants {
 
  private:
   /// Compressed where `packed_m` is not 0, as for so thin a radius.
-  int surfaceNode(const ModelMesh& drawn, const std::string& material, PlantSurface kind, double packed_m);
+  int surfaceNode(const ModelMesh& mesh, const std::string& material, PlantSurface kind, double packed_m);
 
   GlbFile& file_;
   GltfMaterials& materials_;

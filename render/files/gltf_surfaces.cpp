@@ -46,11 +46,14 @@ constexpr std::size_t kRoom = 2048;  // vertices: a part that has no more left e
 
 /// Numbers the corners of some of a mesh's triangles anew, among those in use. `number`: room for as many as
 /// the mesh has vertices.
-MeshPart partOf(std::span<const std::array<std::uint32_t, 3>> triangles, std::vector<std::uint32_t>& number) {
+MeshPart partOf(std::span<const std::array<std::uint32_t, 3>> triangles, const Needed& needed,
+                std::vector<std::uint32_t>& number) {
   MeshPart part;
   part.triangles.assign(triangles.begin(), triangles.end());
-  for (const auto& triangle : triangles)
+  for (auto& triangle : part.triangles) {
+    for (std::uint32_t& corner : triangle) corner = needed.standsFor(corner);
     part.vertices.insert(part.vertices.end(), triangle.begin(), triangle.end());
+  }
   std::sort(part.vertices.begin(), part.vertices.end());
   part.vertices.erase(std::unique(part.vertices.begin(), part.vertices.end()), part.vertices.end());
   for (std::uint32_t i = 0; i < part.vertices.size(); ++i) number[part.vertices[i]] = i;
@@ -62,13 +65,18 @@ MeshPart partOf(std::span<const std::array<std::uint32_t, 3>> triangles, std::ve
 
 }  // namespace
 
-std::vector<MeshPart> partsOf(const ModelMesh& mesh) {
-  const std::size_t all = mesh.positions_m.size();
-  std::vector<std::uint32_t> last_part(all, 0);  // in which a vertex was met, counted from 1
-  std::vector<std::size_t> begins{0};            // of parts, among the triangles
-  std::size_t own = 0, vertices = 0;             // of the last part; of all of them
+MeshPart wholeOf(const ModelMesh& mesh, const Needed& needed) {
+  std::vector<std::uint32_t> number(mesh.positions_m.size());
+  return partOf(mesh.triangles, needed, number);
+}
+
+void forEachPart(const ModelMesh& mesh, const Needed& needed,
+                 const std::function<void(const MeshPart&)>& visit) {
+  std::vector<std::uint32_t> last_part(mesh.positions_m.size(), 0);  // in which each was met, counted from 1
+  std::vector<std::size_t> begins{0};                                // of parts, among the triangles
+  std::size_t own = 0, met = 0, distinct = 0;  // vertices of the last part; of all of them; of the mesh
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
-    const auto is_new = [&](std::uint32_t v) { return last_part[v] != begins.size(); };
+    const auto is_new = [&](std::uint32_t v) { return last_part[needed.standsFor(v)] != begins.size(); };
     const auto& triangle = mesh.triangles[t];
     const bool next_piece =
         t > 0 && !mesh.pieces.empty() && mesh.pieces[triangle[0]] != mesh.pieces[mesh.triangles[t - 1][0]];
@@ -79,26 +87,26 @@ std::vector<MeshPart> partsOf(const ModelMesh& mesh) {
     }
     for (const std::uint32_t v : triangle) {
       if (!is_new(v)) continue;
-      last_part[v] = static_cast<std::uint32_t>(begins.size());
+      std::uint32_t& last = last_part[needed.standsFor(v)];
+      distinct += last == 0;
+      last = static_cast<std::uint32_t>(begins.size());
       ++own;
-      ++vertices;
+      ++met;
     }
   }
-  if (vertices > all + all / 8) begins.resize(1);
+  if (met > distinct + distinct / 8) begins.resize(1);
   begins.push_back(mesh.triangles.size());
-  std::vector<MeshPart> parts;
   for (std::size_t i = 0; i + 1 < begins.size(); ++i)
-    parts.push_back(
-        partOf(std::span(mesh.triangles).subspan(begins[i], begins[i + 1] - begins[i]), last_part));
-  return parts;
+    visit(partOf(std::span(mesh.triangles).subspan(begins[i], begins[i + 1] - begins[i]), needed, last_part));
 }
 
-tinygltf::Primitive shapeOf(GlbFile& file, const ModelMesh& mesh, const MeshPart& part, PlantSurface kind) {
+tinygltf::Primitive shapeOf(GlbFile& file, const ModelMesh& mesh, const Needed& needed, const MeshPart& part,
+                            PlantSurface kind) {
   tinygltf::Primitive primitive;
   primitive.mode = TINYGLTF_MODE_TRIANGLES;
   primitive.attributes["POSITION"] = file.positions(part.of(mesh.positions_m));
-  if (!mesh.normals.empty()) primitive.attributes["NORMAL"] = file.normals(part.of(mesh.normals));
-  if (!mesh.uvs.empty())
+  if (needed.normals) primitive.attributes["NORMAL"] = file.normals(part.of(mesh.normals));
+  if (needed.uvs)
     primitive.attributes["TEXCOORD_0"] = file.uvs(part.of(mesh.uvs), kind == PlantSurface::blades);
   primitive.indices = file.indices(part.triangles, part.vertices.size(), kind != PlantSurface::stems);
   return primitive;

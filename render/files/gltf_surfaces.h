@@ -2,13 +2,13 @@
 // Internal to the wing.
 #include <array>
 #include <cstdint>
-#include <optional>
+#include <functional>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "render/files/gltf_materials.h"
-#include "render/files/surfaces.h"
+#include "render/files/needed.h"
 
 namespace espalier::render {
 
@@ -36,21 +36,29 @@ struct MeshPart {
   std::vector<std::array<std::uint32_t, 3>> triangles;  ///< of numbers among these
 
   /// What a part has of what all vertices have.
+  template <class To, class From>
+  std::vector<To> of(const std::vector<From>& values) const {
+    std::vector<To> own;
+    own.reserve(vertices.size());
+    for (const std::uint32_t v : vertices) own.push_back(static_cast<To>(values[v]));
+    return own;
+  }
   template <class T>
   std::vector<T> of(const std::vector<T>& values) const {
-    std::vector<T> own;
-    own.reserve(vertices.size());
-    for (const std::uint32_t v : vertices) own.push_back(values[v]);
-    return own;
+    return of<T, T>(values);
   }
 };
 
-/// Parts of at most kMostShort vertices each, some of which may be in several; the whole where these would be
-/// more than one in eight. They begin with whole blades, so that all of a kind begin alike.
-std::vector<MeshPart> partsOf(const ModelMesh& mesh);
+/// Parts of at most kMostShort vertices each, one after the other; some vertices may be in several. The whole
+/// where these would be more than one in eight. Parts begin with whole blades, so that all of a kind begin
+/// alike.
+void forEachPart(const ModelMesh& mesh, const Needed& needed,
+                 const std::function<void(const MeshPart&)>& visit);
+MeshPart wholeOf(const ModelMesh& mesh, const Needed& needed);
 
-/// Places, normals where there are some, UVs and triangles.
-tinygltf::Primitive shapeOf(GlbFile& file, const ModelMesh& mesh, const MeshPart& part, PlantSurface kind);
+/// Places and triangles; normals and UVs where they are needed.
+tinygltf::Primitive shapeOf(GlbFile& file, const ModelMesh& mesh, const Needed& needed, const MeshPart& part,
+                            PlantSurface kind);
 
 /// Adds a mesh; its number.
 int addMesh(GlbFile& file, const std::string& name, std::vector<tinygltf::Primitive> primitives);

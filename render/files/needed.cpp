@@ -1,4 +1,4 @@
-#include "render/files/lean_mesh.h"
+#include "render/files/needed.h"
 
 #include <algorithm>
 #include <limits>
@@ -46,55 +46,14 @@ std::vector<std::uint32_t> atOnePoint(const ModelMesh& mesh) {
   return first;
 }
 
-/// With the vertices alone that are the first of those alike.
-ModelMesh joined(const ModelMesh& mesh, const std::vector<std::uint32_t>& first) {
-  ModelMesh result;
-  result.name = mesh.name;
-  result.base_colour = mesh.base_colour;
-  result.picture = mesh.picture;
-  std::vector<std::uint32_t> kept, number(first.size());
-  for (std::uint32_t v = 0; v < first.size(); ++v) {
-    if (first[v] == v) {
-      number[v] = static_cast<std::uint32_t>(kept.size());
-      kept.push_back(v);
-    } else {
-      number[v] = number[first[v]];
-    }
-  }
-  const auto keep = [&](const auto& from, auto& to) {
-    if (from.empty()) return;
-    to.reserve(kept.size());
-    for (const std::uint32_t v : kept) to.push_back(from[v]);
-  };
-  keep(mesh.positions_m, result.positions_m);
-  keep(mesh.normals, result.normals);
-  keep(mesh.uvs, result.uvs);
-  keep(mesh.tints, result.tints);
-  keep(mesh.exposures, result.exposures);
-  keep(mesh.youths, result.youths);
-  keep(mesh.orders, result.orders);
-  keep(mesh.pieces, result.pieces);
-  result.triangles.reserve(mesh.triangles.size());
-  for (const auto& t : mesh.triangles) result.triangles.push_back({number[t[0]], number[t[1]], number[t[2]]});
-  return result;
-}
-
 }  // namespace
 
-ModelMesh leanMesh(const ModelMesh& mesh, PlantSurface kind) {
-  ModelMesh lean;
-  if (kind == PlantSurface::blades && isFlat(mesh)) {
-    lean = joined(mesh, alikeButForNormals(mesh));
-    lean.normals.clear();
-  } else if (kind == PlantSurface::stems && mesh.picture == nullptr && !mesh.points.empty()) {
-    lean = joined(mesh, atOnePoint(mesh));
-    lean.uvs.clear();
-  } else if (kind == PlantSurface::stalks) {
-    lean = mesh;
-    lean.normals.clear();
-    lean.uvs.clear();
-  }
-  return lean;
+Needed neededOf(const ModelMesh& mesh, PlantSurface kind) {
+  if (kind == PlantSurface::stalks) return {false, false, {}};
+  if (kind == PlantSurface::blades && isFlat(mesh)) return {false, true, alikeButForNormals(mesh)};
+  if (kind == PlantSurface::stems && mesh.picture == nullptr && !mesh.points.empty())
+    return {true, false, atOnePoint(mesh)};
+  return {true, !mesh.uvs.empty(), {}};
 }
 
 }  // namespace espalier::render

@@ -94,7 +94,7 @@ void forEachPart(const ModelMesh& mesh, const Needed& needed,
       ++met;
     }
   }
-  if (met > distinct + distinct / 8) begins.resize(1);
+  if (met > distinct + distinct / 4) begins.resize(1);
   begins.push_back(mesh.triangles.size());
   for (std::size_t i = 0; i + 1 < begins.size(); ++i)
     visit(partOf(std::span(mesh.triangles).subspan(begins[i], begins[i + 1] - begins[i]), needed, last_part));

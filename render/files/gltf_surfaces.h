@@ -50,7 +50,7 @@ struct MeshPart {
 };
 
 /// Parts of at most kMostShort vertices each, one after the other; some vertices may be in several. The whole
-/// where these would be more than one in eight. Parts begin with whole blades, so that all of a kind begin
+/// where these would be more than one in four. Parts begin with whole blades, so that all of a kind begin
 /// alike.
 void forEachPart(const ModelMesh& mesh, const Needed& needed,
                  const std::function<void(const MeshPart&)>& visit);

@@ -8,7 +8,6 @@
 #include <glm/common.hpp>
 #include <vector>
 
-#include "render/files/gltf_surfaces.h"
 #include "sim/base/error.h"
 
 namespace espalier::render {
@@ -17,8 +16,8 @@ namespace {
 constexpr const char* kDraco = "KHR_draco_mesh_compression";
 constexpr double kPlaceSteps = 60.0, kUvSteps = 512.0;  // in the thinnest radius; in a repeat
 constexpr int kNormalBits = 10, kByteBits = 8;
-constexpr int kMostBits = 24;      // as many as a float has
-constexpr int kEncodingSpeed = 5;  // of 0 .. 10: twice as fast as the slowest, files hardly larger
+constexpr int kMostBits = 24;  // as many as a float has
+constexpr int kSpeed = 7;      // 0 .. 10, of encoding and of decoding: slower ones save hardly anything
 
 /// The corner of a cube that holds some values, and its side.
 template <class T>
@@ -42,9 +41,9 @@ int bitsFor(double range, double step) {
 /// One mesh on its way into a file.
 class DracoMesh {
  public:
-  explicit DracoMesh(const MeshPart& whole) {
-    mesh_.set_num_points(static_cast<std::uint32_t>(whole.vertices.size()));
-    for (const auto& t : whole.triangles)
+  explicit DracoMesh(const MeshPart& part) {
+    mesh_.set_num_points(static_cast<std::uint32_t>(part.vertices.size()));
+    for (const auto& t : part.triangles)
       mesh_.AddFace({draco::PointIndex(t[0]), draco::PointIndex(t[1]), draco::PointIndex(t[2])});
   }
 
@@ -70,7 +69,7 @@ class DracoMesh {
 
   tinygltf::Primitive encoded(GlbFile& file, draco::ExpertEncoder& encoder) const {
     encoder.SetEncodingMethod(draco::MESH_EDGEBREAKER_ENCODING);
-    encoder.SetSpeedOptions(kEncodingSpeed, kEncodingSpeed);
+    encoder.SetSpeedOptions(kSpeed, kSpeed);
     encoder.SetTrackEncodedProperties(true);
     draco::EncoderBuffer buffer;
     if (!encoder.EncodeToBuffer(&buffer).ok())
@@ -113,20 +112,20 @@ class DracoMesh {
 
 }  // namespace
 
-tinygltf::Primitive compressed(GlbFile& file, const ModelMesh& mesh, const Needed& needed, double least_m) {
+tinygltf::Primitive compressed(GlbFile& file, const ModelMesh& mesh, const Needed& needed,
+                               const MeshPart& part, double least_m) {
   using Attribute = draco::GeometryAttribute;
-  const MeshPart whole = wholeOf(mesh, needed);
-  DracoMesh packed(whole);
-  const int places = packed.add("POSITION", Attribute::POSITION, whole.of(mesh.positions_m));
-  const int normals = packed.add("NORMAL", Attribute::NORMAL, whole.of(mesh.normals));
-  const std::vector<glm::vec2> chart = needed.uvs ? turnedUvs(whole.of(mesh.uvs)) : std::vector<glm::vec2>();
+  DracoMesh packed(part);
+  const int places = packed.add("POSITION", Attribute::POSITION, part.of(mesh.positions_m));
+  const int normals = packed.add("NORMAL", Attribute::NORMAL, part.of(mesh.normals));
+  const std::vector<glm::vec2> chart = needed.uvs ? turnedUvs(part.of(mesh.uvs)) : std::vector<glm::vec2>();
   const int uvs = needed.uvs ? packed.add("TEXCOORD_0", Attribute::TEX_COORD, chart) : -1;
-  const int exposures = packed.add("_EXPOSURE", Attribute::GENERIC, whole.of(mesh.exposures));
-  const int ages = packed.add("_AGE", Attribute::GENERIC, whole.of(mesh.youths));
-  const int orders = packed.add("_ORDER", Attribute::GENERIC, whole.of<float>(mesh.orders));
+  const int exposures = packed.add("_EXPOSURE", Attribute::GENERIC, part.of(mesh.exposures));
+  const int ages = packed.add("_AGE", Attribute::GENERIC, part.of(mesh.youths));
+  const int orders = packed.add("_ORDER", Attribute::GENERIC, part.of<float>(mesh.orders));
 
   draco::ExpertEncoder encoder(packed.mesh());
-  const Cube<sim::Vec3f> box(mesh.positions_m);
+  const Cube<sim::Vec3f> box(mesh.positions_m);  // the same for all parts: they meet
   packed.quantize(encoder, places, bitsFor(box.side, least_m / kPlaceSteps), &box.low.x, box.side);
   encoder.SetAttributeQuantization(normals, kNormalBits);
   if (needed.uvs) {
@@ -139,7 +138,7 @@ tinygltf::Primitive compressed(GlbFile& file, const ModelMesh& mesh, const Neede
   packed.quantize(encoder, orders, kByteBits, &kZero, kMostOrder);
   tinygltf::Primitive primitive = packed.encoded(file, encoder);
   setExtent(file.model().accessors[static_cast<std::size_t>(primitive.attributes["POSITION"])],
-            mesh.positions_m);
+            part.of(mesh.positions_m));
   return primitive;
 }
 

@@ -21,20 +21,20 @@ int GltfPlants::surfaceNode(const ModelMesh& mesh, const std::string& material, 
     for (const sim::Colour tint : mesh.tints) tints.push_back(bytesOf(tint, scale));
   }
   std::vector<tinygltf::Primitive> primitives;
-  if (packed_m > 0.0) {
-    primitives.push_back(compressed(file_, mesh, needed, packed_m));
-  } else {
-    forEachPart(mesh, needed, [&](const MeshPart& part) {
-      tinygltf::Primitive& primitive = primitives.emplace_back(shapeOf(file_, mesh, needed, part, kind));
-      if (!tints.empty()) {
-        primitive.attributes["COLOR_0"] = file_.vertices<Bytes4>(
-            part.of(tints), TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE, TINYGLTF_TYPE_VEC4, true);
-      }
-      primitive.attributes["_EXPOSURE"] = file_.numbers(part.of(mesh.exposures));
-      primitive.attributes["_AGE"] = file_.numbers(part.of(mesh.youths));
-      primitive.attributes["_ORDER"] = file_.numbers(part.of<float>(mesh.orders));
-    });
-  }
+  forEachPart(mesh, needed, [&](const MeshPart& part) {
+    if (packed_m > 0.0) {
+      primitives.push_back(compressed(file_, mesh, needed, part, packed_m));
+      return;
+    }
+    tinygltf::Primitive& primitive = primitives.emplace_back(shapeOf(file_, mesh, needed, part, kind));
+    if (!tints.empty()) {
+      primitive.attributes["COLOR_0"] = file_.vertices<Bytes4>(
+          part.of(tints), TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE, TINYGLTF_TYPE_VEC4, true);
+    }
+    primitive.attributes["_EXPOSURE"] = file_.numbers(part.of(mesh.exposures));
+    primitive.attributes["_AGE"] = file_.numbers(part.of(mesh.youths));
+    primitive.attributes["_ORDER"] = file_.numbers(part.of<float>(mesh.orders));
+  });
   const int number = plantMaterial(materials_, mesh, material, kind, scale);
   for (tinygltf::Primitive& primitive : primitives) primitive.material = number;
   return file_.node(mesh.name, addMesh(file_, mesh.name, std::move(primitives)));

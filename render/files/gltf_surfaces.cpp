@@ -65,11 +65,6 @@ MeshPart partOf(std::span<const std::array<std::uint32_t, 3>> triangles, const N
 
 }  // namespace
 
-MeshPart wholeOf(const ModelMesh& mesh, const Needed& needed) {
-  std::vector<std::uint32_t> number(mesh.positions_m.size());
-  return partOf(mesh.triangles, needed, number);
-}
-
 void forEachPart(const ModelMesh& mesh, const Needed& needed,
                  const std::function<void(const MeshPart&)>& visit) {
   std::vector<std::uint32_t> last_part(mesh.positions_m.size(), 0);  // in which each was met, counted from 1

@@ -54,7 +54,6 @@ struct MeshPart {
 /// alike.
 void forEachPart(const ModelMesh& mesh, const Needed& needed,
                  const std::function<void(const MeshPart&)>& visit);
-MeshPart wholeOf(const ModelMesh& mesh, const Needed& needed);
 
 /// Places and triangles; normals and UVs where they are needed.
 tinygltf::Primitive shapeOf(GlbFile& file, const ModelMesh& mesh, const Needed& needed, const MeshPart& part,

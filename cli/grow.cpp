@@ -53,7 +53,7 @@ void addGrow(CLI::App& app, int& exit_status) {
   command->add_flag(
       "--instances", arguments->models.instances,
       "Write each kind of leaf into .glb files once, with the places where it stands: smaller files "
-      "for programs that read EXT_mesh_gpu_instancing, which Blender 3.4 does not");
+      "for programs that read EXT_mesh_gpu_instancing and Draco, which Blender 3.4 does not");
   command->add_flag("--obj", arguments->models.obj,
                     "Write plant.obj too, with plant.mtl and the pictures of its materials");
   command->add_flag("--resume", arguments->keeping.resume,

@@ -16,6 +16,7 @@ endforeach()
 
 find_package(glm REQUIRED CONFIG)
 find_package(assimp REQUIRED CONFIG)
+find_package(draco REQUIRED CONFIG)
 find_package(embree 3 REQUIRED CONFIG)
 find_package(TinyGLTF REQUIRED CONFIG)
 find_package(yaml-cpp REQUIRED CONFIG)

@@ -26,24 +26,30 @@ tinygltf::Value extras(const sim::Provenance& made_by) {
                                                  {"inputs", tinygltf::Value(std::move(inputs))}});
 }
 
-/// `at(element, axis)`: a number.
-void setExtent(tinygltf::Accessor& accessor, const auto& data, const auto& at) {
-  for (int axis = 0; axis < 3; ++axis) {
-    auto low = at(data[0], axis), high = low;
-    for (const auto& element : data) {
-      low = std::min(low, at(element, axis));
-      high = std::max(high, at(element, axis));
-    }
-    accessor.minValues.push_back(static_cast<double>(low));
-    accessor.maxValues.push_back(static_cast<double>(high));
-  }
-}
-
 }  // namespace
 
 std::string validUtf8(const std::string& name) {
   using nlohmann::json;
   return json::parse(json(name).dump(-1, ' ', false, json::error_handler_t::replace)).get<std::string>();
+}
+
+void setExtent(tinygltf::Accessor& accessor, std::span<const sim::Vec3f> places) {
+  sim::Vec3f low = places[0], high = low;
+  for (const sim::Vec3f place : places) {
+    low = glm::min(low, place);
+    high = glm::max(high, place);
+  }
+  for (int axis = 0; axis < 3; ++axis) {
+    accessor.minValues.push_back(static_cast<double>(low[axis]));
+    accessor.maxValues.push_back(static_cast<double>(high[axis]));
+  }
+}
+
+std::vector<glm::vec2> turnedUvs(std::span<const glm::vec2> uvs) {
+  std::vector<glm::vec2> turned;
+  turned.reserve(uvs.size());
+  for (const glm::vec2 uv : uvs) turned.emplace_back(uv.x, 1.0f - uv.y);
+  return turned;
 }
 
 GlbFile::GlbFile(const sim::Provenance& made_by, std::ostream* buffer) : buffer_(buffer) {
@@ -60,28 +66,51 @@ void GlbFile::align() {
   }
 }
 
-int GlbFile::view(const void* data, std::size_t bytes, int target) {
+void GlbFile::put(const void* data, std::size_t bytes, tinygltf::BufferView& view) {
   align();  // glTF aligns every accessor to its component's size
-  tinygltf::BufferView view;
   view.buffer = 0;
   view.byteOffset = bytes_;
   view.byteLength = bytes;
-  view.target = target;
   if (buffer_ != nullptr)
     buffer_->write(static_cast<const char*>(data), static_cast<std::streamsize>(view.byteLength));
   bytes_ += view.byteLength;
-  model_.bufferViews.push_back(std::move(view));
+}
+
+int GlbFile::view(const void* data, std::size_t bytes, int target) {
+  tinygltf::BufferView& view = model_.bufferViews.emplace_back();
+  view.target = target;
+  put(data, bytes, view);
   return sizeOf(model_.bufferViews) - 1;
 }
 
+int GlbFile::repeatedView(const void* data, std::size_t bytes, int target) {
+  const std::string_view wanted(static_cast<const char*>(data), bytes);
+  for (Repeated& other : repeated_) {
+    if (model_.bufferViews[static_cast<std::size_t>(other.view)].target != target) continue;
+    if (wanted.starts_with(other.bytes)) other.bytes = wanted;
+    if (other.bytes.starts_with(wanted)) return other.view;
+  }
+  model_.bufferViews.emplace_back().target = target;
+  repeated_.push_back({sizeOf(model_.bufferViews) - 1, std::string(wanted)});
+  return repeated_.back().view;
+}
+
+void GlbFile::finish() {
+  for (const Repeated& one : repeated_)
+    put(one.bytes.data(), one.bytes.size(), model_.bufferViews[static_cast<std::size_t>(one.view)]);
+  align();
+}
+
 int GlbFile::accessor(const void* data, std::size_t bytes, std::size_t count, int component_type, int type,
-                      int target, bool normalized) {
+                      int target, bool normalized, bool repeat) {
   tinygltf::Accessor result;
-  result.bufferView = view(data, bytes, target);
+  result.bufferView = repeat ? repeatedView(data, bytes, target) : view(data, bytes, target);
   const auto packed =
       static_cast<std::size_t>(tinygltf::GetComponentSizeInBytes(static_cast<std::uint32_t>(component_type)) *
                                tinygltf::GetNumComponentsInType(static_cast<std::uint32_t>(type)));
-  if (bytes != count * packed) model_.bufferViews.back().byteStride = bytes / count;
+  // It has to be said, too, where several accessors see vertices in one view.
+  if (bytes != count * packed || (repeat && target == TINYGLTF_TARGET_ARRAY_BUFFER))
+    model_.bufferViews[static_cast<std::size_t>(result.bufferView)].byteStride = bytes / count;
   result.componentType = component_type;
   result.type = type;
   result.count = count;
@@ -92,14 +121,7 @@ int GlbFile::accessor(const void* data, std::size_t bytes, std::size_t count, in
 
 int GlbFile::positions(std::span<const sim::Vec3f> data) {
   const int index = vertices(data, TINYGLTF_COMPONENT_TYPE_FLOAT, TINYGLTF_TYPE_VEC3);
-  setExtent(model_.accessors.back(), data, [](const sim::Vec3f& p, int axis) { return p[axis]; });
-  return index;
-}
-
-int GlbFile::positions(std::span<const std::array<std::uint16_t, 4>> data) {
-  const int index = vertices(data, TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT, TINYGLTF_TYPE_VEC3);
-  setExtent(model_.accessors.back(), data,
-            [](const auto& p, int axis) { return p[static_cast<std::size_t>(axis)]; });
+  setExtent(model_.accessors.back(), data);
   return index;
 }
 
@@ -111,11 +133,11 @@ void GlbFile::require(const std::string& extension) {
   model_.extensionsUsed = required;
 }
 
-int GlbFile::uvs(std::span<const glm::vec2> data, bool coarse) {
+int GlbFile::uvs(std::span<const glm::vec2> data, bool blades) {
   const auto inside = [](glm::vec2 uv) {
     return uv.x >= 0.0f && uv.x <= 1.0f && uv.y >= 0.0f && uv.y <= 1.0f;
   };
-  if (coarse && std::all_of(data.begin(), data.end(), inside)) {
+  if (blades && std::all_of(data.begin(), data.end(), inside)) {
     using Shorts = std::array<std::uint16_t, 2>;
     const auto shortOf = [](float share) {
       return static_cast<std::uint16_t>(std::lround(share * 65535.0f));
@@ -123,29 +145,27 @@ int GlbFile::uvs(std::span<const glm::vec2> data, bool coarse) {
     std::vector<Shorts> shorts;
     shorts.reserve(data.size());
     for (const glm::vec2 uv : data) shorts.push_back({shortOf(uv.x), shortOf(1.0f - uv.y)});
-    return vertices<Shorts>(shorts, TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT, TINYGLTF_TYPE_VEC2, true);
+    return accessor(shorts.data(), sizeof(Shorts) * shorts.size(), shorts.size(),
+                    TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT, TINYGLTF_TYPE_VEC2, TINYGLTF_TARGET_ARRAY_BUFFER,
+                    true, true);
   }
-  std::vector<glm::vec2> turned;
-  turned.reserve(data.size());
-  for (const glm::vec2 uv : data) turned.emplace_back(uv.x, 1.0f - uv.y);
-  return vertices<glm::vec2>(turned, TINYGLTF_COMPONENT_TYPE_FLOAT, TINYGLTF_TYPE_VEC2);
+  return vertices<glm::vec2>(turnedUvs(data), TINYGLTF_COMPONENT_TYPE_FLOAT, TINYGLTF_TYPE_VEC2);
 }
 
 int GlbFile::indices(std::span<const std::array<std::uint32_t, 3>> triangles, std::size_t vertices,
-                     std::size_t first) {
+                     bool repeat) {
   const std::size_t count = 3 * triangles.size();
   if (vertices > kMostShort) {
-    if (first != 0) throw sim::BrokenContract("parts of a mesh have indices of 16 bits");
     return accessor(triangles.data(), triangles.size_bytes(), count, TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT,
                     TINYGLTF_TYPE_SCALAR, TINYGLTF_TARGET_ELEMENT_ARRAY_BUFFER, false);
   }
   std::vector<std::uint16_t> corners;
   corners.reserve(count);
   for (const auto& triangle : triangles) {
-    for (const std::uint32_t corner : triangle) corners.push_back(static_cast<std::uint16_t>(corner - first));
+    for (const std::uint32_t corner : triangle) corners.push_back(static_cast<std::uint16_t>(corner));
   }
   return accessor(corners.data(), 2 * count, count, TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT,
-                  TINYGLTF_TYPE_SCALAR, TINYGLTF_TARGET_ELEMENT_ARRAY_BUFFER, false);
+                  TINYGLTF_TYPE_SCALAR, TINYGLTF_TARGET_ELEMENT_ARRAY_BUFFER, false, repeat);
 }
 
 int GlbFile::bytes(std::string_view data) {

@@ -9,6 +9,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "sim/base/provenance.h"
 #include "sim/base/vec.h"
@@ -34,8 +35,6 @@ class GlbFile {
   }
   /// A VEC3 of places, whose box glTF wants to know.
   int positions(std::span<const sim::Vec3f> data);
-  /// The same in whole numbers, of which the fourth is not looked at: needs KHR_mesh_quantization.
-  int positions(std::span<const std::array<std::uint16_t, 4>> data);
   /// A number each.
   int numbers(std::span<const float> data) {
     return vertices(data, TINYGLTF_COMPONENT_TYPE_FLOAT, TINYGLTF_TYPE_SCALAR);
@@ -44,17 +43,18 @@ class GlbFile {
   int normals(std::span<const sim::Vec3f> data) {
     return vertices(data, TINYGLTF_COMPONENT_TYPE_FLOAT, TINYGLTF_TYPE_VEC3);
   }
-  /// Those of ours count v upwards, those of glTF from the top. In 16 bits each where all lie within 0..1 and
-  /// that is said to do.
-  int uvs(std::span<const glm::vec2> data, bool coarse = false);
+  /// Those of ours count v upwards, those of glTF from the top. Those of blades are in 16 bits each where all
+  /// lie within 0..1, and in the file once.
+  int uvs(std::span<const glm::vec2> data, bool blades = false);
   /// One for each instance of a mesh.
   template <class T>
   int instances(std::span<const T> data, int component_type, int type, bool normalized = false) {
     return accessor(data.data(), data.size_bytes(), data.size(), component_type, type, 0, normalized);
   }
-  /// From `first` on; in 16 bits each where there are no more than kMostShort vertices.
+  /// In 16 bits each where there are no more than kMostShort vertices. `repeat`: they are in the file
+  /// once where others go on as they do.
   int indices(std::span<const std::array<std::uint32_t, 3>> triangles, std::size_t vertices,
-              std::size_t first = 0);
+              bool repeat = false);
   /// Readers that do not know an extension that is required refuse the file.
   void require(const std::string& extension);
   /// Adds a buffer view of bytes as they are.
@@ -63,21 +63,36 @@ class GlbFile {
   int node(const std::string& name, int mesh);
 
   tinygltf::Model& model() { return model_; }
-  /// Fills the buffer up to whole words.
-  void finish() { align(); }
+  /// Puts the last of it into the buffer, and fills that up to whole words.
+  void finish();
   std::size_t bufferBytes() const { return bytes_; }
   std::string json() const;
 
  private:
   void align();
+  void put(const void* data, std::size_t bytes, tinygltf::BufferView& view);
   int view(const void* data, std::size_t bytes, int target);
+  /// One for all data of which one begins as the other does; it comes into the buffer in the end.
+  int repeatedView(const void* data, std::size_t bytes, int target);
   int accessor(const void* data, std::size_t bytes, std::size_t count, int component_type, int type,
-               int target, bool normalized);
+               int target, bool normalized, bool repeat = false);
+
+  struct Repeated {
+    int view = 0;
+    std::string bytes;
+  };
 
   std::ostream* buffer_;
-  std::size_t bytes_ = 0;  // of the buffer
+  std::size_t bytes_ = 0;           // of the buffer
+  std::vector<Repeated> repeated_;  // none of which begins as another one does, where they are of one kind
   tinygltf::Model model_;
 };
+
+/// Of a VEC3 of places glTF wants to know the box.
+void setExtent(tinygltf::Accessor& accessor, std::span<const sim::Vec3f> places);
+
+/// UVs as glTF counts them.
+std::vector<glm::vec2> turnedUvs(std::span<const glm::vec2> uvs);
 
 inline int sizeOf(const auto& container) {
   return static_cast<int>(container.size());

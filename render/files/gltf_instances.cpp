@@ -43,11 +43,12 @@ int GltfInstances::node(const Instances& instances, const std::string& kind) {
   const int material = plantMaterial(materials_, instances.shape, kind, surface, 1.0f);
   const auto [mesh, is_new] = shapes_.try_emplace({hashOfPlaces(instances.shape), kind, material}, 0);
   if (is_new) {
+    const Needed needed = neededOf(instances.shape, surface);
     std::vector<tinygltf::Primitive> primitives;
-    for (const MeshPart& part : partsOf(instances.shape)) {
-      primitives.push_back(shapeOf(file_, instances.shape, part, surface));
+    forEachPart(instances.shape, needed, [&](const MeshPart& part) {
+      primitives.push_back(shapeOf(file_, instances.shape, needed, part, surface));
       primitives.back().material = material;
-    }
+    });
     mesh->second = addMesh(file_, kind, std::move(primitives));
   }
   const int node = file_.node(instances.shape.name, mesh->second);

@@ -3,15 +3,14 @@
 #include <algorithm>
 #include <vector>
 
-#include "render/files/flat_mesh.h"
+#include "render/files/gltf_compressed.h"
 #include "render/files/gltf_surfaces.h"
 
 namespace espalier::render {
 
-int GltfPlants::surfaceNode(const ModelMesh& drawn, const std::string& material, PlantSurface kind,
-                            const std::optional<Steps>& steps) {
-  const ModelMesh flat = kind == PlantSurface::blades ? withoutFlatNormals(drawn) : ModelMesh();
-  const ModelMesh& mesh = flat.empty() ? drawn : flat;
+int GltfPlants::surfaceNode(const ModelMesh& mesh, const std::string& material, PlantSurface kind,
+                            double packed_m) {
+  const Needed needed = neededOf(mesh, kind);
   float scale = 1.0f;
   std::vector<Bytes4> tints;
   if (!mesh.tints.empty()) {
@@ -21,37 +20,32 @@ int GltfPlants::surfaceNode(const ModelMesh& drawn, const std::string& material,
     tints.reserve(mesh.tints.size());
     for (const sim::Colour tint : mesh.tints) tints.push_back(bytesOf(tint, scale));
   }
-  const std::vector<float> orders(mesh.orders.begin(), mesh.orders.end());
-  const int number = plantMaterial(materials_, mesh, material, kind, scale);
   std::vector<tinygltf::Primitive> primitives;
-  for (const MeshPart& part : partsOf(mesh)) {
-    tinygltf::Primitive& primitive = primitives.emplace_back(shapeOf(file_, mesh, part, kind, steps));
+  forEachPart(mesh, needed, [&](const MeshPart& part) {
+    if (packed_m > 0.0) {
+      primitives.push_back(compressed(file_, mesh, needed, part, packed_m));
+      return;
+    }
+    tinygltf::Primitive& primitive = primitives.emplace_back(shapeOf(file_, mesh, needed, part, kind));
     if (!tints.empty()) {
-      primitive.attributes["COLOR_0"] =
-          file_.vertices(part.of(tints), TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE, TINYGLTF_TYPE_VEC4, true);
+      primitive.attributes["COLOR_0"] = file_.vertices<Bytes4>(
+          part.of(tints), TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE, TINYGLTF_TYPE_VEC4, true);
     }
     primitive.attributes["_EXPOSURE"] = file_.numbers(part.of(mesh.exposures));
     primitive.attributes["_AGE"] = file_.numbers(part.of(mesh.youths));
-    primitive.attributes["_ORDER"] = file_.numbers(part.of(orders));
-    primitive.material = number;
-  }
-  const int node = file_.node(drawn.name, addMesh(file_, drawn.name, std::move(primitives)));
-  if (steps) {
-    tinygltf::Node& placed = file_.model().nodes[static_cast<std::size_t>(node)];
-    placed.translation = {steps->from_m.x, steps->from_m.y, steps->from_m.z};
-    placed.scale.assign(3, steps->step_m);
-    file_.require("KHR_mesh_quantization");
-  }
-  return node;
+    primitive.attributes["_ORDER"] = file_.numbers(part.of<float>(mesh.orders));
+  });
+  const int number = plantMaterial(materials_, mesh, material, kind, scale);
+  for (tinygltf::Primitive& primitive : primitives) primitive.material = number;
+  return file_.node(mesh.name, addMesh(file_, mesh.name, std::move(primitives)));
 }
 
 void GltfPlants::add(const PlantModel& plant) {
   std::vector<int> children;
   forEachSurface(plant, [&](const ModelMesh& mesh, const std::string& kind, PlantSurface surface) {
     // Beside instances, which readers must know of anyway.
-    const bool smaller = surface == PlantSurface::stems && !plant.instances.empty();
-    const auto steps = smaller ? stepsOf(mesh, plant.thinnest_m) : std::nullopt;
-    children.push_back(surfaceNode(mesh, kind, surface, steps));
+    const bool packed = surface == PlantSurface::stems && !plant.instances.empty();
+    children.push_back(surfaceNode(mesh, kind, surface, packed ? plant.thinnest_m : 0.0));
   });
   for (const Instances& instances : plant.instances)
     children.push_back(instances_.node(instances, kindOf(plant, instances.shape)));

@@ -18,8 +18,8 @@ class GltfPlants {
   void add(const PlantModel& plant);
 
  private:
-  int surfaceNode(const ModelMesh& drawn, const std::string& material, PlantSurface kind,
-                  const std::optional<Steps>& steps);
+  /// Compressed where `packed_m` is not 0, as for so thin a radius.
+  int surfaceNode(const ModelMesh& mesh, const std::string& material, PlantSurface kind, double packed_m);
 
   GlbFile& file_;
   GltfMaterials& materials_;

@@ -40,86 +40,70 @@ int plantMaterial(GltfMaterials& materials, const ModelMesh& mesh, const std::st
                       materials.textureOf(mesh.picture->name, mesh.picture->png, "image/png", {wrap, wrap}));
 }
 
-std::vector<MeshPart> partsOf(const ModelMesh& mesh) {
-  const std::size_t all = mesh.positions_m.size();
-  if (all <= kMostShort) return {{0, all, 0, mesh.triangles.size()}};
-  std::vector<MeshPart> parts;
-  std::size_t low = 0, high = 0, vertices = 0;  // of the last part; of all of them
-  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
-    const auto [least, most] = std::minmax_element(mesh.triangles[t].begin(), mesh.triangles[t].end());
-    if (parts.empty() ||
-        std::max<std::size_t>(high, *most) - std::min<std::size_t>(low, *least) >= kMostShort) {
-      parts.push_back({*least, 0, t, 0});
-      low = *least;
-      high = *most;
-    }
-    vertices -= parts.back().vertices;
-    low = std::min<std::size_t>(low, *least);
-    high = std::max<std::size_t>(high, *most);
-    parts.back() = {low, high - low + 1, parts.back().first_triangle, t + 1 - parts.back().first_triangle};
-    vertices += parts.back().vertices;
-  }
-  const bool short_ones = std::all_of(parts.begin(), parts.end(),
-                                      [](const MeshPart& part) { return part.vertices <= kMostShort; });
-  if (!short_ones || vertices > all + all / 8) return {{0, all, 0, mesh.triangles.size()}};
-  return parts;
-}
-
-std::optional<Steps> stepsOf(const ModelMesh& mesh, double least_m) {
-  constexpr double kMostSteps = 65535.0, kSteps = 15.0;
-  sim::Vec3f low = mesh.positions_m[0], high = low;
-  for (const sim::Vec3f p : mesh.positions_m) {
-    low = glm::min(low, p);
-    high = glm::max(high, p);
-  }
-  const sim::Vec3 size = sim::Vec3(high) - sim::Vec3(low);
-  const double step_m = std::max({size.x, size.y, size.z}) / kMostSteps;
-  if (!(step_m > 0.0 && kSteps * step_m <= least_m)) return {};
-  return Steps{sim::Vec3(low), step_m};
-}
-
 namespace {
 
-int addPlaces(GlbFile& file, std::span<const sim::Vec3f> places_m, const Steps& steps) {
-  std::vector<std::array<std::uint16_t, 4>> shorts;
-  shorts.reserve(places_m.size());
-  for (const sim::Vec3f place : places_m) {
-    const sim::Vec3 at = (sim::Vec3(place) - steps.from_m) / steps.step_m;
-    const auto shortOf = [&](int axis) { return static_cast<std::uint16_t>(std::lround(at[axis])); };
-    shorts.push_back({shortOf(0), shortOf(1), shortOf(2), 0});
-  }
-  return file.positions(shorts);
-}
+constexpr std::size_t kRoom = 2048;  // vertices: a part that has no more left ends with a piece
 
-int addNormalBytes(GlbFile& file, std::span<const sim::Vec3f> normals) {
-  std::vector<std::array<std::int8_t, 4>> bytes;
-  bytes.reserve(normals.size());
-  for (const sim::Vec3f normal : normals) {
-    const auto signedByteOf = [&](int axis) {
-      return static_cast<std::int8_t>(std::lround(127.0f * normal[axis]));
-    };
-    bytes.push_back({signedByteOf(0), signedByteOf(1), signedByteOf(2), 0});
+/// Numbers the corners of some of a mesh's triangles anew, among those in use. `number`: room for as many as
+/// the mesh has vertices.
+MeshPart partOf(std::span<const std::array<std::uint32_t, 3>> triangles, const Needed& needed,
+                std::vector<std::uint32_t>& number) {
+  MeshPart part;
+  part.triangles.assign(triangles.begin(), triangles.end());
+  for (auto& triangle : part.triangles) {
+    for (std::uint32_t& corner : triangle) corner = needed.standsFor(corner);
+    part.vertices.insert(part.vertices.end(), triangle.begin(), triangle.end());
   }
-  return file.vertices<std::array<std::int8_t, 4>>(bytes, TINYGLTF_COMPONENT_TYPE_BYTE, TINYGLTF_TYPE_VEC3,
-                                                   true);
+  std::sort(part.vertices.begin(), part.vertices.end());
+  part.vertices.erase(std::unique(part.vertices.begin(), part.vertices.end()), part.vertices.end());
+  for (std::uint32_t i = 0; i < part.vertices.size(); ++i) number[part.vertices[i]] = i;
+  for (auto& triangle : part.triangles) {
+    for (std::uint32_t& corner : triangle) corner = number[corner];
+  }
+  return part;
 }
 
 }  // namespace
 
-tinygltf::Primitive shapeOf(GlbFile& file, const ModelMesh& mesh, const MeshPart& part, PlantSurface kind,
-                            const std::optional<Steps>& steps) {
+void forEachPart(const ModelMesh& mesh, const Needed& needed,
+                 const std::function<void(const MeshPart&)>& visit) {
+  std::vector<std::uint32_t> last_part(mesh.positions_m.size(), 0);  // in which each was met, counted from 1
+  std::vector<std::size_t> begins{0};                                // of parts, among the triangles
+  std::size_t own = 0, met = 0, distinct = 0;  // vertices of the last part; of all of them; of the mesh
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    const auto is_new = [&](std::uint32_t v) { return last_part[needed.standsFor(v)] != begins.size(); };
+    const auto& triangle = mesh.triangles[t];
+    const bool next_piece =
+        t > 0 && !mesh.pieces.empty() && mesh.pieces[triangle[0]] != mesh.pieces[mesh.triangles[t - 1][0]];
+    const auto more = static_cast<std::size_t>(std::count_if(triangle.begin(), triangle.end(), is_new));
+    if (own + more > kMostShort || (next_piece && own + kRoom > kMostShort)) {
+      begins.push_back(t);
+      own = 0;
+    }
+    for (const std::uint32_t v : triangle) {
+      if (!is_new(v)) continue;
+      std::uint32_t& last = last_part[needed.standsFor(v)];
+      distinct += last == 0;
+      last = static_cast<std::uint32_t>(begins.size());
+      ++own;
+      ++met;
+    }
+  }
+  if (met > distinct + distinct / 4) begins.resize(1);
+  begins.push_back(mesh.triangles.size());
+  for (std::size_t i = 0; i + 1 < begins.size(); ++i)
+    visit(partOf(std::span(mesh.triangles).subspan(begins[i], begins[i + 1] - begins[i]), needed, last_part));
+}
+
+tinygltf::Primitive shapeOf(GlbFile& file, const ModelMesh& mesh, const Needed& needed, const MeshPart& part,
+                            PlantSurface kind) {
   tinygltf::Primitive primitive;
   primitive.mode = TINYGLTF_MODE_TRIANGLES;
-  const auto places = part.of(mesh.positions_m);
-  primitive.attributes["POSITION"] = steps ? addPlaces(file, places, *steps) : file.positions(places);
-  if (!mesh.normals.empty()) {
-    const auto normals = part.of(mesh.normals);
-    primitive.attributes["NORMAL"] = steps ? addNormalBytes(file, normals) : file.normals(normals);
-  }
-  if (kind != PlantSurface::stalks)  // nothing is laid on those
+  primitive.attributes["POSITION"] = file.positions(part.of(mesh.positions_m));
+  if (needed.normals) primitive.attributes["NORMAL"] = file.normals(part.of(mesh.normals));
+  if (needed.uvs)
     primitive.attributes["TEXCOORD_0"] = file.uvs(part.of(mesh.uvs), kind == PlantSurface::blades);
-  primitive.indices = file.indices(std::span(mesh.triangles).subspan(part.first_triangle, part.triangles),
-                                   part.vertices, part.first_vertex);
+  primitive.indices = file.indices(part.triangles, part.vertices.size(), kind != PlantSurface::stems);
   return primitive;
 }
 

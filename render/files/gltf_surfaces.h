@@ -2,13 +2,13 @@
 // Internal to the wing.
 #include <array>
 #include <cstdint>
-#include <optional>
+#include <functional>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "render/files/gltf_materials.h"
-#include "render/files/surfaces.h"
+#include "render/files/needed.h"
 
 namespace espalier::render {
 
@@ -30,34 +30,34 @@ Bytes4 bytesOf(sim::Colour tint, float scale);
 int plantMaterial(GltfMaterials& materials, const ModelMesh& mesh, const std::string& name, PlantSurface kind,
                   float scale);
 
-/// Vertices and triangles of a mesh that follow each other.
+/// Triangles of a mesh that follow each other, and the vertices that they use.
 struct MeshPart {
-  std::size_t first_vertex = 0, vertices = 0, first_triangle = 0, triangles = 0;
+  std::vector<std::uint32_t> vertices;                  ///< of the mesh, rising
+  std::vector<std::array<std::uint32_t, 3>> triangles;  ///< of numbers among these
 
   /// What a part has of what all vertices have.
+  template <class To, class From>
+  std::vector<To> of(const std::vector<From>& values) const {
+    std::vector<To> own;
+    own.reserve(vertices.size());
+    for (const std::uint32_t v : vertices) own.push_back(static_cast<To>(values[v]));
+    return own;
+  }
   template <class T>
-  std::span<const T> of(const std::vector<T>& values) const {
-    return std::span(values).subspan(first_vertex, vertices);
+  std::vector<T> of(const std::vector<T>& values) const {
+    return of<T, T>(values);
   }
 };
 
-/// Parts of at most kMostShort vertices each, where triangles that follow each other have vertices that do;
-/// some may be in two parts. Else the whole.
-std::vector<MeshPart> partsOf(const ModelMesh& mesh);
+/// Parts of at most kMostShort vertices each, one after the other; some vertices may be in several. The whole
+/// where these would be more than one in four. Parts begin with whole blades, so that all of a kind begin
+/// alike.
+void forEachPart(const ModelMesh& mesh, const Needed& needed,
+                 const std::function<void(const MeshPart&)>& visit);
 
-/// Places as so many steps from a corner, 0 .. 65535 each way.
-struct Steps {
-  sim::Vec3 from_m{0.0};
-  double step_m = 0.0;
-};
-/// Those in which a mesh's places are off by a thirtieth of `least_m` at most each way; nothing where 16 bits
-/// are not enough for that.
-std::optional<Steps> stepsOf(const ModelMesh& mesh, double least_m);
-
-/// Places, normals where there are some, UVs and triangles. In steps places take 8 bytes in place of 12, and
-/// normals 4.
-tinygltf::Primitive shapeOf(GlbFile& file, const ModelMesh& mesh, const MeshPart& part, PlantSurface kind,
-                            const std::optional<Steps>& steps = {});
+/// Places and triangles; normals and UVs where they are needed.
+tinygltf::Primitive shapeOf(GlbFile& file, const ModelMesh& mesh, const Needed& needed, const MeshPart& part,
+                            PlantSurface kind);
 
 /// Adds a mesh; its number.
 int addMesh(GlbFile& file, const std::string& name, std::vector<tinygltf::Primitive> primitives);

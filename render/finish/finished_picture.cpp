@@ -56,8 +56,23 @@ struct Fragment {
   Vec3f flat{0.0f};    // the triangle's own, on the same side
   Look look;
   bool blade = false;
+  bool round = false;    // the facets stand for a smooth surface
+  Vec3f raised_m{0.0f};  // there the place on that
   float distance_m = 0.0f;
 };
+
+/// A place of a facet as high as the smooth surface is for which it stands: on the mean between the planes
+/// that touch that at the corners (Hanika, Hacking the shadow terminator, Ray Tracing Gems II, 2021). Shadows
+/// that began on facets would end along their edges.
+Vec3f raised(const ModelMesh& mesh, const std::array<std::uint32_t, 3>& t, const SurfaceHit& hit, Vec3f p_m) {
+  const std::array<float, 3> weights{1.0f - hit.u - hit.v, hit.u, hit.v};
+  Vec3f sum = p_m;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const Vec3f normal = mesh.normals[t[k]];
+    sum -= weights[k] * std::min(0.0f, glm::dot(p_m - mesh.positions_m[t[k]], normal)) * normal;
+  }
+  return sum;
+}
 
 class Painter {
  public:
@@ -153,6 +168,10 @@ void Painter::meet(const SurfaceHit& hit, Vec3f direction, Fragment& f) const {
   if (glm::dot(smooth, smooth) > 1e-6f) {
     f.normal = glm::normalize(glm::dot(smooth, f.flat) < 0.0f ? -smooth : smooth);
   }
+  if (!f.blade && glm::dot(smooth, f.flat) > 0.0f) {
+    f.round = true;
+    f.raised_m = raised(mesh, t, hit, f.p_m);
+  }
   f.look = f.blade ? bladeLook(surface, hit, pixel_ * hit.distance_m)
                    : barkLook(noise_, surface, hit, f.p_m, pixel_ * hit.distance_m);
 }
@@ -221,10 +240,10 @@ Painter::Round Painter::round(int x, int y, std::uint32_t number) const {
     } else {
       continue;
     }
-    const float side = glm::dot(f.flat, light_.to_sun);
-    shadows.wanted[i] =
-        light_.to_sun.y > 0.0f && (f.blade || (side > 0.0f && glm::dot(f.normal, light_.to_sun) > 0.0f));
-    shadows.origins_m[i] = f.p_m + (side > 0.0f ? 0.04f : -0.04f) * voxel_m_ * f.flat;
+    const float side = glm::dot(f.flat, light_.to_sun), facing = glm::dot(f.normal, light_.to_sun);
+    shadows.wanted[i] = light_.to_sun.y > 0.0f && (f.blade || ((f.round || side > 0.0f) && facing > 0.0f));
+    shadows.origins_m[i] = f.round ? f.raised_m + 0.04f * voxel_m_ * f.normal
+                                   : f.p_m + (side > 0.0f ? 0.04f : -0.04f) * voxel_m_ * f.flat;
     shadows.directions[i] = to_suns_[number][i];
   }
   const auto sunlit = rays_.clear(shadows);

@@ -30,15 +30,15 @@ ModelMesh likeOf(const ModelMesh& mesh) {
 
 }  // namespace
 
-Instances bladesAsInstances(const ModelMesh& blades, const sim::Plant& plant, std::size_t shape,
-                            const sim::Frame& frame) {
+Instances bladesAsInstances(const ModelMesh& blades, const sim::Plant& plant, const LeafFeet& feet,
+                            std::size_t shape, const sim::Frame& frame) {
   Instances result;
   result.shape = likeOf(blades);
   result.tinted = !blades.tints.empty();
   appendElement(result.shape, {}, plant.shapes[shape], {Vec3(0.0), frame.voxel_m, frame.size}, 0.0f, 0);
   for (std::size_t v = 0; v < blades.pieces.size(); ++v) {
     if (v > 0 && blades.pieces[v] == blades.pieces[v - 1]) continue;
-    const sim::PlacedElement& element = plant.elements[blades.pieces[v]];
+    const sim::PlacedElement element = feet.of(plant.elements[blades.pieces[v]]).element;
     Placement place = placementAt(blades, v);
     place.position_m = sim::Vec3f(sim::worldFromVoxel(frame, element.position_vx));
     place.turn = glm::quat(glm::normalize(glm::quat_cast(glm::dmat3(element.x, element.y, element.z))));

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "render/model/leaf_feet.h"
 #include "render/model/model_mesh.h"
 #include "sim/base/frame.h"
 #include "sim/grow/plant.h"
@@ -30,8 +31,8 @@ struct Instances {
 
 /// A plant's blades of one shape, out of the mesh in which each is drawn by itself, for what is said there of
 /// each. `shape`: its number.
-Instances bladesAsInstances(const ModelMesh& blades, const sim::Plant& plant, std::size_t shape,
-                            const sim::Frame& frame);
+Instances bladesAsInstances(const ModelMesh& blades, const sim::Plant& plant, const LeafFeet& feet,
+                            std::size_t shape, const sim::Frame& frame);
 
 /// Stalks, each of which appendTube made of two stations with so many sides, as scaled ones of length and
 /// radius 1 along +y.

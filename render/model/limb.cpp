@@ -56,6 +56,13 @@ double arcOf(const Limb& limb, const NearLine& place) {
          place.share * (limb.arcs_m[place.stretch + 1] - limb.arcs_m[place.stretch]);
 }
 
+std::size_t stretchAt(const Limb& limb, double param) {
+  const std::vector<double>& params = limb.params;
+  return static_cast<std::size_t>(std::upper_bound(params.begin() + 1, params.end() - 1, param) -
+                                  params.begin()) -
+         1;
+}
+
 int sidesFor(double radius_m, double error_m) {
   // A prism of three or four sides is far wider in one view than in another.
   const int least = radius_m < kThin * error_m ? 3 : 5;

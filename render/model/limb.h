@@ -56,6 +56,9 @@ struct NearLine {
 NearLine nearestOn(const Limb& limb, std::size_t stretch, sim::Vec3 p_m);
 double arcOf(const Limb& limb, const NearLine& place);
 
+/// The stretch to which a parameter of the stem's curve belongs; the first or the last beyond them.
+std::size_t stretchAt(const Limb& limb, double param);
+
 /// Sides of a ring: its circle is hardly more than `error_m` away from them, or a twenty-fifth of its radius.
 /// Five at least, or three of what hardly shows.
 int sidesFor(double radius_m, double error_m);

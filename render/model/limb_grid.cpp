@@ -12,11 +12,11 @@ namespace {
 
 using sim::Vec3;
 
-constexpr double kSameRing = 0.3;        // of a foot's length: a ring so near serves for its end
+constexpr double kSameRing = 0.5;        // of a foot's length: a ring so near serves for its end
 constexpr double kPart = 0.95;           // of the way between two feet that they may take up
 constexpr double kLeastShare = 0.5;      // that is left of a foot which gives way to another
 constexpr std::size_t kMostBeside = 64;  // feet at one place that are looked at
-constexpr double kMiddle = 5.0;          // errors that a foot's half is to be worth a ring in its middle
+constexpr double kMiddle = 10.0;          // errors that a foot's half is to be worth a ring in its middle
 constexpr double kFine = 4.0;            // errors that a radius is to be worth more columns
 constexpr int kMostSides = 48;           // to which columns are doubled for the sake of feet
 constexpr double kYield = 0.4;  // of a quad: how far a rim may leave its corners' own places outwards

@@ -20,12 +20,14 @@ constexpr double kLeastStep = 0.05;     // radii between two stations
 constexpr double kTipRadius = 0.7;      // of the last segment's
 constexpr double kFootRadii = 1.25;     // how much wider than its limb a foot is
 constexpr double kWidest = 0.45 * kPi;  // half of the angle of the widest foot
-constexpr double kBeside = 0.8;   // radii of the thinnest twig that a centre line may be off, or the error:
-                                  // a tube beside its place looks right, a thin or edged one does not
-constexpr double kBent = 0.1;     // radii that a centre line may be off ..
-constexpr double kThinner = 0.2;  // and of their radii
-constexpr double kOff = 0.9;      // of what is allowed that is left to stations that are left out
-constexpr double kTurned = 0.98;  // cosine of the angle between a chord and what it stands for
+constexpr double kBeside = 1.0;    // radii of the thinnest twig that a centre line may be off, or the error:
+                                   // a tube beside its place looks right, a thin or edged one does not
+constexpr double kBent = 0.1;      // radii that a centre line may be off ..
+constexpr double kThinner = 0.2;   // and of their radii
+constexpr double kOff = 0.9;       // of what is allowed that is left to stations that are left out
+constexpr double kTurned = 0.98;   // cosine of the angle between a chord and what it stands for ..
+constexpr double kSmooth = 0.99;  // .. on limbs that are so many times as thick as the thinnest twig
+constexpr double kThick = 4.0, kThickErrors = 10.0;  // and in errors
 constexpr double kLongest = 2.5;  // radii from where a line leaves its host to its first ring
 constexpr double kClear = 0.1;    // radii between the first ring and the host's surface
 
@@ -47,16 +49,6 @@ double typicalRadius(std::span<const TubeStation> line) {
     sum += step * 0.5 * (line[i].radius_m + line[i - 1].radius_m);
   }
   return 0.5 * (line.front().radius_m + (length > 0.0 ? sum / length : line.front().radius_m));
-}
-
-/// Piecewise linear, at x among rising xs.
-double interpolated(const std::vector<double>& xs, const std::vector<double>& ys, double x) {
-  if (x <= xs.front()) return ys.front();
-  const auto above = std::upper_bound(xs.begin(), xs.end(), x);
-  if (above == xs.end()) return ys.back();
-  const auto i = static_cast<std::size_t>(above - xs.begin());
-  const double share = (x - xs[i - 1]) / (xs[i] - xs[i - 1]);
-  return ys[i - 1] + share * (ys[i] - ys[i - 1]);
 }
 
 /// How a stem leaves its host: the parameters at which its centre line does, and at which a whole ring has.
@@ -83,6 +75,7 @@ class Builder {
         frame_(frame),
         error_m_(error_m),
         along_m_(std::max(error_m, kBeside * thinnest(data) * frame.voxel_m)),
+        thick_m_(std::max(kThick * thinnest(data) * frame.voxel_m, kThickErrors * error_m)),
         limbs_(curves.stems.size()) {}
 
   void build(std::size_t s);
@@ -95,7 +88,7 @@ class Builder {
   }
   double radiusAt(std::size_t s, double t) const;
   TubeStation stationAt(std::size_t s, double t) const;
-  Leaving leaving(std::size_t s, const Limb& host, double fork_arc_m) const;
+  Leaving leaving(std::size_t s, const Limb& host, std::size_t fork_stretch) const;
   int piecesIn(std::size_t s, std::size_t segment) const;
   void addStations(Limb& limb, std::size_t s, double from) const;
   /// Whether a tip is worth being thinner than its twig.
@@ -108,7 +101,7 @@ class Builder {
   const StemCurves& curves_;
   const LimbData& data_;
   const sim::Frame& frame_;
-  double error_m_, along_m_;
+  double error_m_, along_m_, thick_m_;
   std::vector<Limb> limbs_;
 };
 
@@ -146,11 +139,10 @@ int Builder::piecesIn(std::size_t s, std::size_t segment) const {
   return std::clamp(static_cast<int>(std::ceil(pieces)), 1, kMostStations);
 }
 
-Leaving Builder::leaving(std::size_t s, const Limb& host, double fork_arc_m) const {
+Leaving Builder::leaving(std::size_t s, const Limb& host, std::size_t fork_stretch) const {
   const StemLine& curve = stem(s).curve;
-  const auto segment = std::upper_bound(host.arcs_m.begin() + 1, host.arcs_m.end() - 1, fork_arc_m);
   Leaving result;
-  result.place.stretch = static_cast<std::size_t>(segment - host.arcs_m.begin()) - 1;
+  result.place.stretch = fork_stretch;
   const double last = curve.last();
   const auto stepped = [&](double t, double way_m, double most = 0.5) {
     const double speed = std::max(glm::length(curve.derivative(t)) * frame_.voxel_m, 1e-9);
@@ -223,7 +215,8 @@ void Builder::leaveOutStraight(Limb& limb) const {
     const double length2 = glm::dot(step, step);
     for (std::size_t i = a; i < b; ++i) {
       const Vec3 way = limb.line[i + 1].centre_m - limb.line[i].centre_m;
-      if (glm::dot(way, step) < kTurned * glm::length(way) * std::sqrt(length2)) return false;
+      const double turned = limb.line[i].radius_m > thick_m_ ? kSmooth : kTurned;
+      if (glm::dot(way, step) < turned * glm::length(way) * std::sqrt(length2)) return false;
     }
     for (std::size_t i = a + 1; i < b; ++i) {
       const TubeStation& station = limb.line[i];
@@ -289,7 +282,7 @@ void Builder::standOnHost(Limb& limb, std::size_t s) const {
   }
   const Limb& on = limbs_[host];
   limb.host = static_cast<std::int32_t>(host);
-  Leaving way = leaving(s, on, interpolated(on.params, on.arcs_m, param));
+  Leaving way = leaving(s, on, stretchAt(on, param));
   if (way.leaves) addStations(limb, s, way.clear);
   if (limb.line.size() < 2) {  // a bud
     const TubeStation tip = stationAt(s, stem(s).curve.last());

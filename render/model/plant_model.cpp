@@ -6,6 +6,7 @@
 
 #include "render/model/drawn_bark.h"
 #include "render/model/drawn_leaf.h"
+#include "render/model/leaf_feet.h"
 #include "render/model/leaves.h"
 #include "render/model/limbs.h"
 #include "render/model/meeting_limbs.h"
@@ -57,25 +58,25 @@ double stalkRadius(const sim::Plant& plant, const sim::PlacedElement& element, V
 }
 
 /// A stalk from the stem to a blade that does not begin on it.
-void appendStalk(ModelMesh& mesh, const sim::Plant& plant, const sim::PlacedElement& element,
-                 const StemCurves& curves, double stem_radius_vx, const sim::Frame& frame, float youth,
-                 std::uint32_t piece) {
-  if (at(plant.skeleton.parent, element.node) == sim::kNoNode) return;
+void appendStalk(ModelMesh& mesh, const sim::Plant& plant, const LeafFoot& foot, const sim::Frame& frame,
+                 float youth, std::uint32_t piece) {
+  if (foot.radius_vx == 0.0) return;
+  const sim::PlacedElement& element = foot.element;
   const Vec3 base = sim::placed(element, bladeBase(plant.shapes[static_cast<std::size_t>(element.shape)]));
-  const Vec3 stem = curves.onStem(plant.skeleton, element.node, element.position_vx);
   const double radius_vx = stalkRadius(plant, element, base);
-  if (glm::distance(stem, base) <= stem_radius_vx + radius_vx) return;
+  if (glm::distance(foot.stem_vx, base) <= foot.radius_vx + radius_vx) return;
   const double radius_m = radius_vx * frame.voxel_m;
   const std::array<TubeStation, 2> line{
-      TubeStation{sim::worldFromVoxel(frame, stem), radius_m, element.exposure, youth},
+      TubeStation{sim::worldFromVoxel(frame, foot.stem_vx), radius_m, element.exposure, youth},
       TubeStation{sim::worldFromVoxel(frame, base), radius_m, element.exposure, youth}};
   appendTube(mesh, line, kStalkSides, piece);
 }
 
-void putAsInstances(PlantModel& model, const sim::Plant& plant, const sim::Frame& frame) {
+void putAsInstances(PlantModel& model, const sim::Plant& plant, const LeafFeet& feet,
+                    const sim::Frame& frame) {
   model.instances.push_back(stalksAsInstances(model.stalks, kStalkSides));
   for (std::size_t shape = 0; shape < model.elements.size(); ++shape)
-    model.instances.push_back(bladesAsInstances(model.elements[shape], plant, shape, frame));
+    model.instances.push_back(bladesAsInstances(model.elements[shape], plant, feet, shape, frame));
   std::erase_if(model.instances, [](const Instances& one) { return one.places.empty(); });
   model.stalks = {};
   model.elements.clear();
@@ -122,18 +123,17 @@ PlantModel modelPlant(const sim::Plant& plant, const sim::Frame& frame, const Mo
     model.elements.back().picture = shape.picture;
     if (!shape.drawn.empty()) model.elements.back().picture = drawnLeaf(shape.drawn, shape.colour);
   }
+  const LeafFeet feet(plant, curves, limbs, frame, blocked);
   for (std::size_t e = 0; e < plant.elements.size(); ++e) {
     sim::throwIfStopped();
-    const sim::PlacedElement& element = plant.elements[e];
+    const LeafFoot foot = feet.of(plant.elements[e]);
+    const sim::PlacedElement& element = foot.element;
     const sim::ElementShape& shape = plant.shapes[static_cast<std::size_t>(element.shape)];
     ModelMesh& mesh = model.elements[static_cast<std::size_t>(element.shape)];
     const auto piece = static_cast<std::uint32_t>(e);
     const float young = youth.of(element.born);
     appendElement(mesh, element, shape, frame, young, piece);
-
-    if (element.node >= 0 && element.node < plant.skeleton.size())
-      appendStalk(model.stalks, plant, element, curves, static_cast<double>(at(radii, element.node)), frame,
-                  young, piece);
+    appendStalk(model.stalks, plant, foot, frame, young, piece);
   }
   const auto orderOf = [&](const sim::PlacedElement& element) {
     const bool on_plant = element.node >= 0 && element.node < plant.skeleton.size();
@@ -144,7 +144,7 @@ PlantModel modelPlant(const sim::Plant& plant, const sim::Frame& frame, const Mo
   };
   addOrders(model.stalks);
   for (ModelMesh& mesh : model.elements) addOrders(mesh);
-  if (options.instances) putAsInstances(model, plant, frame);
+  if (options.instances) putAsInstances(model, plant, feet, frame);
   return model;
 }
 

@@ -18,7 +18,7 @@ constexpr double errorOfLevel(int level) {
 
 struct ModelOptions {
   /// How far rings of stems may be from what they stand for, in radii of the thinnest twig; their lines by
-  /// 0.8 of these, or as much.
+  /// one of these, or as much.
   double error = errorOfLevel(0);
   const sim::BitVolume* walls = nullptr;  ///< voxels that centre lines keep out of where the skeleton does
   bool instances = false;  ///< blades and stalks as instances of a shape each, in place of meshes

@@ -178,17 +178,4 @@ std::uint8_t StemCurves::orderAt(NodeId node) const {
   return stem < 0 ? std::uint8_t{0} : stems[static_cast<std::size_t>(stem)].order;
 }
 
-Vec3 StemCurves::onStem(const sim::Skeleton& skeleton, NodeId node, Vec3 on_segment_vx) const {
-  const std::int32_t stem = stem_of[static_cast<std::size_t>(node)];
-  const NodeId parent = skeleton.parent[static_cast<std::size_t>(node)];
-  if (stem < 0 || parent == sim::kNoNode) return positionOf(skeleton, node);
-  const Vec3 a = positionOf(skeleton, parent), b = positionOf(skeleton, node);
-  const double length2 = glm::dot(b - a, b - a);
-  const double along = length2 > kSamePlace * kSamePlace
-                           ? std::clamp(glm::dot(on_segment_vx - a, b - a) / length2, 0.0, 1.0)
-                           : 1.0;
-  const double t = parameter_of[static_cast<std::size_t>(node)];
-  return stems[static_cast<std::size_t>(stem)].curve.position(std::max(t - 1.0 + along, 0.0));
-}
-
 }  // namespace espalier::render

@@ -29,9 +29,6 @@ struct StemCurves {
 
   /// That of the stem that a node's own segment lies on; 0 for a lone seed.
   std::uint8_t orderAt(sim::NodeId node) const;
-  /// The point on the smooth stem that belongs to a point of the straight segment between a node and its
-  /// parent.
-  sim::Vec3 onStem(const sim::Skeleton& skeleton, sim::NodeId node, sim::Vec3 on_segment_vx) const;
 };
 
 /// `radii` as from stemRadii. `blocked`: what curves keep out of where the skeleton does; empty: nothing.

@@ -18,7 +18,7 @@ namespace {
 using sim::Vec3;
 using Triangle = std::array<std::uint32_t, 3>;
 
-constexpr double kFineCollar = 12.0, kCollar = 4.0;  // errors that a limb's radius is to be worth rings there
+constexpr double kFineCollar = 12.0, kCollar = 5.0;  // errors that a limb's radius is to be worth rings there
 
 /// Where a limb's part of the mesh begins, and how much it is.
 struct Counts {

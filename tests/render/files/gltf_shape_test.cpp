@@ -1,6 +1,8 @@
+#include <draco/compression/decode.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 
 #include "render/files/gltf.h"
@@ -16,28 +18,6 @@ using render::ModelMesh;
 using tests::at;
 
 const sim::Frame kTreeFrame{sim::Vec3(1.0, -2.0, 0.5), 0.04, sim::Voxel(200)};
-
-std::vector<sim::Vec3f> placesOf(const tinygltf::Model& model, const tinygltf::Node& node, int accessor) {
-  if (at(model.accessors, accessor).componentType == TINYGLTF_COMPONENT_TYPE_FLOAT)
-    return tests::valuesOf<sim::Vec3f>(model, accessor);
-  std::vector<sim::Vec3f> places;
-  for (const auto& p : tests::valuesOf<std::array<std::uint16_t, 4>>(model, accessor)) {
-    const sim::Vec3 steps(p[0], p[1], p[2]);
-    places.emplace_back(sim::Vec3(node.translation[0], node.translation[1], node.translation[2]) +
-                        sim::Vec3(node.scale[0], node.scale[1], node.scale[2]) * steps);
-  }
-  return places;
-}
-
-std::vector<sim::Vec3f> normalsOf(const tinygltf::Model& model, int accessor) {
-  if (at(model.accessors, accessor).componentType == TINYGLTF_COMPONENT_TYPE_FLOAT)
-    return tests::valuesOf<sim::Vec3f>(model, accessor);
-  EXPECT_TRUE(at(model.accessors, accessor).normalized);
-  std::vector<sim::Vec3f> normals;
-  for (const auto& n : tests::valuesOf<std::array<std::int8_t, 4>>(model, accessor))
-    normals.emplace_back(sim::Vec3f(n[0], n[1], n[2]) / 127.0f);
-  return normals;
-}
 
 /// With so much added to each index.
 template <class Index>
@@ -57,12 +37,13 @@ ModelMesh readBack(const tinygltf::Model& model, const std::string& name) {
   std::map<std::array<float, 3>, std::uint32_t> points;
   for (const auto& primitive : at(model.meshes, node.mesh).primitives) {
     const auto first = static_cast<std::uint32_t>(mesh.positions_m.size());
-    for (const sim::Vec3f p : placesOf(model, node, primitive.attributes.at("POSITION"))) {
+    for (const sim::Vec3f p : tests::valuesOf<sim::Vec3f>(model, primitive.attributes.at("POSITION"))) {
       const std::array<float, 3> key{p.x, p.y, p.z};
       mesh.points.push_back(points.try_emplace(key, static_cast<std::uint32_t>(points.size())).first->second);
       mesh.positions_m.push_back(p);
     }
-    for (const sim::Vec3f n : normalsOf(model, primitive.attributes.at("NORMAL"))) mesh.normals.push_back(n);
+    for (const sim::Vec3f n : tests::valuesOf<sim::Vec3f>(model, primitive.attributes.at("NORMAL")))
+      mesh.normals.push_back(n);
     const auto& indices = at(model.accessors, primitive.indices);
     EXPECT_EQ(indices.componentType, TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT);
     for (const auto& t : trianglesOf<std::uint16_t>(model, primitive.indices, first))
@@ -71,8 +52,8 @@ ModelMesh readBack(const tinygltf::Model& model, const std::string& name) {
   return mesh;
 }
 
-/// One closed surface, outwards, with the triangles of another that are no farther off than that.
-void expectTheSame(const ModelMesh& read, const ModelMesh& modelled, float off_m) {
+/// As closed as another surface, and outwards.
+void expectAsSound(const ModelMesh& read, const ModelMesh& modelled) {
   const tests::Topology topology = tests::topologyOf(read), wanted = tests::topologyOf(modelled);
   EXPECT_EQ(topology.bad_edges, 0u);
   EXPECT_EQ(topology.bad_points, 0u);
@@ -81,6 +62,11 @@ void expectTheSame(const ModelMesh& read, const ModelMesh& modelled, float off_m
   EXPECT_EQ(topology.components, wanted.components);
   EXPECT_GT(tests::volumeOf(read), 0.0);
   ASSERT_EQ(read.triangles.size(), modelled.triangles.size());
+}
+
+/// The same triangles, one after the other.
+void expectTheSame(const ModelMesh& read, const ModelMesh& modelled) {
+  expectAsSound(read, modelled);
   std::size_t inwards = 0, were_inwards = 0;
   const auto inward = [](const ModelMesh& mesh, const std::array<std::uint32_t, 3>& t) {
     const auto& p = mesh.positions_m;
@@ -90,7 +76,7 @@ void expectTheSame(const ModelMesh& read, const ModelMesh& modelled, float off_m
   for (std::size_t i = 0; i < read.triangles.size(); ++i) {
     for (std::size_t k = 0; k < 3; ++k) {
       const std::uint32_t a = read.triangles[i][k], b = modelled.triangles[i][k];
-      ASSERT_LE(glm::distance(read.positions_m[a], modelled.positions_m[b]), off_m);
+      ASSERT_EQ(read.positions_m[a], modelled.positions_m[b]);
       ASSERT_GT(glm::dot(glm::normalize(read.normals[a]), modelled.normals[b]), 0.9999f);
     }
     inwards += inward(read, read.triangles[i]);
@@ -107,14 +93,13 @@ TEST(GltfShape, LargeSurfacesAreInPartsThatShortIndicesReach) {
   ASSERT_GT(model.stems.positions_m.size(), 65535u);
   const auto file = tests::readGlb(render::glbBytes({{}, {&model}}));
   EXPECT_GT(at(file.meshes, 0).primitives.size(), 1u);
-  expectTheSame(readBack(file, "tree stems"), model.stems, 0.0f);
+  expectTheSame(readBack(file, "tree stems"), model.stems);
 }
 
-/// Triangles that no parts can hold: all of them have one corner, or one of them has corners that are far
-/// apart.
+/// Triangles that follow each other have nothing in common: parts would hold most vertices several times.
 TEST(GltfShape, ASurfaceThatCannotBePartedHasLongIndices) {
-  for (const bool all : {true, false}) {
-    SCOPED_TRACE(all);
+  for (const bool mixed : {true, false}) {
+    SCOPED_TRACE(mixed);
     render::PlantModel model;
     model.name = "fan";
     model.stems.name = "fan stems";
@@ -125,34 +110,105 @@ TEST(GltfShape, ASurfaceThatCannotBePartedHasLongIndices) {
       model.stems.exposures.push_back(1.0f);
       model.stems.youths.push_back(0.0f);
       model.stems.orders.push_back(0);
-      if (v >= 2 && v % 300 > 1) model.stems.triangles.push_back({all ? 0 : v - 2, v - 1, v});
     }
-    if (!all) model.stems.triangles.push_back({1, 2, 69'999});
+    for (std::uint32_t i = 2; i < 70'000; ++i) {
+      const std::uint32_t v = mixed ? 2 + (i - 2) * 997 % 69'998 : i;
+      if (v % 300 > 1) model.stems.triangles.push_back({v - 2, v - 1, v});
+    }
     const auto file = tests::readGlb(render::glbBytes({{}, {&model}}));
     const auto& primitive = tests::primitiveOf(file, "fan stems");
-    EXPECT_EQ(at(file.meshes, 0).primitives.size(), 1u);
-    EXPECT_EQ(at(file.accessors, primitive.indices).componentType, TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT);
+    EXPECT_EQ(at(file.meshes, 0).primitives.size(), mixed ? 1u : 2u);
+    EXPECT_EQ(at(file.accessors, primitive.indices).componentType,
+              mixed ? TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT : TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT);
+    if (!mixed) continue;
     EXPECT_EQ(trianglesOf<std::uint32_t>(file, primitive.indices), model.stems.triangles);
   }
 }
 
-TEST(GltfShape, BesideInstancesStemsAreInStepsFarFinerThanTheirTwigs) {
-  const render::PlantModel model =
-      render::modelPlant(tests::smallVine(), tests::kVineFrame, {.instances = true});
-  const auto file = tests::readGlb(render::glbBytes({{}, {&model}}));
-  const auto& stems = tests::primitiveOf(file, "vine stems");
-  EXPECT_EQ(at(file.accessors, stems.attributes.at("POSITION")).componentType,
-            TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT);
-  EXPECT_GT(model.thinnest_m, 0.0);
-  expectTheSame(readBack(file, "vine stems"), model.stems, static_cast<float>(model.thinnest_m / 16.0));
+/// What Draco's own decoder makes of a node's only primitive.
+ModelMesh decoded(const tinygltf::Model& model, const std::string& name) {
+  const auto& primitive = tests::primitiveOf(model, name);
+  const auto& packed = primitive.extensions.at("KHR_draco_mesh_compression");
+  const std::string bytes = tests::bytesOfView(model, packed.Get("bufferView").GetNumberAsInt());
+  draco::DecoderBuffer buffer;
+  buffer.Init(bytes.data(), bytes.size());
+  draco::Decoder decoder;
+  const auto found = decoder.DecodeMeshFromBuffer(&buffer);
+  ModelMesh mesh;
+  if (!found.ok()) {
+    ADD_FAILURE() << found.status().error_msg();
+    return mesh;
+  }
+  const draco::Mesh& drawn = *found.value();
+  const auto read = [&](const char* attribute, auto& values) {
+    if (!primitive.attributes.contains(attribute)) return;
+    const auto& about = at(model.accessors, primitive.attributes.at(attribute));
+    EXPECT_EQ(about.count, drawn.num_points()) << attribute;
+    EXPECT_EQ(about.bufferView, -1) << attribute;
+    EXPECT_EQ(about.componentType, TINYGLTF_COMPONENT_TYPE_FLOAT) << attribute;
+    const auto* from = drawn.GetAttributeByUniqueId(
+        static_cast<std::uint32_t>(packed.Get("attributes").Get(attribute).GetNumberAsInt()));
+    ASSERT_NE(from, nullptr) << attribute;
+    values.resize(drawn.num_points());
+    for (std::uint32_t v = 0; v < values.size(); ++v) from->GetMappedValue(draco::PointIndex(v), &values[v]);
+  };
+  read("POSITION", mesh.positions_m);
+  read("NORMAL", mesh.normals);
+  read("TEXCOORD_0", mesh.uvs);
+  read("_EXPOSURE", mesh.exposures);
+  read("_AGE", mesh.youths);
+  std::vector<float> orders;
+  read("_ORDER", orders);
+  for (const float order : orders) {
+    mesh.orders.push_back(static_cast<std::uint8_t>(order));
+    EXPECT_EQ(order, static_cast<float>(mesh.orders.back()));
+  }
+  for (std::uint32_t f = 0; f < drawn.num_faces(); ++f) {
+    const auto& face = drawn.face(draco::FaceIndex(f));
+    mesh.triangles.push_back({face[0].value(), face[1].value(), face[2].value()});
+  }
+  EXPECT_EQ(at(model.accessors, primitive.extras.Get("indices").GetNumberAsInt()).count,
+            3 * mesh.triangles.size());
+  std::map<std::array<float, 3>, std::uint32_t> points;
+  for (const sim::Vec3f p : mesh.positions_m) {
+    const std::array<float, 3> key{p.x, p.y, p.z};
+    mesh.points.push_back(points.try_emplace(key, static_cast<std::uint32_t>(points.size())).first->second);
+  }
+  return mesh;
 }
 
-TEST(GltfShape, StemsAreInFloatsWhereStepsWouldBeTooCoarse) {
+TEST(GltfShape, BesideInstancesStemsAreCompressedInStepsFarFinerThanTheirTwigs) {
   render::PlantModel model = render::modelPlant(tests::smallVine(), tests::kVineFrame, {.instances = true});
-  model.thinnest_m = 1e-6;
-  const auto file = tests::readGlb(render::glbBytes({{}, {&model}}));
-  EXPECT_EQ(file.extensionsRequired, std::vector<std::string>{"EXT_mesh_gpu_instancing"});
-  expectTheSame(readBack(file, "vine stems"), model.stems, 0.0f);
+  EXPECT_GT(model.thinnest_m, 0.0);
+  for (const bool pictured : {false, true}) {
+    SCOPED_TRACE(pictured);
+    render::LeafPicture bark;
+    bark.tiles = true;
+    if (pictured) model.stems.picture = std::make_shared<const render::LeafPicture>(bark);
+    const auto file = tests::readGlb(render::glbBytes({{}, {&model}}));
+    EXPECT_EQ(file.extensionsRequired,
+              (std::vector<std::string>{"EXT_mesh_gpu_instancing", "KHR_draco_mesh_compression"}));
+    const ModelMesh read = decoded(file, "vine stems");
+    expectAsSound(read, model.stems);
+    ASSERT_EQ(read.uvs.empty(), !pictured);
+    const double off_m = std::sqrt(3.0) * model.thinnest_m / 120.0;
+    std::size_t strange = 0;  // vertices that the model has not
+    for (std::size_t v = 0; v < read.positions_m.size(); ++v) {
+      bool known = false;
+      for (std::size_t w = 0; w < model.stems.positions_m.size() && !known; ++w) {
+        known = static_cast<double>(glm::distance(read.positions_m[v], model.stems.positions_m[w])) <=
+                    1.01 * off_m &&
+                glm::dot(read.normals[v], model.stems.normals[w]) > 0.9999f &&
+                std::abs(read.exposures[v] - model.stems.exposures[w]) < 0.002f &&
+                std::abs(read.youths[v] - model.stems.youths[w]) < 0.002f &&
+                read.orders[v] == model.stems.orders[w] &&
+                (!pictured || (std::abs(read.uvs[v].x - model.stems.uvs[w].x) < 0.001f &&
+                               std::abs(1.0f - read.uvs[v].y - model.stems.uvs[w].y) < 0.001f));
+      }
+      strange += !known;
+    }
+    EXPECT_EQ(strange, 0u) << "of " << read.positions_m.size();
+  }
 }
 
 /// As of an OBJ that has four corners of its own for each face.

@@ -56,16 +56,82 @@ TEST_F(Glb, HoldsWhatWasModelled) {
   }
 }
 
+/// A picture that nothing here decodes.
+std::shared_ptr<const render::LeafPicture> pictureOf(const std::string& bytes) {
+  render::LeafPicture picture;
+  picture.name = "blade";
+  picture.png = "\x89PNG\r\n\x1a\n" + bytes;
+  return std::make_shared<const render::LeafPicture>(picture);
+}
+
 TEST_F(Glb, SaysOfEachVertexWhatThePlantSensedThere) {
-  const auto model = readGlb(bytes_);
+  vine_.stems.picture = pictureOf("bark");
+  const auto model = readGlb(glbBytes({{}, {&vine_}}));
   const auto& attributes = tests::primitiveOf(model, "vine stems").attributes;
   EXPECT_FALSE(attributes.contains("COLOR_0"));
-  EXPECT_EQ(tests::valuesOf<float>(model, attributes.at("_EXPOSURE")), vine_.stems.exposures);
-  EXPECT_EQ(tests::valuesOf<float>(model, attributes.at("_AGE")), vine_.stems.youths);
-  EXPECT_EQ(tests::valuesOf<float>(model, attributes.at("_ORDER")),
-            std::vector<float>(vine_.stems.orders.begin(), vine_.stems.orders.end()));
+  const auto exposures = tests::valuesOf<float>(model, attributes.at("_EXPOSURE"));
+  const auto ages = tests::valuesOf<float>(model, attributes.at("_AGE"));
+  const auto orders = tests::valuesOf<float>(model, attributes.at("_ORDER"));
+  const auto corners = tests::valuesOf<std::uint16_t>(model, tests::primitiveOf(model, "vine stems").indices);
+  ASSERT_EQ(corners.size(), 3 * vine_.stems.triangles.size());
+  for (std::size_t i = 0; i < corners.size(); ++i) {
+    const std::uint32_t v = vine_.stems.triangles[i / 3][i % 3];
+    EXPECT_EQ(exposures[corners[i]], vine_.stems.exposures[v]);
+    EXPECT_EQ(ages[corners[i]], vine_.stems.youths[v]);
+    EXPECT_EQ(orders[corners[i]], vine_.stems.orders[v]);
+  }
   EXPECT_GT(*std::max_element(vine_.stems.orders.begin(), vine_.stems.orders.end()), 0);
   EXPECT_TRUE(tests::primitiveOf(model, "vine leaf").attributes.contains("_ORDER"));
+}
+
+/// UVs part vertices of one point: where no picture needs them there is one of each.
+TEST_F(Glb, StemsWithoutAPictureHaveNoUvsAndNoSeams) {
+  const auto model = readGlb(bytes_);
+  const auto& stems = tests::primitiveOf(model, "vine stems");
+  EXPECT_FALSE(stems.attributes.contains("TEXCOORD_0"));
+  EXPECT_FALSE(tests::primitiveOf(model, "vine stalks").attributes.contains("NORMAL"));
+  const auto places = tests::valuesOf<sim::Vec3f>(model, stems.attributes.at("POSITION"));
+  const auto ages = tests::valuesOf<float>(model, stems.attributes.at("_AGE"));
+  EXPECT_EQ(places.size(), 1 + *std::max_element(vine_.stems.points.begin(), vine_.stems.points.end()));
+  EXPECT_LT(places.size(), vine_.stems.positions_m.size());
+  const auto corners = tests::valuesOf<std::uint16_t>(model, stems.indices);
+  std::set<float> at_points(ages.begin(), ages.end());
+  for (std::size_t i = 0; i < corners.size(); ++i)
+    EXPECT_EQ(places[corners[i]], vine_.stems.positions_m[vine_.stems.triangles[i / 3][i % 3]]);
+  for (const float age : at_points)
+    EXPECT_NE(std::find(vine_.stems.youths.begin(), vine_.stems.youths.end(), age), vine_.stems.youths.end());
+}
+
+/// What all blades of a kind have alike is in the file once, as long as the longest of their meshes needs.
+TEST_F(Glb, IndicesAndUvsOfBladesAreInItOnce) {
+  render::PlantModel longer = vine_;
+  for (const bool longer_first : {false, true}) {
+    sim::Plant twice = tests::smallVine();
+    twice.elements.insert(twice.elements.end(), twice.elements.begin(), twice.elements.end());
+    longer = render::modelPlant(twice, tests::kVineFrame);
+    longer.name = "longer";
+    longer.elements[0].name = "longer leaf";
+    const auto model =
+        readGlb(longer_first ? glbBytes({{}, {&longer, &vine_}}) : glbBytes({{}, {&vine_, &longer}}));
+    const auto& few = tests::primitiveOf(model, "vine leaf");
+    const auto& many = tests::primitiveOf(model, "longer leaf");
+    for (const auto& [one, other] :
+         {std::pair{few.indices, many.indices},
+          std::pair{few.attributes.at("TEXCOORD_0"), many.attributes.at("TEXCOORD_0")}}) {
+      EXPECT_EQ(2 * at(model.accessors, one).count, at(model.accessors, other).count);
+      EXPECT_EQ(at(model.accessors, one).bufferView, at(model.accessors, other).bufferView);
+    }
+    const auto corners = tests::valuesOf<std::uint16_t>(model, many.indices);
+    const auto places = tests::valuesOf<sim::Vec3f>(model, many.attributes.at("POSITION"));
+    const auto uvs = tests::valuesOf<std::array<std::uint16_t, 2>>(model, many.attributes.at("TEXCOORD_0"));
+    const render::ModelMesh& leaf = longer.elements[0];
+    ASSERT_EQ(corners.size(), 3 * leaf.triangles.size());
+    for (std::size_t i = 0; i < corners.size(); ++i) {
+      const std::uint32_t v = leaf.triangles[i / 3][i % 3];
+      EXPECT_EQ(places[corners[i]], leaf.positions_m[v]);
+      EXPECT_NEAR(uvs[corners[i]][0] / 65535.0f, leaf.uvs[v].x, 1e-5f);
+    }
+  }
 }
 
 /// Leaves of flat polygons need no normals, nor two vertices where only those differ.
@@ -83,14 +149,6 @@ TEST_F(Glb, FlatLeavesHaveTheNormalsOfTheirFacets) {
   for (sim::Vec3f& normal : vine_.elements[0].normals) normal = sim::Vec3f(0, 1, 0);  // as of a bent blade
   const auto bent = readGlb(glbBytes({{}, {&vine_}}));
   EXPECT_TRUE(tests::primitiveOf(bent, "vine leaf").attributes.contains("NORMAL"));
-}
-
-/// A picture that nothing here decodes.
-std::shared_ptr<const render::LeafPicture> pictureOf(const std::string& bytes) {
-  render::LeafPicture picture;
-  picture.name = "blade";
-  picture.png = "\x89PNG\r\n\x1a\n" + bytes;
-  return std::make_shared<const render::LeafPicture>(picture);
 }
 
 TEST_F(Glb, PicturesOfLeavesAreInItOnce) {
@@ -174,7 +232,7 @@ TEST_F(Glb, InstancesStandWhereTheMeshesAre) {
   EXPECT_LT(bytes.size(), 2 * bytes_.size());
   const auto model = readGlb(bytes);
   EXPECT_EQ(model.extensionsRequired,
-            (std::vector<std::string>{"EXT_mesh_gpu_instancing", "KHR_mesh_quantization"}));
+            (std::vector<std::string>{"EXT_mesh_gpu_instancing", "KHR_draco_mesh_compression"}));
   EXPECT_EQ(model.extensionsUsed, model.extensionsRequired);
   EXPECT_EQ(model.meshes.size(), 4u);  // two plants' stems, a leaf and a stalk
   for (const auto& [name, mesh] :
@@ -196,20 +254,23 @@ TEST_F(Glb, InstancesStandWhereTheMeshesAre) {
       EXPECT_EQ(tests::valuesOf<sim::Colour>(model, accessor("_TINT"))[0], mesh->tints[0]);
     }
     const auto orders = tests::valuesOf<std::uint8_t>(model, accessor("_ORDER"));
-    const auto shape =
-        tests::valuesOf<sim::Vec3f>(model, tests::primitiveOf(model, name).attributes.at("POSITION"));
-    ASSERT_EQ(moved.size() * shape.size(), mesh->positions_m.size());
+    const auto& drawn = tests::primitiveOf(model, name);
+    const auto shape = tests::valuesOf<sim::Vec3f>(model, drawn.attributes.at("POSITION"));
+    const auto corners = tests::valuesOf<std::uint16_t>(model, drawn.indices);
+    ASSERT_EQ(moved.size() * corners.size(), 3 * mesh->triangles.size());
     ASSERT_EQ(exposures.size(), moved.size());
     for (std::size_t i = 0; i < moved.size(); ++i) {
       const auto q = turned[i];
       const glm::quat turn(static_cast<float>(q[3]), static_cast<float>(q[0]), static_cast<float>(q[1]),
                            static_cast<float>(q[2]));
-      for (std::size_t v = 0; v < shape.size(); ++v) {
-        const sim::Vec3f at_m = moved[i] + glm::normalize(turn) * (scaled[i] * shape[v]);
-        EXPECT_LT(glm::distance(at_m, mesh->positions_m[i * shape.size() + v]), 2e-5f) << i << ' ' << v;
+      for (std::size_t k = 0; k < corners.size(); ++k) {
+        const std::size_t corner = i * corners.size() + k;
+        const std::uint32_t v = mesh->triangles[corner / 3][corner % 3];
+        const sim::Vec3f at_m = moved[i] + glm::normalize(turn) * (scaled[i] * shape[corners[k]]);
+        EXPECT_LT(glm::distance(at_m, mesh->positions_m[v]), 2e-5f) << i << ' ' << k;
+        EXPECT_NEAR(exposures[i] / 255.0f, mesh->exposures[v], 0.003f);
+        EXPECT_EQ(orders[i], mesh->orders[v]);
       }
-      EXPECT_NEAR(exposures[i] / 255.0f, mesh->exposures[i * shape.size()], 0.003f);
-      EXPECT_EQ(orders[i], mesh->orders[i * shape.size()]);
     }
   }
 }

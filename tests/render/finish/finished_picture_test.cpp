@@ -11,6 +11,7 @@
 #include "render/image/tone.h"
 #include "sim/base/error.h"
 #include "sim/base/parallel.h"
+#include "sim/base/random.h"
 #include "sim/light/sky.h"
 #include "sim/sweep/sweep.h"
 #include "tests/support/golden.h"
@@ -104,6 +105,36 @@ TEST_F(FinishedPicture, TheSunCastsShadowsAndSetsAtTheHorizon) {
   EXPECT_LT(behind, 0.8 * front);
   EXPECT_LT(night, behind);
   EXPECT_GT(night, 0.0);
+}
+
+/// A trunk has few sides: where it turns away from the sun, light fades over them and does not end at an
+/// edge.
+TEST_F(FinishedPicture, TrunksAreRoundInTheSun) {
+  sim::Plant plant;
+  tests::addNode(plant.skeleton, sim::kNoNode, {0, 0, 0});
+  tests::addNode(plant.skeleton, 0, {0, 12, 0});
+  plant.girth.twig_vx = 1.5;
+  const sim::Frame frame{Vec3(0.0), 0.1, tests::kVineFrame.size};
+  const render::PlantModel pole = render::modelPlant(plant, frame);
+  scene_.model = {{}, {&pole}};
+  camera_ = {{0.0, 0.6, 3.0}, {0.0, 0.6, 0.0}, 12};
+  double steepest = 0.0, contrast = 0.0;
+  for (const double turn : {-0.1, -0.05, 0.0, 0.05, 0.1}) {
+    const glm::dvec2 circle = sim::unitCircle(turn);
+    scene_.to_sun = {circle.x, 0.5, circle.y};
+    const Image display = shown(draw(200, 120));
+    std::vector<double> across;  // the mean over rows, for bark is not even
+    for (int x = 80; x < 120; ++x) {
+      double sum = 0.0;
+      for (int y = 30; y < 90; ++y) sum += static_cast<double>(display.at(x, y)[0]);
+      across.push_back(sum / 60.0);
+    }
+    contrast = std::max(contrast, across.back() - across.front());
+    for (std::size_t x = 1; x < across.size(); ++x)
+      steepest = std::max(steepest, std::abs(across[x] - across[x - 1]));
+  }
+  EXPECT_GT(contrast, 0.2);
+  EXPECT_LT(steepest, 0.05);
 }
 
 TEST_F(FinishedPicture, FragmentsAreLitByTheirVoxels) {

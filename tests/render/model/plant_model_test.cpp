@@ -7,6 +7,7 @@
 
 #include "render/model/leaves.h"
 #include "sim/base/error.h"
+#include "sim/base/random.h"
 #include "tests/support/small_vine.h"
 #include "tests/support/sound_surface.h"
 
@@ -208,7 +209,11 @@ TEST(Leaves, StalksReachFromTheStemToTheBlade) {
   element.scale = 4.0;
   plant.elements = {element};
   const auto with_stalk = modelPlant(plant, kUnit);
-  const Vec3 base = sim::placed(element, render::bladeBase(plant.shapes[0]));
+  const Vec3 blade = sim::placed(element, render::bladeBase(plant.shapes[0]));
+  Vec3 base = blade;
+  for (const Vec3f p : with_stalk.elements[0].positions_m)
+    if (glm::distance(Vec3(p), blade) < glm::distance(base, blade) || base == blade) base = Vec3(p);
+  EXPECT_NEAR(base.x - blade.x, 0.65 * plant.girth.twig_vx, 0.15 * plant.girth.twig_vx);  // it tapers
   expectSound(with_stalk.stalks);
   EXPECT_LT(distanceTo(with_stalk.stalks, {5, 3, 5}), 0.1);
   EXPECT_LT(distanceTo(with_stalk.stalks, base), 1e-5);
@@ -216,6 +221,69 @@ TEST(Leaves, StalksReachFromTheStemToTheBlade) {
   plant.shapes[0].polygons = {{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}}};  // begins on the stem
   EXPECT_EQ(modelPlant(plant, kUnit).elements[0].triangles.size(), 1u);
   EXPECT_TRUE(modelPlant(plant, kUnit).stalks.empty());
+}
+
+/// However thick a stem becomes, where it is bent, and inside of a thicker one.
+TEST(Leaves, FeetStandOnTheBark) {
+  sim::Plant plant;
+  for (const Vec3 p : {Vec3(5, 0, 5), Vec3(5, 6, 5), Vec3(7, 12, 5), Vec3(5, 18, 5)})
+    tests::addNode(plant.skeleton, plant.skeleton.size() - 1, p);
+  const auto side = tests::addNode(plant.skeleton, 1, {5, 10, 13});
+  plant.shapes = {{"card", {{{0, 0, 0}, {0.5, 1, 0}, {0, 2, 0}, {-0.5, 1, 0}}}, {}}};
+  for (const sim::NodeId node : {2, 2, 3, side}) {
+    sim::PlacedElement element;
+    element.node = node;
+    const double along = plant.elements.size() % 2 == 0 ? 0.5 : 0.05;
+    const auto parent = plant.skeleton.parent[static_cast<std::size_t>(node)];
+    const Vec3 from = plant.skeleton.position_vx[static_cast<std::size_t>(parent)];
+    const Vec3 segment = plant.skeleton.position_vx[static_cast<std::size_t>(node)] - from;
+    element.position_vx = from + along * segment;
+    element.y = sim::perpendicular(glm::normalize(segment));
+    element.z = glm::normalize(segment);
+    element.x = glm::cross(element.y, element.z);
+    plant.elements.push_back(element);
+  }
+  for (const double twig_vx : {0.1, 1.0}) {
+    plant.girth.twig_vx = twig_vx;
+    const auto model = modelPlant(plant, kUnit), placed = modelPlant(plant, kUnit, {.instances = true});
+    const ModelMesh& cards = model.elements[0];
+    ASSERT_EQ(placed.instances.size(), 1u);  // and no stalks
+    for (std::size_t e = 0; e < plant.elements.size(); ++e) {
+      SCOPED_TRACE(testing::Message() << "twigs of " << twig_vx << ", element " << e);
+      const Vec3 foot(cards.positions_m[4 * e]);
+      const Vec3 out = 0.5 * twig_vx * plant.elements[e].y;
+      EXPECT_NEAR(tests::windingAt(model.stems, foot - out), 1.0, 0.01);
+      EXPECT_NEAR(tests::windingAt(model.stems, foot + out), 0.0, 0.01);
+      EXPECT_LT(glm::distance(Vec3(placed.instances[0].places[e].position_m), foot), 1e-5);
+    }
+  }
+}
+
+TEST(Leaves, AreNotMovedIntoWalls) {
+  sim::Plant plant;
+  tests::addNode(plant.skeleton, sim::kNoNode, {5, 0, 5});
+  tests::addNode(plant.skeleton, 0, {5, 6, 5});
+  plant.girth.twig_vx = 1.5;
+  plant.shapes = {{"card", {{{-0.5, 0, 0}, {0.5, 0, 0}, {0.5, 2, 0}}}, {}}};
+  sim::PlacedElement element;
+  element.node = 1;
+  element.position_vx = {5, 3, 5};
+  element.x = {0, 0, -1};
+  element.y = {1, 0, 0};
+  element.z = {0, -1, 0};
+  plant.elements = {element};
+  sim::BitVolume walls(sim::Voxel(16));
+  const auto tip = [&] {
+    const auto model = modelPlant(plant, kUnit, {.walls = &walls});
+    float most = 0.0f;
+    for (const Vec3f p : model.elements[0].positions_m) most = std::max(most, p.x);
+    return most;
+  };
+  EXPECT_NEAR(tip(), 7.0f + 0.65f * 1.5f, 0.15f);
+  for (int y = 0; y < 16; ++y) {
+    for (int z = 0; z < 16; ++z) walls.set({8, y, z});
+  }
+  EXPECT_EQ(tip(), 7.0f);
 }
 
 TEST(Leaves, WhereThereIsNoStemThereIsNoStalk) {

@@ -1,5 +1,6 @@
 #include "rules/growth/ways.h"
 
+#include <algorithm>
 #include <cmath>
 
 #undef HWY_TARGET_INCLUDE
@@ -225,15 +226,17 @@ Ways waysOf(const RuleSet& rules, const Surroundings& around, const Senses& sens
   ways.numbers = sim::philoxInput(key, sim::Purpose::trial, set);
   if (around.heading == sim::Vec3(0.0)) {
     // A seed has no way of its own yet: a shoot makes for the open above, or along the wall that it stands
-    // at; and where neither is to be had, along whatever there is.
-    ways.wander_deg = {60.0f, 0.0f};
+    // at; where limbs may turn farther than that, as far as they.
+    const Spread wander = spreadOf(tree.wander_deg, senses.circumstance);
+    ways.wander_deg = {std::max(60.0f, wander.low + wander.span), 0.0f};
+    ways.narrow = tree.trials_max;
   } else {
     ways.axis = sim::Vec3f(around.heading);
     ways.branch = key.number != 0;
     ways.side_angle_deg = spreadOf(tree.branch_angle_deg, senses.circumstance);
     ways.wander_deg = spreadOf(tree.wander_deg, senses.circumstance);
+    ways.narrow = tree.trials_min;
   }
-  ways.narrow = tree.trials_min;
   ways.widest = tree.trials_max;
   ways.length_vx = spreadOf(tree.length.value, senses.circumstance);
   bendBy(rules, around, senses, world_size, ways);

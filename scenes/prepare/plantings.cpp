@@ -249,10 +249,10 @@ sim::GrowthSettings growthSettings(const Scene& scene, const Site& site,
   settings.sky_table = [background = backgroundOf(scene.sky, site.sky_picture, site.sun.directions)] {
     return skyTableOf(background);
   };
+  settings.commons = commonsOf(attractors);
   if (std::any_of(scene.plants.begin(), scene.plants.end(),
                   [](const PlantSpec& plant) { return rules::asksForApices(*plant.rules); }))
     settings.commons[rules::kApices] = rules::columnsOf(apicesOf(site.world));
-  settings.commons = commonsOf(attractors);
   for (std::size_t i = 0; i < scene.fields.size(); ++i) {
     const rules::Guide guide = guideOf(scene.fields[i], site.fields.at(i), site.world.frame());
     settings.commons[rules::fieldNamed(scene.fields[i].name)] = rules::columnsOf(guide);

@@ -61,6 +61,7 @@ void agreeOnImages(Drawn& images, const std::vector<std::string>& plants,
                                     {"of", "contact_sheet"},
                                     {"mesh", "narrow_band"},
                                     {"field", "field"},
+                                    {"show", "vines"},
                                     {"iteration", "graph"}}) {
       if (find(image.value, key) && numbers.chance(0.5)) find(image.value, "kind")->text = only;
     }
@@ -120,6 +121,37 @@ void agreeOnFields(Drawn& fields, const std::vector<std::string>& meshes, tests:
   }
 }
 
+/// Each is a file or lines, and guides fill nothing.
+void agreeOnMeshes(Drawn& meshes, tests::Numbers& numbers) {
+  for (DrawnEntry& mesh : meshes.entries) {
+    if (mesh.value.kind != Drawn::Kind::map) continue;
+    if (!find(mesh.value, "file") && !find(mesh.value, "lines")) {
+      Drawn line;
+      line.text = "[[[-0.4, -0.4, 0], [0.4, 0.4, 0]]]";
+      mesh.value.entries.push_back({"lines", std::move(line)});
+    }
+    if (find(mesh.value, "file") && find(mesh.value, "lines"))
+      takeOut(mesh.value, {numbers.chance(0.5) ? "lines" : "file"});
+    if (find(mesh.value, "lines")) takeOut(mesh.value, {"regions", "solid", "optional", "unit", "tiled"});
+    if (find(mesh.value, "guide")) takeOut(mesh.value, {"solid", "tiled"});
+  }
+}
+
+/// Keys of a background belong to one kind each.
+void agreeOnBackground(Drawn& background) {
+  Drawn* kind = find(background, "kind");
+  const bool picture = find(background, "file") != nullptr,
+             gradient = !picture && find(background, "horizon");
+  if ((picture || gradient) && kind == nullptr) {
+    background.entries.push_back({"kind", {}});
+    kind = &background.entries.back().value;
+  }
+  if (kind != nullptr && (picture || gradient)) kind->text = picture ? "picture" : "gradient";
+  if (kind != nullptr && !picture && kind->text == "picture") kind->text = "uniform";
+  if (!picture) takeOut(background, {"turn"});
+  if (!gradient) takeOut(background, {"horizon"});
+}
+
 }  // namespace
 
 void agreeOnElement(Drawn& element, tests::Numbers& numbers) {
@@ -131,6 +163,15 @@ void agreeOnElement(Drawn& element, tests::Numbers& numbers) {
   Drawn texture;
   texture.text = "ovate";
   element.entries.push_back({"texture", std::move(texture)});
+}
+
+void agreeOnPull(Drawn& pull, tests::Numbers& numbers) {
+  if (find(pull, "point") && find(pull, "direction"))
+    takeOut(pull, {numbers.chance(0.5) ? "point" : "direction"});
+  if (find(pull, "point") || find(pull, "direction")) return;
+  Drawn way;
+  way.text = "[1, 0.5, 0]";
+  pull.entries.push_back({"direction", std::move(way)});
 }
 
 void agreeOnCrown(Drawn& crown, const std::string& radius, tests::Numbers& numbers) {
@@ -155,6 +196,10 @@ void makeAgree(Drawn& scene, tests::Numbers& numbers) {
       if (!find(plant.value, "points")) takeOut(plant.value, {"type"});
     }
   }
+  if (Drawn* meshes = find(scene, "meshes"); meshes && numbers.chance(kMostly))
+    agreeOnMeshes(*meshes, numbers);
+  if (Drawn* sky = find(scene, "sky"); sky && find(*sky, "background") && numbers.chance(kMostly))
+    agreeOnBackground(*find(*sky, "background"));
   if (Drawn* sun = find(scene, "sun"); sun && numbers.chance(kMostly)) agreeOnSun(*sun, numbers);
   if (Drawn* attractors = find(scene, "attractors"); attractors && numbers.chance(kMostly))
     agreeOnAttractors(*attractors, meshNames(find(scene, "meshes")), numbers);

@@ -15,4 +15,7 @@ void agreeOnCrown(Drawn& crown, const std::string& radius, tests::Numbers& numbe
 /// Gives an element something to be, and one way to say how many there are.
 void agreeOnElement(Drawn& element, tests::Numbers& numbers);
 
+/// Gives a pull either a place or a way.
+void agreeOnPull(Drawn& pull, tests::Numbers& numbers);
+
 }  // namespace espalier::fuzz

@@ -5,6 +5,7 @@
 #include <array>
 #include <fstream>
 
+#include "render/image/image_io.h"
 #include "render/model/drawn_leaf.h"
 #include "tests/fuzz/random_files.h"
 
@@ -47,6 +48,14 @@ std::string RandomFiles::writeMesh() {
   const std::string name = fmt::format("mesh_{}.obj", numbers_.whole(1, 9));
   std::ofstream(folder_ / name) << text;
   return name;
+}
+
+/// All around, brighter to one side.
+std::string RandomFiles::writeSky() {
+  render::Image sky(16, 8, 3, 0.3f);
+  for (int x = 0; x < 5; ++x) std::fill_n(sky.at(x, 1), 3, 0.9f);
+  std::ofstream(folder_ / "sky.png", std::ios::binary) << render::encodePng(sky);
+  return "sky.png";
 }
 
 /// A leaf for elements.

@@ -29,6 +29,9 @@ const std::map<std::string, rules::Limits> kUsual = {
     {"colonization.trials", {1.0, 60.0}},
     {"colonization.branching.above", {0.0, 20.0}},
     {"bias.twist.radius", {0.1, 8.0}},
+    {"require.age.min", {0.0, 3.0}},
+    {"require.age.max", {4.0, 40.0}},
+    {"require.in_region.max", {1.0, 9.0}},
     {"require.proximity.min", {0.0, 4.0}},
     {"require.proximity.max", {0.1, 30.0}},
     {"prefer.proximity", {0.0, 20.0}},
@@ -59,6 +62,7 @@ const std::set<std::string> kAlways = {"scene:iterations",
                                        "scene:image",
                                        "scene:image.width",
                                        "scene:image.height",
+                                       "scene:meshes[].file",
                                        "scene:meshes[].scale",
                                        "scene:meshes[].translate",
                                        "scene:world.voxel",
@@ -149,6 +153,16 @@ void RandomFiles::knowSpecials() {
     return world_.bounds;
   };
   text("meshes[].file", [this] { return writeMesh(); });
+  text("meshes[].lines", [this] {
+    const auto at = [&] {
+      return ValueDrawer::point(numbers_.uniform(-0.5, 0.5), numbers_.uniform(-0.5, 0.5),
+                                numbers_.uniform(-0.5, 0.5));
+    };
+    return fmt::format("[[{}, {}, {}], [{}]]", at(), at(), at(), at());
+  });
+  text("sky.background.file", [this] { return writeSky(); });
+  // Most regions that are drawn are not there, or level.
+  special("rules:bias.apex.of", [this] { return std::string(numbers_.chance(0.2) ? "roof" : ""); });
   text("meshes[].scale", [=, this] { return fmt::format("{}", longest * world_.voxel_m); });
   for (const std::string of : {"meshes[].", "plants[].skeleton."}) {
     text(of + "unit", [this] {
@@ -202,6 +216,9 @@ void RandomFiles::knowSpecials() {
   text("plants[].scatter.count", [this] { return fmt::format("{}", numbers_.whole(1, 6)); });
   text("cameras.<name>.eye", [this] { return place(numbers_.chance(0.9) ? 2.0 : 0.5); });
   text("cameras.<name>.target", [this] { return place(0.4); });
+  text("images[].show", [this] {
+    return std::string(numbers_.pick(std::array{"[scene, stems]", "[elements]", "[guides, scene]"}));
+  });
   text("images[].camera", [] { return std::string("main"); });
   specials_["scene:images[].of"] = [this](Drawn& drawn) {
     constexpr std::array kOf{"[sky_exposure]", "[vines, sky_exposure]", "[section, section, a]"};
@@ -245,6 +262,8 @@ bool RandomFiles::wanted(const rules::Key& key, const std::string& path) {
   if (kAlways.contains(path)) return true;
   if (path == "scene:meshes") return world_.meshes;
   if (path.starts_with("scene:") && (path.ends_with(".unit") || path.ends_with(".up"))) return odd_;
+  // A world of lines and guides alone has no surface to be lit.
+  if (path == "scene:meshes[].lines" || path == "scene:meshes[].guide") return numbers_.chance(0.1);
   if (colonizes_ && kOfFronts.contains(path)) return true;
   if (path == "scene:plants[].skeleton") return numbers_.chance(0.15);
   if (path == "scene:plants[].scatter" || path == "scene:meshes[].rotate")
@@ -290,6 +309,7 @@ bool RandomFiles::value(const rules::Key& key, const std::string& path, Drawn& d
         Drawn entry;
         if (!one(path + (key.kind == Kind::named ? ".<name>." : "[]."), entry)) continue;
         if (path == "rules:elements") agreeOnElement(entry, numbers_);
+        if (path == "rules:bias.towards") agreeOnPull(entry, numbers_);
         drawn.entries.push_back({name, std::move(entry)});
       }
       return true;

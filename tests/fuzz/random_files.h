@@ -52,6 +52,7 @@ class RandomFiles {
   std::string writePoints(const std::string& name, int most, double beyond);
   std::string writeVolume();
   std::string writePicture();
+  std::string writeSky();
   std::string writeSkeleton();
   void knowSpecials();
   Drawn table(const rules::Table& table, const std::string& path);

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "render/image/image_io.h"
 #include "scenes/job/expose.h"
 #include "scenes/job/run.h"
 #include "scenes/read/read_scene.h"
@@ -93,6 +94,10 @@ const std::map<std::string, Change>& changes() {
                    "{kind: surface_colour, name: s, caption: one}\n  - {kind: sky_exposure, name: t}\n"
                    "  - {kind: contact_sheet, name: a, of: [s]}"};
   const Edit day = realSun("date: 06-21");
+  const Edit wire{"regions: group}\n",
+                  "regions: group}\n  - {lines: [[[-0.5, 0.5, 0.5], [-0.5, 1, 0.5]]], name: wire}\n"};
+  const Edit seeks{"rules: vine.yaml", "rules: {base: vine.yaml, bias: {light: 0.8}}"};
+  const Edit banded{"directions: 24", "directions: 24, background: {sun: 0.5}"};
   static const std::map<std::string, Change> all = {
       {"espalier", {"error", {}, {"espalier: scene", "espalier: rules"}}},
       {"name", {"report.json", {}, {"name: plot\nmeshes", "name: else\nmeshes"}}},
@@ -110,6 +115,9 @@ const std::map<std::string, Change>& changes() {
       {"meshes[].translate",
        {"world.vdb", {}, {"regions: group", "regions: group, translate: [0, 10 cm, 0]"}}},
       {"meshes[].colour", {"a.png", {}, {"regions: group", "regions: group, colour: \"#ff0000\""}}},
+      {"meshes[].lines", {"world.vdb", {wire}, {"[-0.5, 1, 0.5]", "[-0.5, 1, 0.9]"}}},
+      {"meshes[].guide", {"world.vdb", {wire}, {"name: wire", "name: wire, guide: true"}}},
+      {"meshes[].thickness", {"plant.glb", {wire}, {"name: wire", "name: wire, thickness: 9 cm"}}},
       {"world.voxel", {"world.vdb", {}, {"voxel: 10 cm", "voxel: 9 cm"}}},
       {"world.resolution",
        {"world.vdb", {{"voxel: 10 cm", "resolution: 22"}}, {"resolution: 22", "resolution: 25"}}},
@@ -122,6 +130,22 @@ const std::map<std::string, Change>& changes() {
       {"sky.directions", {sun, {}, {"directions: 24", "directions: 40"}}},
       {"sky.sampling", {sun, {{"directions: 24", ""}}, {"sky: {}", "sky: {sampling: random}"}}},
       {"sky.rays", {sun, {{"directions: 24", "sampling: random, rays: 20"}}, {"rays: 20", "rays: 30"}}},
+      {"sky.background.kind", {"state_hash", {seeks, banded}, {"sun: 0.5", "kind: gradient, sun: 0.5"}}},
+      {"sky.background.horizon",
+       {"state_hash", {seeks, banded}, {"sun: 0.5", "kind: gradient, horizon: 40, sun: 0.5"}}},
+      {"sky.background.file",
+       {"state_hash",
+        {seeks, banded, {"sun: 0.5", "kind: picture, file: east.png"}},
+        {"file: east.png", "file: west.png"}}},
+      {"sky.background.turn",
+       {"state_hash",
+        {seeks, banded, {"sun: 0.5", "kind: picture, file: east.png"}},
+        {"file: east.png", "file: east.png, turn: 120"}}},
+      {"sky.background.sun.brightness", {"state_hash", {seeks, banded}, {"sun: 0.5", "sun: 50"}}},
+      {"sky.background.sun.width",
+       {"state_hash",
+        {seeks, banded, {"sun: 0.5", "sun: {brightness: 50, width: 10}"}},
+        {"width: 10", "width: 90"}}},
       {"sun.tilt", {sun, {}, {"tilt: 20", "tilt: 50"}}},
       {"sun.toward", {sun, {}, {"tilt: 20", "tilt: 20, toward: 90"}}},
       {"sun.samples", {sun, {}, {"samples: 12", "samples: 5"}}},
@@ -264,6 +288,7 @@ const std::map<std::string, Change>& changes() {
       {"images[].iteration",
        {"a.png", {{kImage, "{kind: graph, name: a}"}}, {"kind: graph", "kind: graph, iteration: 2"}}},
       {"images[].of", {"a.png", {sheet}, {"of: [s]", "of: [t, s]"}}},
+      {"images[].show", {"a.png", {}, {"camera: main}", "camera: main, show: [scene, stems]}"}}},
   };
   return all;
 }
@@ -291,6 +316,11 @@ class EverySceneKey : public testing::TestWithParam<std::string> {
     tests::writeVolume(scratch_.path("winds.vdb"), {grid("a", {0, 1, 0})});
     tests::writeVolume(scratch_.path("other.vdb"), {grid("a", {1, 0, 0})});
     tests::writeVolume(scratch_.path("two.vdb"), {grid("a", {0, 1, 0}), grid("b", {1, 0, 0})});
+    for (const bool east : {true, false}) {
+      render::Image sky(16, 8, 1, 0.05f);
+      for (int y = 1; y < 4; ++y) *sky.at(east ? 12 : 4, y) = 1.0f;
+      scratch_.write(east ? "east.png" : "west.png", render::encodePng(sky));
+    }
     scratch_.write("listed.csv", "0,0.5,0.4\n0.1,0.5,0.4\n");
     scratch_.write("typed.csv", "0,0.5,0.4,1\n0.1,0.5,0.4,2\n");
     scratch_.write("sticks.obj", "v 0 0.2 0.3\nv 0 0.7 0.3\nv 0.3 1 0.5\nl 1 2 3\n");

@@ -7,7 +7,9 @@
 #include "scenes/read/read_rules.h"
 #include "sim/base/random.h"
 #include "sim/grow/grow.h"
+#include "sim/tile/build_world.h"
 #include "tests/support/lively.h"
+#include "tests/support/meshes.h"
 #include "tests/support/plots.h"
 
 /// Seeds of every rule set of the library, where such a plant would live.
@@ -62,7 +64,22 @@ Place sheet() {
   return place;
 }
 
+/// A post with two arms that is a guide and no more.
+Place sketch() {
+  sim::TiledMesh post{tests::emptyMesh("sketch")};
+  post.mesh.regions = {"posts"};
+  post.guide = true;
+  for (const auto& [from, to] :
+       {std::pair(Vec3(20, 0, 20), Vec3(20, 40, 20)), std::pair(Vec3(20, 40, 20), Vec3(36, 60, 20)),
+        std::pair(Vec3(20, 40, 20), Vec3(4, 60, 20))})
+    post.lines.push_back({0.04 * from, 0.04 * to, 0});
+  return {sim::buildWorld({Vec3(0.0), 0.04, {40, 64, 40}}, {post}, 8), {20, 8, 20}, {0.4, 6, 0.4}};
+}
+
 const std::map<std::string, std::vector<std::pair<std::string, Place (*)()>>> kHomes = {
+    {"flowering_plant", {{"open ground", openGround}, {"a wall's foot", wallsFoot}}},
+    {"line_tracker", {{"a sketch", sketch}}},
+    {"sketch_limbs", {{"a sketch", sketch}}},
     {"courtyard_vine", {{"open ground", openGround}, {"a wall's foot", wallsFoot}, {"a ledge", ledge}}},
     {"ivy",
      {{"open ground", openGround}, {"a wall's foot", wallsFoot}, {"a ledge", ledge}, {"a column", column}}},

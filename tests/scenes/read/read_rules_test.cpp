@@ -208,10 +208,10 @@ TEST(ReadRules, TakesANumberForATwistsAmount) {
 TEST(ReadRules, TakesANumberForTheAmountOfTheBiasToLight) {
   const auto plain = goodRulesText("bias: {light: 0.3}")->bias;
   EXPECT_EQ(plain.light, Value(0.3));
-  EXPECT_EQ(plain.brightest, rules::Brightest::moment);
-  const auto both = goodRulesText("bias: {light: {amount: 0.2, brightest: table}}")->bias;
+  EXPECT_EQ(plain.brightest, rules::Brightest::table);
+  const auto both = goodRulesText("bias: {light: {amount: 0.2, brightest: moment}}")->bias;
   EXPECT_EQ(both.light, Value(0.2));
-  EXPECT_EQ(both.brightest, rules::Brightest::table);
+  EXPECT_EQ(both.brightest, rules::Brightest::moment);
 }
 
 TEST(ReadRules, TakesOneNumberForARangeOfAges) {

@@ -78,6 +78,7 @@ covered() {
 
 failed=0
 export ASAN_OPTIONS=halt_on_error=1:detect_leaks=1:symbolize=1 UBSAN_OPTIONS=halt_on_error=1:print_stacktrace=1
+export LSAN_OPTIONS=suppressions=tests/lsan.supp:print_suppressions=0
 ASAN_SYMBOLIZER_PATH=$(tool llvm-symbolizer)
 export ASAN_SYMBOLIZER_PATH
 

@@ -78,17 +78,19 @@ covered() {
 
 failed=0
 export ASAN_OPTIONS=halt_on_error=1:detect_leaks=1:symbolize=1 UBSAN_OPTIONS=halt_on_error=1:print_stacktrace=1
+export LSAN_OPTIONS=suppressions=tests/lsan.supp:print_suppressions=0
 ASAN_SYMBOLIZER_PATH=$(tool llvm-symbolizer)
 export ASAN_SYMBOLIZER_PATH
 
-# look TARGET: lets libFuzzer have it, from its seeds and from what it learnt before.
+# look TARGET: lets libFuzzer have it, from its seeds and from what it learnt before. The time for an input is by the clock,
+# and long enough for machines where others are at work too.
 look() {
   local target=$1 program=build/fuzz/tests/fuzz/fuzz_$1 log=build/fuzz/$1.log status=0
   mkdir -p "build/fuzz/corpus/$target" build/fuzz/found build/fuzz/coverage
   rm -f "build/fuzz/coverage/$target".*
   LLVM_PROFILE_FILE=/dev/null "build/fuzz/tests/fuzz/replay_$target" --seeds-into "build/fuzz/seeds/$target"
   LLVM_PROFILE_FILE="build/fuzz/coverage/$target.%p.profraw" "$program" "build/fuzz/corpus/$target" "build/fuzz/seeds/$target" \
-    -max_total_time="$seconds" -timeout=20 -rss_limit_mb=4096 -max_len=8192 -print_final_stats=1 -close_fd_mask=1 \
+    -max_total_time="$seconds" -timeout=120 -rss_limit_mb=4096 -max_len=8192 -print_final_stats=1 -close_fd_mask=1 \
     -artifact_prefix="build/fuzz/found/$target-" >"$log" 2>&1 || status=$?
   local runs
   runs=$(sed -n 's/^stat::number_of_executed_units: *//p' "$log" | tail -n 1)

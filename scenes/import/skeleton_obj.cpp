@@ -56,7 +56,7 @@ class LineReader {
 
   void addLine(ObjStatements& statement) {
     std::int64_t before = 0;
-    int count = 0;
+    std::uint64_t count = 0;
     for (std::string_view word = statement.takeNumber(); !word.empty(); word = statement.takeNumber()) {
       const std::int64_t vertex = vertices_.asked(word, line_, "a line");
       requireFew(vertex);

@@ -81,11 +81,11 @@ VectorLattice placed(const openvdb::GridBase& grid) {
   if (!transform.isLinear()) throw sim::InputError("its transform is not linear; expected a linear one");
   if (!grid.isInWorldSpace())
     throw sim::InputError("its vectors are in voxel space; expected them in world space");
+  const openvdb::Vec3d first = box.min().asVec3d() - 1.0, last = box.max().asVec3d() + 1.0;
   sim::Vec3 low(INFINITY), high(-INFINITY);
   for (int corner = 0; corner < 8; ++corner) {
     openvdb::Vec3d at;
-    for (int axis = 0; axis < 3; ++axis)
-      at[axis] = (corner >> axis & 1) != 0 ? box.max()[axis] + 1.0 : box.min()[axis] - 1.0;
+    for (int axis = 0; axis < 3; ++axis) at[axis] = (corner >> axis & 1) != 0 ? last[axis] : first[axis];
     const sim::Vec3 m = vec3(transform.indexToWorld(at));
     if (!inReach(m))
       throw sim::InputError(

@@ -44,7 +44,7 @@ std::vector<std::string> makeFirstProject(const fs::path& folder) {
   for (const auto& [name, text] : contents) {
     const fs::path path = folder / name;
     folders.push_back(std::make_unique<sim::NewFolder>(path.parent_path()));
-    files.push_back(std::make_unique<sim::NewFile>(path, [&](std::ostream& out) { out << text; }));
+    files.push_back(std::make_unique<sim::NewFile>(path, [&text = text](std::ostream& out) { out << text; }));
     names.push_back(name);
   }
   for (const auto& file : files) file->putInPlace();

@@ -130,7 +130,7 @@ void drawField(render::Image& picture, const ShownField& field, const std::strin
   const auto hides = [&](Vec3 at_m) { return sight != nullptr && sight->hides(at_m); };
   sim::parallelForEach(graph.ended.size(),
                        [&](std::size_t i) { graph.ended[i].hidden = hides(graph.ended[i].at_m); });
-  sim::parallelForEach(arrows.size(), [&](std::size_t i) {
+  sim::parallelForEach(arrows.size(), [&, &places = places](std::size_t i) {
     const Vec3 at_m = sim::worldFromVoxel(frame, places[i]);
     // A surface that stands nowhere hides its far side all the same.
     const bool behind = field.onSurfaces() && glm::dot(field.normalAt(places[i]), camera.eye_m - at_m) < 0.0;

@@ -10,7 +10,7 @@
 namespace espalier::bench {
 
 void writeWallScene(const std::filesystem::path& file, double segments) {
-  constexpr double kSeedsToASquareMetre = 0.15;
+  constexpr double kPlantsToASquareMetre = 0.15;
   const double height_m = std::sqrt(segments / 1000.0 / 2.0), width_m = 2.0 * height_m;
   std::ofstream mesh(file.parent_path() / "wall.obj");
   mesh << "g wall\n";
@@ -20,7 +20,7 @@ void writeWallScene(const std::filesystem::path& file, double segments) {
     }
   }
   mesh << "f 1 3 4 2\nf 5 6 8 7\nf 1 2 6 5\nf 3 7 8 4\nf 1 5 7 3\nf 2 4 8 6\n";
-  const int rows = std::max(1, static_cast<int>(std::lround(height_m * std::sqrt(kSeedsToASquareMetre))));
+  const int rows = std::max(1, static_cast<int>(std::lround(height_m * std::sqrt(kPlantsToASquareMetre))));
   std::string seeds;
   for (int y = 0; y < rows; ++y) {
     for (int x = 0; x < 2 * rows; ++x) {

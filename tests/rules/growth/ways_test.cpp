@@ -122,8 +122,8 @@ TEST_F(Levels, TheBestOfManyIsTheBestOfThemOneByOne) {
     int found = 0;
     for (int round = 0; round < 200; ++round) {
       const RuleSet rules = anyRules(random);
-      const auto along = [&](int size) {
-        return static_cast<double>(random() % (4096u * (size - 1))) / 4096.0;
+      const auto along = [&](unsigned size) {
+        return static_cast<double>(random() % (4096 * (size - 1))) / 4096.0;
       };
       const double x = along(48), y = along(48), z = along(40);
       Surroundings around = anySurroundings(random, {x, y, z});

@@ -52,7 +52,9 @@ oiiotool $work/kept_{12,25,51}/vines.png --mosaic:pad=8 3x1 -o $work/kept_growth
 small $work/kept_growth.png kept_growth 1040
 
 grow scenes/library/tendril.yaml
-oiiotool $work/tendril/sky_tables.png --resize 0x960 $work/tendril/vines.png --resize 0x960 --mosaic:pad=8 2x1 -o $work/tendril.png
+oiiotool --pattern constant:color=1,1,1 2552x960 3 -o $work/tendril.png
+oiiotool $work/tendril/sky_tables.png --resize 1582x960 $work/tendril.png --paste +0+0 -o $work/tendril.png
+oiiotool $work/tendril/vines.png $work/tendril.png --paste +1592+0 -o $work/tendril.png
 small $work/tendril.png tendril 1400
 grow scenes/library/clusters.yaml
 small $work/clusters/vines.png clusters 960

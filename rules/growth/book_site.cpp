@@ -149,7 +149,7 @@ sim::Wants wantsOf(const RuleBook& book) {
   sim::Wants wants{.light = book.top().propagate == Propagate::random_tree};
   forEachSet(book.top(), [&](const RuleSet& set, const std::string&) {
     wants.light = wants.light || asksForLight(set);
-    wants.sky_table = wants.sky_table || set.bias.brightest == Brightest::table;
+    wants.sky_table = wants.sky_table || readsSkyTable(set);
   });
   return wants;
 }

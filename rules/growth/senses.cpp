@@ -57,6 +57,11 @@ Surroundings lookAround(const sim::SiteView& view, const sim::Site& site) {
   return around;
 }
 
+bool readsSkyTable(const RuleSet& rules) {
+  const bool turns = highest(rules.bias.light) != 0.0 || lowest(rules.bias.light) != 0.0;
+  return turns && rules.bias.brightest == Brightest::table;
+}
+
 Exposure exposureOf(const sim::Light& light) {
   return {light.sun.fraction(), light.sky.fraction()};
 }
@@ -69,7 +74,7 @@ Vigour vigourOf(const Exposure& seen, const RuleSet& rules) {
 Senses sense(const sim::SiteView& view, const Surroundings& around, const Vigour& vigour,
              const RuleSet& rules) {
   Senses senses;
-  if (rules.bias.brightest == Brightest::table) {
+  if (readsSkyTable(rules)) {
     senses.light = view.sky->brightest(around.voxel);
   } else if (view.light != nullptr) {
     senses.light = unitOrZero(view.light->sky.toward);

@@ -41,6 +41,9 @@ struct Senses {
   Circumstance circumstance;                    ///< what the rule set's values may depend on
 };
 
+/// Whether a rule set turns to the brightest spot of a table of the sky: leaves alone face the moment, which
+/// costs nothing.
+bool readsSkyTable(const RuleSet& rules);
 Exposure exposureOf(const sim::Light& light);
 /// What one rule set makes of the light. To be asked before all else, which is dearer: many sites end by it.
 Vigour vigourOf(const Exposure& seen, const RuleSet& rules);

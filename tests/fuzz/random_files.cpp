@@ -40,7 +40,7 @@ const std::map<std::string, rules::Limits> kUsual = {
     {"stem.thickest", {1e-3, 20.0}},
     {"elements[].trials", {1.0, 12.0}},
     {"elements[].per_segment", {0.0, 3.0}},
-    {"elements[].size", {0.05, 2.0}},
+    {"elements[].size", {0.05, 1.6}},
     {"elements[].petiole", {0.0, 3.0}},
     {"elements[].phyllotaxis.spacing", {1.0, 8.0}},
     {"elements[].phyllotaxis.whorl", {1.0, 3.0}},
@@ -162,7 +162,7 @@ void RandomFiles::knowSpecials() {
   });
   text("sky.background.file", [this] { return writeSky(); });
   // Most regions that are drawn are not there, or level.
-  special("rules:bias.apex.of", [this] { return std::string(numbers_.chance(0.2) ? "roof" : ""); });
+  special("rules:bias.apex.of", [this] { return std::string(numbers_.chance(0.06) ? "roof" : ""); });
   text("meshes[].scale", [=, this] { return fmt::format("{}", longest * world_.voxel_m); });
   for (const std::string of : {"meshes[].", "plants[].skeleton."}) {
     text(of + "unit", [this] {

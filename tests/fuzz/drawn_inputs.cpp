@@ -105,7 +105,7 @@ std::string RandomFiles::writeSkeleton() {
   const int nodes = numbers_.whole(2, 60);
   for (int n = 0; n < nodes; ++n) {
     sim::Vec3 at = world_.middle_m;
-    for (int axis = 0; axis < 3; ++axis) at[axis] += numbers_.uniform(-0.3, 0.3) * world_.extent_m()[axis];
+    for (int axis = 0; axis < 3; ++axis) at[axis] += numbers_.uniform(-0.2, 0.2) * world_.extent_m()[axis];
     const int parent = n == 0 ? -1 : numbers_.whole(0, n - 1);
     if (lines) {
       text += fmt::format("v {} {} {}\n", at.x, at.y, at.z);

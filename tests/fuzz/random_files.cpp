@@ -19,7 +19,7 @@ using rules::Kind;
 
 /// Where the numbers of keys usually lie that cost time or memory, or that few voxels allow; by their path.
 const std::map<std::string, rules::Limits> kUsual = {
-    {"random_tree.length", {0.1, 20.0}},
+    {"random_tree.length", {0.5, 12.0}},
     {"random_tree.branch_age_range", {1.0, 6.0}},
     {"random_tree.trials.min", {1.0, 40.0}},
     {"random_tree.trials.max", {1.0, 90.0}},
@@ -33,17 +33,17 @@ const std::map<std::string, rules::Limits> kUsual = {
     {"require.age.max", {4.0, 40.0}},
     {"require.in_region.max", {1.0, 9.0}},
     {"require.proximity.min", {0.0, 4.0}},
-    {"require.proximity.max", {0.1, 30.0}},
+    {"require.proximity.max", {4.0, 30.0}},
     {"prefer.proximity", {0.0, 20.0}},
     {"stem.radius", {1e-3, 4.0}},
     {"stem.thickens", {0.0, 0.5}},
     {"stem.thickest", {1e-3, 20.0}},
     {"elements[].trials", {1.0, 12.0}},
-    {"elements[].per_segment", {0.0, 3.0}},
-    {"elements[].size", {0.05, 1.6}},
+    {"elements[].per_segment", {0.0, 2.0}},
+    {"elements[].size", {0.05, 0.8}},
     {"elements[].petiole", {0.0, 3.0}},
-    {"elements[].phyllotaxis.spacing", {1.0, 8.0}},
-    {"elements[].phyllotaxis.whorl", {1.0, 3.0}},
+    {"elements[].phyllotaxis.spacing", {3.0, 9.0}},
+    {"elements[].phyllotaxis.whorl", {1.0, 2.0}},
     {"world.layers", {0.0, 6.0}},
     {"sky.accuracy", {0.01, 0.5}},
     {"sky.directions", {1.0, 300.0}},
@@ -200,7 +200,7 @@ void RandomFiles::knowSpecials() {
   text("plants[].type", [this] { return fmt::format("{}", numbers_.whole(0, 2)); });
   // Scaled about the world's origin it mostly stays in the world.
   text("plants[].skeleton.file", [this] { return writeSkeleton(); });
-  text("plants[].skeleton.scale", [this] { return fmt::format("{}", numbers_.uniform(0.9, 1.05)); });
+  text("plants[].skeleton.scale", [this] { return fmt::format("{}", numbers_.uniform(0.98, 1.02)); });
   text("plants[].skeleton.rotate", [] { return std::string("[0, 5, 0]"); });
   text("plants[].skeleton.translate", [this] {
     const sim::Vec3 by = numbers_.uniform(-0.1, 0.1) * world_.extent_m();
@@ -211,7 +211,7 @@ void RandomFiles::knowSpecials() {
   text("attractors.<name>.spacing",
        [this] { return fmt::format("{}", world_.voxel_m * numbers_.whole(1, 9)); });
   text("attractors.<name>.at", [this] { return place(numbers_.chance(0.9) ? 0.3 : 0.6); });
-  text("plants[].seeds[].at", [this] { return place(numbers_.chance(0.05) ? 0.5 : 0.4); });
+  text("plants[].seeds[].at", [this] { return place(numbers_.chance(0.05) ? 0.5 : 0.36); });
   text("plants[].scatter.region", [this] { return std::string(numbers_.chance(0.9) ? "floor" : "wall"); });
   text("plants[].scatter.count", [this] { return fmt::format("{}", numbers_.whole(1, 6)); });
   text("cameras.<name>.eye", [this] { return place(numbers_.chance(0.9) ? 2.0 : 0.5); });
@@ -263,7 +263,7 @@ bool RandomFiles::wanted(const rules::Key& key, const std::string& path) {
   if (path == "scene:meshes") return world_.meshes;
   if (path.starts_with("scene:") && (path.ends_with(".unit") || path.ends_with(".up"))) return odd_;
   // A world of lines and guides alone has no surface to be lit.
-  if (path == "scene:meshes[].lines" || path == "scene:meshes[].guide") return numbers_.chance(0.1);
+  if (path == "scene:meshes[].lines" || path == "scene:meshes[].guide") return numbers_.chance(0.04);
   if (colonizes_ && kOfFronts.contains(path)) return true;
   if (path == "scene:plants[].skeleton") return numbers_.chance(0.15);
   if (path == "scene:plants[].scatter" || path == "scene:meshes[].rotate")

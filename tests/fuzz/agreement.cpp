@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <functional>
 #include <set>
 #include <string>
 #include <utility>
@@ -45,11 +46,21 @@ std::vector<std::string> keysOf(Drawn* map) {
   return keys;
 }
 
+template <class Below>
+void putInOrder(Drawn* range, Below below) {
+  Drawn* const from = range ? find(*range, "from") : nullptr;
+  Drawn* const to = range ? find(*range, "to") : nullptr;
+  if (from && to && below(to->text, from->text)) std::swap(from->text, to->text);
+}
+
 void agreeOnSun(Drawn& sun, tests::Numbers& numbers) {
   const bool real = find(sun, "place") != nullptr;
   takeOut(sun, real ? std::set<std::string>{"tilt", "toward", "samples"}
                     : std::set<std::string>{"date", "dates", "hours", "step", "weighting", "north"});
   if (find(sun, "date") && find(sun, "dates")) takeOut(sun, {numbers.chance(0.5) ? "date" : "dates"});
+  putInOrder(find(sun, "dates"), std::less<std::string>());  // as they are written
+  putInOrder(find(sun, "hours"),
+             [](const std::string& a, const std::string& b) { return std::stod(a) < std::stod(b); });
 }
 
 void agreeOnImages(Drawn& images, const std::vector<std::string>& plants,
@@ -66,7 +77,12 @@ void agreeOnImages(Drawn& images, const std::vector<std::string>& plants,
       if (find(image.value, key) && numbers.chance(0.5)) find(image.value, "kind")->text = only;
     }
   }
-  const std::vector<std::string> names = namesOf(&images, "kind");
+  Drawn others = images;  // a sheet shows no sheets
+  std::erase_if(others.entries, [](DrawnEntry& image) {
+    const Drawn* const kind = find(image.value, "kind");
+    return kind == nullptr || kind->text == "contact_sheet";
+  });
+  const std::vector<std::string> names = namesOf(&others, "kind");
   for (DrawnEntry& image : images.entries) {
     Drawn* const plant = find(image.value, "plant");
     if (plant && !plants.empty()) plant->text = numbers.pick(plants);
@@ -75,7 +91,7 @@ void agreeOnImages(Drawn& images, const std::vector<std::string>& plants,
     Drawn* const field = find(image.value, "field");
     if (field && !fields.empty()) field->text = numbers.pick(fields);
     Drawn* const of = find(image.value, "of");
-    if (of)
+    if (of && !names.empty())
       of->text = fmt::format("[{}]", fmt::join(std::vector{numbers.pick(names), numbers.pick(names)}, ", "));
   }
 }
@@ -93,7 +109,7 @@ void agreeOnAttractors(Drawn& attractors, const std::vector<std::string>& meshes
   const std::set<std::string> no_sources{"at", "spread", "density", "count", "spacing", "type"};
   for (DrawnEntry& one : attractors.entries) {
     if (meshes.empty()) takeOut(one.value, {"surface", "inside"});
-    if (numbers.chance(0.9)) takeOut(one.value, {"inside"});  // most drawn meshes have none
+    if (numbers.chance(0.6)) takeOut(one.value, {"inside"});  // most drawn meshes have none
     std::set<std::string> sources;
     for (const DrawnEntry& entry : one.value.entries) {
       if (!no_sources.contains(entry.key)) sources.insert(entry.key);

@@ -4,7 +4,6 @@
 #include <openvdb/io/Archive.h>
 #include <openvdb/io/GridDescriptor.h>
 #include <openvdb/openvdb.h>
-#include <openvdb/tree/LeafManager.h>
 #include <xxhash.h>
 
 #include <algorithm>
@@ -17,6 +16,7 @@
 
 #include "sim/base/byte_sink.h"
 #include "sim/base/error.h"
+#include "sim/base/parallel.h"
 #include "sim/base/stop.h"
 #include "sim/world/world_grids.h"
 
@@ -109,7 +109,10 @@ openvdb::GridBase::Ptr gridOf(const std::vector<VdbPart<Value>>& parts, sim::Vox
   using Tree = typename openvdb::tree::Tree4<decltype(toVdb(Value{})), 5, 4, 3>::Type;
   auto grid = openvdb::Grid<Tree>::create();
   for (const auto& part : parts) touchLeaves(grid->tree(), *part.where);
-  openvdb::tree::LeafManager<Tree>(grid->tree()).foreach ([&](auto& leaf, std::size_t) {
+  std::vector<typename Tree::LeafNodeType*> leaves;
+  grid->tree().getNodes(leaves);
+  sim::parallelForEach(leaves.size(), [&](std::size_t i) {
+    auto& leaf = *leaves[i];
     const openvdb::Coord low = leaf.origin();
     for (const auto& part : parts) {
       for (int y = low.y(); y < std::min(size.y, low.y() + kLeafSide); ++y) {

@@ -17,6 +17,10 @@ namespace {
 
 namespace algo = OIIO::ImageBufAlgo;
 
+/// Pictures are drawn and read by loops of ours, and in children, in which no thread of a pool would be
+/// alive.
+[[maybe_unused]] const bool without_threads = OIIO::attribute("threads", 1);
+
 /// Pixels are given in the type that the file keeps: OIIO would convert them by a pool of threads of its own,
 /// which costs more in waking and waiting than the conversion. Its writers may report success and keep what
 /// went wrong in geterror() (the PNG writer on a full disk), so both are asked.

@@ -121,16 +121,6 @@ PicturesWanted picturesAsked(const Scene& scene, const RunOptions& options) {
   return options.pictures ? picturesOf(scene) : PicturesWanted();
 }
 
-/// A state may be whole, and what its processes remember be nothing that they can go on with.
-void requireMemories(const sim::Growing& growing, const std::filesystem::path& folder) {
-  try {
-    static_cast<void>(growing.alive());
-    static_cast<void>(growing.due());
-  } catch (const sim::BrokenContract& error) {
-    throw damaged(folder, error);
-  }
-}
-
 /// Grows from the beginning or from what was kept, and keeps every so many iterations what has grown.
 sim::Growth growOn(const Scene& scene, Prepared& prepared, std::optional<sim::Growth> kept,
                    const sim::BitVolume& bare, const RunOptions& options, const OutputFolder& output,
@@ -158,11 +148,9 @@ sim::Growth growOn(const Scene& scene, Prepared& prepared, std::optional<sim::Gr
   settings.memory.later_a_segment = vines ? 15'000.0 : 5'000.0;
   settings.memory.later_an_element = laterAnElement(plantings);
   const sim::Inputs inputs = keeping.every > 0 ? inputsOf(scene, site) : sim::Inputs();
-  const std::unique_ptr<sim::Growing> growing = inScene(scene, [&] {
-    return kept ? std::make_unique<sim::Growing>(site.world, plantings, settings, std::move(*kept))
-                : beginGrowth(scene, site, plantings, settings);
-  });
-  if (report.run.went_on_from) requireMemories(*growing, options.folder);
+  const std::unique_ptr<sim::Growing> growing =
+      kept ? goOnFrom(std::move(*kept), options.folder, site.world, plantings, settings)
+           : inScene(scene, [&] { return beginGrowth(scene, site, plantings, settings); });
   std::optional<GrowthForeteller> foreteller;
   if (options.on_foretold)
     foreteller.emplace(site, plantings, picturesAsked(scene, options), scene.iterations, growing->growth(),

@@ -13,6 +13,7 @@
 #include "rules/growth/shared_guide.h"
 #include "scenes/problem.h"
 #include "scenes/read/settings.h"
+#include "sim/base/error.h"
 #include "sim/base/hasher.h"
 
 namespace espalier::scenes {
@@ -84,6 +85,11 @@ bool ofLooksAlone(const std::string& path) {
   return std::any_of(kLooks.begin(), kLooks.end(), [&](std::string_view key) { return path.ends_with(key); });
 }
 
+sim::InputError damaged(const std::filesystem::path& folder, const sim::BrokenContract& how) {
+  return sim::InputError(
+      fmt::format("{}: the state is damaged: {}", (folder / kStateFile).string(), how.what()));
+}
+
 }  // namespace
 
 sim::Inputs inputsOf(const Scene& scene, const Site& site) {
@@ -147,11 +153,6 @@ sim::Inputs inputsOf(const Scene& scene, const Site& site) {
     inputs.emplace_back("sky.background.contents", fmt::format("{:016x}", hash.digest()));
   }
   return inputs;
-}
-
-sim::InputError damaged(const std::filesystem::path& folder, const sim::BrokenContract& how) {
-  return sim::InputError(
-      fmt::format("{}: the state is damaged: {}", (folder / kStateFile).string(), how.what()));
 }
 
 void dropState(const std::filesystem::path& folder) {
@@ -218,6 +219,19 @@ sim::Growth takeUp(sim::State state, const std::filesystem::path& folder, const 
     throw damaged(folder, error);
   }
   return sim::restore(std::move(state), site.world, plantings, path.string());
+}
+
+std::unique_ptr<sim::Growing> goOnFrom(sim::Growth kept, const std::filesystem::path& folder,
+                                       sim::World& world, const std::vector<sim::Planting>& plantings,
+                                       const sim::GrowthSettings& settings) {
+  try {
+    auto growing = std::make_unique<sim::Growing>(world, plantings, settings, std::move(kept));
+    static_cast<void>(growing->alive());
+    static_cast<void>(growing->due());
+    return growing;
+  } catch (const sim::BrokenContract& error) {
+    throw damaged(folder, error);
+  }
 }
 
 }  // namespace espalier::scenes

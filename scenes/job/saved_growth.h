@@ -1,13 +1,14 @@
 #pragma once
 #include <cstdint>
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "scenes/prepare/site.h"
 #include "scenes/scene.h"
-#include "sim/base/error.h"
+#include "sim/grow/grow.h"
 #include "sim/grow/state.h"
 
 /// Growth kept in the output folder, and what it was grown from.
@@ -40,8 +41,11 @@ std::optional<std::uint64_t> seedOf(const sim::State& state);
 sim::Growth takeUp(sim::State state, const std::filesystem::path& folder, const Scene& scene, Site& site,
                    const std::vector<sim::Planting>& plantings, Same same);
 
-/// The error that a folder's state is damaged, and how.
-sim::InputError damaged(const std::filesystem::path& folder, const sim::BrokenContract& how);
+/// Growth that goes on from what takeUp gave. Throws sim::InputError for what is whole, and nothing that its
+/// processes can go on with.
+std::unique_ptr<sim::Growing> goOnFrom(sim::Growth kept, const std::filesystem::path& folder,
+                                       sim::World& world, const std::vector<sim::Planting>& plantings,
+                                       const sim::GrowthSettings& settings);
 
 /// Removes a folder's state, if it has one. Throws sim::InputError where that cannot be done.
 void dropState(const std::filesystem::path& folder);

@@ -73,6 +73,10 @@ Growing::Growing(World& world, std::vector<Planting> plantings, GrowthSettings s
       fits_(settings_.memory) {
   if (growth_.stands.size() != plantings_.size())
     throw BrokenContract("what was grown before has other plantings than those that shall go on");
+  for (const auto& [name, columns] : settings_.commons) {
+    if (!growth_.commons.contains(name))
+      throw BrokenContract(fmt::format("what was grown before lacks what its plantings share: {}", name));
+  }
   requireProcesses(plantings_);
   Wants wants;
   for (const Planting& planting : plantings_) {

@@ -63,7 +63,8 @@ class Growing {
   /// (sim/grow/faults.h), and leaves the world as it was, if a seed lies outside the world or inside
   /// something, or two of a name have the same key; and with what the processes say that cannot begin.
   Growing(World& world, std::vector<Planting> plantings, GrowthSettings settings);
-  /// Goes on from what was grown before in this world, which holds all of it, by the same plantings.
+  /// Goes on from what was grown before in this world, which holds all of it, by the same plantings. Throws
+  /// BrokenContract where it lacks something of the settings' commons.
   Growing(World& world, std::vector<Planting> plantings, GrowthSettings settings, Growth grown);
   ~Growing();
   Growing(const Growing&) = delete;

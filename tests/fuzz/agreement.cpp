@@ -46,6 +46,15 @@ std::vector<std::string> keysOf(Drawn* map) {
   return keys;
 }
 
+/// Or in none: ranges of many years have more days than may be.
+void putInOneYear(Drawn& dates) {
+  const Drawn* const from = find(dates, "from");
+  Drawn* const to = find(dates, "to");
+  constexpr std::size_t kMonthAndDay = 5;
+  if (from && to)
+    to->text.replace(0, to->text.size() - kMonthAndDay, from->text, 0, from->text.size() - kMonthAndDay);
+}
+
 template <class Below>
 void putInOrder(Drawn* range, Below below) {
   Drawn* const from = range ? find(*range, "from") : nullptr;
@@ -58,6 +67,7 @@ void agreeOnSun(Drawn& sun, tests::Numbers& numbers) {
   takeOut(sun, real ? std::set<std::string>{"tilt", "toward", "samples"}
                     : std::set<std::string>{"date", "dates", "hours", "step", "weighting", "north"});
   if (find(sun, "date") && find(sun, "dates")) takeOut(sun, {numbers.chance(0.5) ? "date" : "dates"});
+  if (Drawn* const dates = find(sun, "dates")) putInOneYear(*dates);
   putInOrder(find(sun, "dates"), std::less<std::string>());  // as they are written
   putInOrder(find(sun, "hours"),
              [](const std::string& a, const std::string& b) { return std::stod(a) < std::stod(b); });
@@ -97,19 +107,34 @@ void agreeOnImages(Drawn& images, const std::vector<std::string>& plants,
 }
 
 /// What meshes are called: by their names, or else as their files are.
-std::vector<std::string> meshNames(Drawn* meshes) {
-  std::vector<std::string> names = namesOf(meshes, "file");
-  for (std::string& name : names) name = name.substr(0, name.find(".obj"));
-  return names;
+struct Meshes {
+  std::vector<std::string> all, bodies;  ///< those that are closed
+  std::string pick(bool body, tests::Numbers& numbers) const {
+    const std::vector<std::string>& some = body && !bodies.empty() ? bodies : all;
+    return some.empty() ? "none" : numbers.pick(some);
+  }
+};
+
+Meshes meshesOf(Drawn* list) {
+  Meshes meshes;
+  if (list == nullptr) return meshes;
+  for (DrawnEntry& entry : list->entries) {
+    const Drawn* const file = find(entry.value, "file");
+    const Drawn* const name = find(entry.value, "name");
+    if (!name && !file) continue;
+    meshes.all.push_back(name ? name->text : file->text.substr(0, file->text.find(".obj")));
+    if (file && file->text.starts_with("body")) meshes.bodies.push_back(meshes.all.back());
+  }
+  return meshes;
 }
 
 /// Each has one source, and the keys that belong to it.
-void agreeOnAttractors(Drawn& attractors, const std::vector<std::string>& meshes, tests::Numbers& numbers) {
+void agreeOnAttractors(Drawn& attractors, const Meshes& meshes, tests::Numbers& numbers) {
   const std::set<std::string> of_solids{"at", "spread", "density"};
   const std::set<std::string> no_sources{"at", "spread", "density", "count", "spacing", "type"};
   for (DrawnEntry& one : attractors.entries) {
-    if (meshes.empty()) takeOut(one.value, {"surface", "inside"});
-    if (numbers.chance(0.6)) takeOut(one.value, {"inside"});  // most drawn meshes have none
+    if (meshes.all.empty()) takeOut(one.value, {"surface"});
+    if (meshes.bodies.empty() && numbers.chance(0.9)) takeOut(one.value, {"inside"});
     std::set<std::string> sources;
     for (const DrawnEntry& entry : one.value.entries) {
       if (!no_sources.contains(entry.key)) sources.insert(entry.key);
@@ -119,7 +144,7 @@ void agreeOnAttractors(Drawn& attractors, const std::vector<std::string>& meshes
     sources.erase(kept);
     takeOut(one.value, sources);
     const bool on_mesh = kept == "surface" || kept == "inside";
-    if (on_mesh) find(one.value, kept)->text = numbers.pick(meshes);
+    if (on_mesh) find(one.value, kept)->text = meshes.pick(kept == "inside", numbers);
     if (on_mesh || kept == "points") takeOut(one.value, of_solids);
     takeOut(one.value, {kept == "points" ? "count" : "type"});
     if (kept != "surface") takeOut(one.value, {"spacing"});
@@ -127,13 +152,13 @@ void agreeOnAttractors(Drawn& attractors, const std::vector<std::string>& meshes
 }
 
 /// Volumes belong to an axis by a grid, and meshes are there.
-void agreeOnFields(Drawn& fields, const std::vector<std::string>& meshes, tests::Numbers& numbers) {
+void agreeOnFields(Drawn& fields, const Meshes& meshes, tests::Numbers& numbers) {
   for (DrawnEntry& one : fields.entries) {
     Drawn* const axis = find(one.value, "axis");
     if (axis && find(one.value, "file")) axis->text = "grid";
     if (!axis || axis->text != "grid") takeOut(one.value, {"file", "grid"});
-    if (meshes.empty() || numbers.chance(0.9)) takeOut(one.value, {"within"});  // most have no inside
-    if (Drawn* within = find(one.value, "within")) within->text = numbers.pick(meshes);
+    if (meshes.bodies.empty() && numbers.chance(0.9)) takeOut(one.value, {"within"});
+    if (Drawn* within = find(one.value, "within")) within->text = meshes.pick(true, numbers);
   }
 }
 
@@ -181,6 +206,20 @@ void agreeOnElement(Drawn& element, tests::Numbers& numbers) {
   element.entries.push_back({"texture", std::move(texture)});
 }
 
+void agreeOnRules(Drawn& rules) {
+  Drawn* const require = find(rules, "require");
+  for (const char* const key : {"proximity", "age"}) {
+    Drawn* const bounds = require ? find(*require, key) : nullptr;
+    Drawn* const least = bounds ? find(*bounds, "min") : nullptr;
+    Drawn* const most = bounds ? find(*bounds, "max") : nullptr;
+    if (!least || !most) continue;
+    std::size_t least_end = 0, most_end = 0;
+    const double low = std::stod(least->text, &least_end), high = std::stod(most->text, &most_end);
+    if (least->text.substr(least_end) == most->text.substr(most_end) && high < low)
+      std::swap(least->text, most->text);
+  }
+}
+
 void agreeOnPull(Drawn& pull, tests::Numbers& numbers) {
   if (find(pull, "point") && find(pull, "direction"))
     takeOut(pull, {numbers.chance(0.5) ? "point" : "direction"});
@@ -217,10 +256,11 @@ void makeAgree(Drawn& scene, tests::Numbers& numbers) {
   if (Drawn* sky = find(scene, "sky"); sky && find(*sky, "background") && numbers.chance(kMostly))
     agreeOnBackground(*find(*sky, "background"));
   if (Drawn* sun = find(scene, "sun"); sun && numbers.chance(kMostly)) agreeOnSun(*sun, numbers);
+  const Meshes meshes = meshesOf(find(scene, "meshes"));
   if (Drawn* attractors = find(scene, "attractors"); attractors && numbers.chance(kMostly))
-    agreeOnAttractors(*attractors, meshNames(find(scene, "meshes")), numbers);
+    agreeOnAttractors(*attractors, meshes, numbers);
   if (Drawn* fields = find(scene, "fields"); fields && numbers.chance(kMostly))
-    agreeOnFields(*fields, meshNames(find(scene, "meshes")), numbers);
+    agreeOnFields(*fields, meshes, numbers);
   if (Drawn* images = find(scene, "images"); images && numbers.chance(kMostly))
     agreeOnImages(*images, namesOf(find(scene, "plants"), ""), namesOf(find(scene, "meshes"), ""),
                   keysOf(find(scene, "fields")), numbers);

@@ -94,7 +94,8 @@ std::string ValueDrawer::polygons(const Limits& limits, std::size_t most) {
   for (int p = numbers_.chance(0.02) ? static_cast<int>(std::min<std::size_t>(most, 40))
                                      : numbers_.whole(1, 3);
        p > 0; --p) {
-    const double size = std::pow(10.0, numbers_.uniform(-1.5, numbers_.chance(0.03) ? 2.0 : 0.6));
+    const double anywhere = std::pow(10.0, numbers_.uniform(-1.5, numbers_.chance(0.03) ? 2.0 : 0.6));
+    const double size = numbers_.chance(0.97) ? std::min(anywhere, 0.2 * longest_vx_) : anywhere;
     const sim::Vec3 middle = random(size), along = glm::normalize(random(1.0) + sim::Vec3(1e-3));
     const sim::Vec3 across = glm::normalize(glm::cross(along, random(1.0) + sim::Vec3(0.0, 1e-3, 0.0)));
     const int corners = numbers_.chance(0.02) ? 64 : numbers_.whole(3, 7);

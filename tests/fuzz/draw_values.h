@@ -9,10 +9,11 @@
 /// Legal texts for keys of any kind, from what the registry says of them.
 namespace espalier::fuzz {
 
-/// Draws values of a file whose world has voxels of one size.
+/// Draws values of a file whose world has voxels of one size, and so many of them along its longest side.
 class ValueDrawer {
  public:
-  ValueDrawer(tests::Numbers& numbers, double voxel_m) : numbers_(numbers), voxel_m_(voxel_m) {}
+  ValueDrawer(tests::Numbers& numbers, double voxel_m, double longest_vx)
+      : numbers_(numbers), voxel_m_(voxel_m), longest_vx_(longest_vx) {}
 
   /// A number within the limits, often one of their ends. `usual`: where most of them lie; only every
   /// fiftieth may lie beyond.
@@ -34,7 +35,7 @@ class ValueDrawer {
   std::string phrase(std::size_t most);
 
   tests::Numbers& numbers_;
-  double voxel_m_;
+  double voxel_m_, longest_vx_;
   bool beyond_usual_ = false;
 };
 

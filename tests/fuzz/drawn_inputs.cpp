@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <fstream>
 
 #include "render/image/image_io.h"
@@ -12,7 +13,21 @@
 /// What drawn scenes read beside their rules: meshes, points, volumes and skeletons.
 namespace espalier::fuzz {
 
-/// A floor, a wall, a box and a sloping quad between -0.5 and 0.5, each a group and a material of its own.
+/// What meshes are made of, between -0.5 and 0.5: a floor, a wall, a sloping quad and a box.
+constexpr double kFloor = -0.45, kWall = 0.02;
+const sim::Vec3 kRoofLow(-0.4, 0.1, -0.4), kRoofHigh(0.2, 0.33, -0.1), kBlockLow(0.1, -0.4, -0.4),
+    kBlockHigh(0.4, -0.1, -0.1);
+
+/// Whether something may stand there or so near.
+bool RandomFiles::standsAt(const sim::Vec3& at, double near) {
+  const auto in = [&](const sim::Vec3& low, const sim::Vec3& high) {
+    return glm::all(glm::greaterThan(at, low - near)) && glm::all(glm::lessThan(at, high + near));
+  };
+  return at.y < kFloor + near || std::abs(at.z - kWall) < near || in(kRoofLow, kRoofHigh) ||
+         in(kBlockLow, kBlockHigh);
+}
+
+/// A floor, and some of the others; or the box alone, which is closed. Each is a group and has a material.
 std::string RandomFiles::writeMesh() {
   std::string text = "mtllib paint.mtl\n";
   int vertices = 0;
@@ -24,19 +39,23 @@ std::string RandomFiles::writeMesh() {
   const auto group = [&](const char* name, const char* material) {
     text += fmt::format("g {}\nusemtl {}\n", name, material);
   };
-  group("floor", "stone");
-  quad({sim::Vec3(-0.5, -0.45, -0.5), {-0.5, -0.45, 0.5}, {0.5, -0.45, 0.5}, {0.5, -0.45, -0.5}});
-  if (numbers_.chance(0.7)) {
+  const bool body = numbers_.chance(0.2);
+  if (!body) {
+    group("floor", "stone");
+    quad({sim::Vec3(-0.5, kFloor, -0.5), {-0.5, kFloor, 0.5}, {0.5, kFloor, 0.5}, {0.5, kFloor, -0.5}});
+  }
+  if (!body && numbers_.chance(0.7)) {
     group("wall", "brick");
-    quad({sim::Vec3(-0.5, -0.45, 0.02), {0.5, -0.45, 0.02}, {0.5, 0.4, 0.02}, {-0.5, 0.4, 0.02}});
+    quad({sim::Vec3(-0.5, kFloor, kWall), {0.5, kFloor, kWall}, {0.5, 0.4, kWall}, {-0.5, 0.4, kWall}});
   }
-  if (numbers_.chance(0.5)) {
+  if (!body && numbers_.chance(0.5)) {
     group("roof", "brick");
-    quad({sim::Vec3(-0.4, 0.1, -0.4), {-0.4, 0.1, -0.1}, {0.2, 0.33, -0.1}, {0.2, 0.33, -0.4}});
+    const sim::Vec3 &a = kRoofLow, &b = kRoofHigh;
+    quad({a, {a.x, a.y, b.z}, b, {b.x, b.y, a.z}});
   }
-  if (numbers_.chance(0.4)) {
+  if (body || numbers_.chance(0.4)) {
     group("block", "stone");
-    const sim::Vec3 a(0.1, -0.4, -0.4), b(0.4, -0.1, -0.1);
+    const sim::Vec3 &a = kBlockLow, &b = kBlockHigh;
     quad({sim::Vec3(a.x, a.y, a.z), {b.x, a.y, a.z}, {b.x, a.y, b.z}, {a.x, a.y, b.z}});
     quad({sim::Vec3(a.x, b.y, a.z), {a.x, b.y, b.z}, {b.x, b.y, b.z}, {b.x, b.y, a.z}});
     quad({sim::Vec3(a.x, a.y, a.z), {a.x, b.y, a.z}, {b.x, b.y, a.z}, {b.x, a.y, a.z}});
@@ -45,7 +64,7 @@ std::string RandomFiles::writeMesh() {
     quad({sim::Vec3(b.x, a.y, a.z), {b.x, b.y, a.z}, {b.x, b.y, b.z}, {b.x, a.y, b.z}});
   }
   std::ofstream(folder_ / "paint.mtl") << "newmtl stone\nKd 0.5 0.5 0.5\nnewmtl brick\nKd 0.6 0.2 0.1\n";
-  const std::string name = fmt::format("mesh_{}.obj", numbers_.whole(1, 9));
+  const std::string name = fmt::format("{}_{}.obj", body ? "body" : "mesh", numbers_.whole(1, 9));
   std::ofstream(folder_ / name) << text;
   return name;
 }
@@ -105,7 +124,7 @@ std::string RandomFiles::writeSkeleton() {
   const int nodes = numbers_.whole(2, 60);
   for (int n = 0; n < nodes; ++n) {
     sim::Vec3 at = world_.middle_m;
-    for (int axis = 0; axis < 3; ++axis) at[axis] += numbers_.uniform(-0.2, 0.2) * world_.extent_m()[axis];
+    for (int axis = 0; axis < 3; ++axis) at[axis] += numbers_.uniform(-0.3, 0.3) * world_.extent_m()[axis];
     const int parent = n == 0 ? -1 : numbers_.whole(0, n - 1);
     if (lines) {
       text += fmt::format("v {} {} {}\n", at.x, at.y, at.z);

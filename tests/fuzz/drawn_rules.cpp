@@ -4,6 +4,7 @@
 #include <set>
 
 #include "rules/language/registry.h"
+#include "tests/fuzz/agreement.h"
 #include "tests/fuzz/random_files.h"
 
 /// Rule sets of drawn scenes: in place, in files, by regions.
@@ -12,6 +13,7 @@ namespace espalier::fuzz {
 Drawn RandomFiles::ruleMap() {
   ++depth_;
   Drawn map = table(rules::ruleTable(), "rules:");
+  agreeOnRules(map);
   --depth_;
   return map;
 }

@@ -19,7 +19,7 @@ using rules::Kind;
 
 /// Where the numbers of keys usually lie that cost time or memory, or that few voxels allow; by their path.
 const std::map<std::string, rules::Limits> kUsual = {
-    {"random_tree.length", {0.5, 12.0}},
+    {"random_tree.length", {0.1, 20.0}},
     {"random_tree.branch_age_range", {1.0, 6.0}},
     {"random_tree.trials.min", {1.0, 40.0}},
     {"random_tree.trials.max", {1.0, 90.0}},
@@ -33,17 +33,17 @@ const std::map<std::string, rules::Limits> kUsual = {
     {"require.age.max", {4.0, 40.0}},
     {"require.in_region.max", {1.0, 9.0}},
     {"require.proximity.min", {0.0, 4.0}},
-    {"require.proximity.max", {4.0, 30.0}},
+    {"require.proximity.max", {0.1, 30.0}},
     {"prefer.proximity", {0.0, 20.0}},
     {"stem.radius", {1e-3, 4.0}},
     {"stem.thickens", {0.0, 0.5}},
     {"stem.thickest", {1e-3, 20.0}},
     {"elements[].trials", {1.0, 12.0}},
-    {"elements[].per_segment", {0.0, 2.0}},
-    {"elements[].size", {0.05, 0.8}},
+    {"elements[].per_segment", {0.0, 3.0}},
+    {"elements[].size", {0.05, 1.6}},
     {"elements[].petiole", {0.0, 3.0}},
-    {"elements[].phyllotaxis.spacing", {3.0, 9.0}},
-    {"elements[].phyllotaxis.whorl", {1.0, 2.0}},
+    {"elements[].phyllotaxis.spacing", {1.0, 8.0}},
+    {"elements[].phyllotaxis.whorl", {1.0, 3.0}},
     {"world.layers", {0.0, 6.0}},
     {"sky.accuracy", {0.01, 0.5}},
     {"sky.directions", {1.0, 300.0}},
@@ -90,7 +90,7 @@ RandomFiles::RandomFiles(std::uint64_t seed, std::filesystem::path folder)
       colonizes_(numbers_.chance(0.35)),
       odd_numbers_(~seed),
       odd_(odd_numbers_.chance(0.25)),
-      values_(numbers_, world_.voxel_m) {
+      values_(numbers_, world_.voxel_m, world_.longest_m() / world_.voxel_m) {
   std::filesystem::create_directories(folder_);
   knowSpecials();
 }
@@ -120,11 +120,26 @@ RandomFiles::World RandomFiles::drawWorld(tests::Numbers& numbers) {
 }
 
 /// A point in the world, or as far outside of it.
-std::string RandomFiles::place(double beyond) {
+sim::Vec3 RandomFiles::within(double beyond) {
   sim::Vec3 at;
   for (int axis = 0; axis < 3; ++axis)
     at[axis] = std::clamp(world_.middle_m[axis] + numbers_.uniform(-beyond, beyond) * world_.extent_m()[axis],
                           -1e6, 1e6);
+  return at;
+}
+
+std::string RandomFiles::place(double beyond) {
+  const sim::Vec3 at = within(beyond);
+  return ValueDrawer::point(at.x, at.y, at.z);
+}
+
+/// The same, mostly where none of the meshes stands that may be drawn, as long as they are not turned.
+std::string RandomFiles::openPlace(double beyond) {
+  const double near = 2.0 * world_.voxel_m / world_.longest_m();
+  sim::Vec3 at = within(beyond);
+  for (int tries = numbers_.chance(0.95) ? 20 : 0;
+       world_.meshes && tries > 0 && standsAt((at - world_.middle_m) / world_.longest_m(), near); --tries)
+    at = within(beyond);
   return ValueDrawer::point(at.x, at.y, at.z);
 }
 
@@ -139,10 +154,11 @@ void RandomFiles::knowSpecials() {
     special("scene:" + path, std::move(draw));
   };
   const bool by_resolution = numbers_.chance(0.3);
-  const int longest = std::max({world_.size.x, world_.size.y, world_.size.z});
   text("espalier", [this] { return std::string(numbers_.chance(0.5) ? "scene" : "scene/1"); });
   text("world.voxel", [=, this] { return by_resolution ? "" : fmt::format("{}", world_.voxel_m); });
-  text("world.resolution", [=] { return by_resolution ? fmt::format("{}", longest) : ""; });
+  text("world.resolution", [=, this] {
+    return by_resolution ? fmt::format("{}", std::lround(world_.longest_m() / world_.voxel_m)) : "";
+  });
   text("world.margin",
        [this] { return world_.bounds ? "" : fmt::format("{}", world_.voxel_m * numbers_.whole(0, 6)); });
   specials_["scene:world.bounds"] = [this](Drawn& drawn) {
@@ -163,7 +179,7 @@ void RandomFiles::knowSpecials() {
   text("sky.background.file", [this] { return writeSky(); });
   // Most regions that are drawn are not there, or level.
   special("rules:bias.apex.of", [this] { return std::string(numbers_.chance(0.06) ? "roof" : ""); });
-  text("meshes[].scale", [=, this] { return fmt::format("{}", longest * world_.voxel_m); });
+  text("meshes[].scale", [this] { return fmt::format("{}", world_.longest_m()); });
   for (const std::string of : {"meshes[].", "plants[].skeleton."}) {
     text(of + "unit", [this] {
       return std::string(odd_numbers_.pick(std::array{"m", "m", "m", "cm", "mm", "in", "ft"}));
@@ -185,22 +201,22 @@ void RandomFiles::knowSpecials() {
       special(of + length, [=] { return fmt::format("{}", side()); });
     for (const char* const sides : {"ellipsoid.radii", "box.size"})
       special(of + sides, [=] { return ValueDrawer::point(side(), side(), side()); });
+    special(of + "revolution.profile", [=] {
+      const double a = side(), b = side();
+      return fmt::format("[[0, {}], [{}, {}], [{}, {}], [{}, {}]]", a, 0.1 * b, b, 0.2 * b, a, 0.3 * b,
+                         0.1 * a);
+    });
     special(of + "count", [this] { return fmt::format("{}", numbers_.whole(1, 300)); });
   }
   text("attractors.<name>.points", [this] { return writePoints("points.csv", 40, 0.5); });
   text("attractors.<name>.type", [this] { return fmt::format("{}", numbers_.whole(0, 2)); });
-  special("rules:colonization.crown.revolution.profile", [=] {
-    const double a = side(), b = side();
-    return fmt::format("[[0, {}], [{}, {}], [{}, {}], [{}, {}]]", a, 0.1 * b, b, 0.2 * b, a, 0.3 * b,
-                       0.1 * a);
-  });
   // Seldom: such a start often stands in a mesh.
   text("plants[].points",
        [this] { return numbers_.chance(0.3) ? writePoints("starts.csv", 1, 0.45) : std::string(); });
   text("plants[].type", [this] { return fmt::format("{}", numbers_.whole(0, 2)); });
   // Scaled about the world's origin it mostly stays in the world.
   text("plants[].skeleton.file", [this] { return writeSkeleton(); });
-  text("plants[].skeleton.scale", [this] { return fmt::format("{}", numbers_.uniform(0.98, 1.02)); });
+  text("plants[].skeleton.scale", [this] { return fmt::format("{}", numbers_.uniform(0.9, 1.05)); });
   text("plants[].skeleton.rotate", [] { return std::string("[0, 5, 0]"); });
   text("plants[].skeleton.translate", [this] {
     const sim::Vec3 by = numbers_.uniform(-0.1, 0.1) * world_.extent_m();
@@ -210,11 +226,11 @@ void RandomFiles::knowSpecials() {
   text("fields.<name>.grid", [this] { return std::string(numbers_.chance(0.9) ? "up" : "down"); });
   text("attractors.<name>.spacing",
        [this] { return fmt::format("{}", world_.voxel_m * numbers_.whole(1, 9)); });
-  text("attractors.<name>.at", [this] { return place(numbers_.chance(0.9) ? 0.3 : 0.6); });
-  text("plants[].seeds[].at", [this] { return place(numbers_.chance(0.05) ? 0.5 : 0.36); });
+  text("attractors.<name>.at", [this] { return openPlace(numbers_.chance(0.9) ? 0.3 : 0.6); });
+  text("plants[].seeds[].at", [this] { return openPlace(numbers_.chance(0.05) ? 0.5 : 0.4); });
   text("plants[].scatter.region", [this] { return std::string(numbers_.chance(0.9) ? "floor" : "wall"); });
   text("plants[].scatter.count", [this] { return fmt::format("{}", numbers_.whole(1, 6)); });
-  text("cameras.<name>.eye", [this] { return place(numbers_.chance(0.9) ? 2.0 : 0.5); });
+  text("cameras.<name>.eye", [this] { return openPlace(numbers_.chance(0.9) ? 2.0 : 0.5); });
   text("cameras.<name>.target", [this] { return place(0.4); });
   text("images[].show", [this] {
     return std::string(numbers_.pick(std::array{"[scene, stems]", "[elements]", "[guides, scene]"}));
@@ -263,7 +279,7 @@ bool RandomFiles::wanted(const rules::Key& key, const std::string& path) {
   if (path == "scene:meshes") return world_.meshes;
   if (path.starts_with("scene:") && (path.ends_with(".unit") || path.ends_with(".up"))) return odd_;
   // A world of lines and guides alone has no surface to be lit.
-  if (path == "scene:meshes[].lines" || path == "scene:meshes[].guide") return numbers_.chance(0.04);
+  if (path == "scene:meshes[].lines" || path == "scene:meshes[].guide") return numbers_.chance(0.1);
   if (colonizes_ && kOfFronts.contains(path)) return true;
   if (path == "scene:plants[].skeleton") return numbers_.chance(0.15);
   if (path == "scene:plants[].scatter" || path == "scene:meshes[].rotate")

@@ -1,4 +1,5 @@
 #pragma once
+#include <algorithm>
 #include <array>
 #include <filesystem>
 #include <functional>
@@ -40,6 +41,7 @@ class RandomFiles {
     sim::Vec3 middle_m{0.0};
     bool meshes = false, bounds = true;
     sim::Vec3 extent_m() const { return voxel_m * sim::Vec3(size); }
+    double longest_m() const { return voxel_m * std::max({size.x, size.y, size.z}); }
   };
   struct File {
     std::string name;
@@ -48,6 +50,7 @@ class RandomFiles {
   using Special = std::function<bool(Drawn&)>;  ///< false: leave the key out
 
   static World drawWorld(tests::Numbers& numbers);
+  static bool standsAt(const sim::Vec3& at, double near);
   std::string writeMesh();
   std::string writePoints(const std::string& name, int most, double beyond);
   std::string writeVolume();
@@ -62,7 +65,9 @@ class RandomFiles {
   Drawn ruleMap();
   bool regions(Drawn& drawn);
   std::string ruleFile();
+  sim::Vec3 within(double beyond);
   std::string place(double beyond);
+  std::string openPlace(double beyond);
   std::string repaired();
 
   tests::Numbers numbers_;

@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 #include <xxhash.h>
 
+#include <optional>
+
 #include "render/model/plant_model.h"
 #include "rules/growth/front_memory.h"
 #include "scenes/job/saved_growth.h"
@@ -56,19 +58,20 @@ void goOn(sim::World& world, sim::Growth growth) {
   constexpr int kMostIterations = 100'000;  // what a scene may ask for
   if (growth.iterations > kMostIterations) return;
   for (const sim::Plant& plant : growth.plants) render::modelPlant(plant, world.frame());
-  sim::Growing growing(world, plantings(), settings(growth.iterations + 2), std::move(growth));
+  std::optional<sim::Growing> growing;
   try {
-    growing.alive();
-    growing.due();
+    growing.emplace(world, plantings(), settings(growth.iterations + 2), std::move(growth));
+    growing->alive();
+    growing->due();
   } catch (const sim::BrokenContract&) {
     return;
   }
-  while (growing.step()) {
+  while (growing->step()) {
   }
-  const std::string again = sim::stateBytes({{"seed", "1"}}, world, plot().occupied(), growing.growth());
+  const std::string again = sim::stateBytes({{"seed", "1"}}, world, plot().occupied(), growing->growth());
   sim::World fresh = plot();
   const sim::Growth restored = sim::restore(sim::readState(again, "f"), fresh, plantings(), "f");
-  require(sim::stateHash(fresh, restored) == sim::stateHash(world, growing.growth()),
+  require(sim::stateHash(fresh, restored) == sim::stateHash(world, growing->growth()),
           "a state that is not what it was");
 }
 

@@ -181,13 +181,14 @@ TEST(KeptFront, ThatIsNoneIsADamagedStateToRunsAndPictures) {
   RunOptions options;
   options.folder = scratch.path("out");
   const Scene half = read("3");
-  const auto said = [&](const std::function<void(sim::Columns&)>& change, bool pictures) {
+  const std::string crown = rules::attractorsNamed("crown of plant_1");
+  const auto said = [&](const std::function<void(sim::Commons&)>& change, bool pictures) {
     runScene(half, options, {.keep = true});
     Site site = makeSite(half);
     const sim::BitVolume bare = site.world.occupied();
     sim::Growth growth = takeUp(*readKept(options.folder), options.folder, half, site,
                                 makePlantings(half, site), Same::everything);
-    change(growth.commons.at(rules::attractorsNamed("crown of plant_1")));
+    change(growth.commons);
     scratch.write("out/growth.state", sim::stateBytes(inputsOf(half, site), site.world, bare, growth));
     try {
       if (pictures) {
@@ -201,13 +202,16 @@ TEST(KeptFront, ThatIsNoneIsADamagedStateToRunsAndPictures) {
     return std::string();
   };
   for (const bool pictures : {false, true}) {
-    EXPECT_EQ(said([](sim::Columns&) {}, pictures), "");
+    EXPECT_EQ(said([](sim::Commons&) {}, pictures), "");
     for (const char* name : {"front_number", "front_fate", "front_nearest", "node_tried"}) {
-      const std::string told =
-          said([&](sim::Columns& front) { sim::column<std::int32_t>(front, name)[0] = 999'999; }, pictures);
+      const std::string told = said(
+          [&](sim::Commons& commons) { sim::column<std::int32_t>(commons.at(crown), name)[0] = 999'999; },
+          pictures);
       EXPECT_NE(told.find("growth.state: the state is damaged: "), std::string::npos) << name << ": " << told;
     }
   }
+  const std::string lacking = said([&](sim::Commons& commons) { commons.erase(crown); }, false);
+  EXPECT_NE(lacking.find("growth.state: the state is damaged: "), std::string::npos) << lacking;
 }
 
 constexpr const char* kTree =

@@ -1,12 +1,12 @@
 #include "render/image/contact_sheet.h"
 
-#include "sim/base/parallel.h"
-
+#include <algorithm>
 #include <cmath>
 #include <vector>
 
 #include "render/image/drawing.h"
 #include "sim/base/error.h"
+#include "sim/base/parallel.h"
 
 namespace espalier::render {
 namespace {
@@ -26,16 +26,22 @@ Image reducedForSheet(const Image& picture, int width_px) {
 Image contactSheet(std::span<const Captioned> pictures, const SheetLook& look) {
   if (pictures.empty() || look.columns < 1 || look.picture_width_px < 1)
     throw sim::InputError("a contact sheet needs at least one picture, one column and one pixel");
-  const Image& first = *pictures.front().picture;
   for (const Captioned& p : pictures) {
-    if (p.picture->width != first.width || p.picture->height != first.height || p.picture->channels != 3)
-      throw sim::InputError("the pictures of a contact sheet must all have one size and three channels");
+    if (p.picture->channels != 3)
+      throw sim::InputError("the pictures of a contact sheet must have three channels");
   }
+  const int width = look.picture_width_px;
   std::vector<Image> reduced(pictures.size());
-  sim::parallelForEach(pictures.size(), [&](std::size_t i) {
-    reduced[i] = reducedForSheet(*pictures[i].picture, look.picture_width_px);
-  });
-  const int width = reduced.front().width, height = reduced.front().height;
+  sim::parallelForEach(pictures.size(),
+                       [&](std::size_t i) { reduced[i] = reducedForSheet(*pictures[i].picture, width); });
+  // Of a cell: as the tallest needs it; a tower among wide pictures becomes narrower instead.
+  int height = 0;
+  for (const Image& picture : reduced) height = std::max(height, picture.height);
+  height = std::min(height, std::max(width, reduced.front().height));
+  for (Image& picture : reduced) {
+    if (picture.height > height)
+      picture = resized(picture, std::max(1, picture.width * height / picture.height), height);
+  }
   const float text = std::max(9.0f, static_cast<float>(width) / 28.0f);
   const int gutter = static_cast<int>(std::lround(1.5f * text));
   const int caption = static_cast<int>(std::lround(2.0f * text));
@@ -63,7 +69,8 @@ Image contactSheet(std::span<const Captioned> pictures, const SheetLook& look) {
     const Captioned& p = pictures[static_cast<std::size_t>(i)];
     const int x = gutter + (i % columns) * (width + gutter);
     const int y = head + gutter + (i / columns) * (height + caption + gutter / 2);
-    paste(sheet, reduced[static_cast<std::size_t>(i)], x, y);
+    const Image& picture = reduced[static_cast<std::size_t>(i)];
+    paste(sheet, picture, x + (width - picture.width) / 2, y + (height - picture.height) / 2);
     glm::vec2 pen(static_cast<float>(x), static_cast<float>(y + height) + 1.4f * text);
     if (!p.letter.empty()) {
       drawText(sheet, pen, p.letter, {text, kLetter, Align::left, Font::bold});

@@ -22,8 +22,9 @@ struct SheetLook {
 /// A picture as a sheet shows it. A sheet of pictures that were reduced before is the same.
 Image reducedForSheet(const Image& picture, int width_px);
 
-/// Reduced pictures in rows on a quiet ground, each with its caption beneath; display values. All pictures
-/// must have one shape. Throws InputError if there are none.
+/// Reduced pictures in rows on a quiet ground, each with its caption beneath; display values. Those of other
+/// shapes stand in the middle of cells as high as the tallest, or as the first or a square if that is taller
+/// still. Throws InputError if there are none.
 Image contactSheet(std::span<const Captioned> pictures, const SheetLook& look = {});
 
 }  // namespace espalier::render

@@ -104,7 +104,9 @@ void compete(Front& front, std::int32_t node) {
 std::int32_t pickOf(Front& front, std::int32_t node, const FrontRules& rules) {
   const std::size_t n = asIndex(node);
   if (front.gait[n] == static_cast<std::int32_t>(Gait::spent)) return kNobody;
-  if (front.tried[n] != kNobody && waits(front.attractors, front.tried[n])) {
+  // A state that was tampered with may name one that is not there.
+  const bool known = front.tried[n] != kNobody && front.tried[n] < front.attractors.size();
+  if (known && waits(front.attractors, front.tried[n])) {
     if (front.gait[n] != static_cast<std::int32_t>(Gait::straight)) compete(front, node);
     return front.tried[n];
   }

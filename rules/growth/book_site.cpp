@@ -37,7 +37,7 @@ Outcome tryToGrow(const sim::SiteView& view, const RuleSet& rules, const sim::Si
                   const sim::RandomKey& key, unsigned set, const RuleBook& book, int order, const Step& step,
                   sim::Proposal& proposal) {
   if (view.iteration < rules.require.age_min) return Outcome::resting;
-  if (view.iteration > rules.require.age_max || stayedTooLong(view, site, rules)) return Outcome::forbidden;
+  if (view.iteration > rules.require.age_max || stayedTooLong(view, site, rules)) return Outcome::unmet;
   const Exposure seen = seenAt(view);
   const Vigour light = vigourOf(seen, rules);
   if (light.exposure < rules.require.exposure_min) return Outcome::too_dark;
@@ -47,6 +47,7 @@ Outcome tryToGrow(const sim::SiteView& view, const RuleSet& rules, const sim::Si
 
   const Surroundings around = lookAround(view, site);
   const Senses senses = sense(view, around, light, rules);
+  if (!readsAsRequired(rules, senses)) return Outcome::unmet;
   std::optional<Candidate> best = step(rules, around, senses, set, proposal);
   if (!best) return Outcome::no_trial;
   proposal.elements = proposeElements(view, site, rules, around, senses, best->to_vx, best->passes,
@@ -116,7 +117,9 @@ bool asksForLight(const RuleSet& set) {
   return set.require.exposure_min > 0.0 || set.require.exposure_max < 1.0 || set.light.boost != 1.0 ||
          !(bias.light == none) || !set.elements.empty() || followsExposure(bias.up) ||
          followsExposure(bias.gravity) || followsExposure(bias.away) || followsExposure(bias.toward) ||
-         followsExposure(bias.twist);
+         followsExposure(bias.twist) ||
+         std::any_of(bias.senses.begin(), bias.senses.end(),
+                     [](const SenseBias& by) { return followsExposure(by.amount); });
 }
 
 }  // namespace

@@ -36,9 +36,8 @@ std::vector<GoodTrial> goodTrials(const sim::SiteView& view, const RuleSet& rule
         proposal.attempts.push_back({around.at_vx, sim::endOf(around.at_vx, ends, n), outcome, false});
       if (outcome != Outcome::grown) continue;
       const double proximity_vx = felt.proximity_vx[n];
-      good.push_back(
-          {sim::endOf(around.at_vx, ends, n), proximity_vx,
-           rules.prefer.has_proximity ? std::abs(proximity_vx - rules.prefer.proximity.number) : 0.0});
+      good.push_back({sim::endOf(around.at_vx, ends, n), proximity_vx,
+                      scoreOf(view, rules, sim::endOf(around.at_vx, ends, n), proximity_vx)});
     }
     first += count;
   }

@@ -146,8 +146,8 @@ void requireSoundNumbers(const Front& front) {
     require(between(order, 0, front.nodes.size()), "a node of no order");
   for (const std::int32_t node : front.picker)
     require(between(node, kNobody, front.nodes.size()), "a pick of a node that is not there");
-  // Of nodes that pick an attractor its number, of others how many pulled.
-  const std::size_t most = a.x.size() + (front.picker.empty() ? 1 : 0);
+  // Of nodes that pick an attractor its number, of others how many pulled: plants of both kinds may share it.
+  const std::size_t most = a.x.size() + 1;
   for (const std::int32_t tried : front.tried)
     require(between(tried, kNobody, most), "a node that tried what is not there");
 }

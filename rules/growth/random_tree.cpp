@@ -50,6 +50,15 @@ Outcome judged(const RuleSet& rules, double proximity_vx) {
   return Outcome::grown;
 }
 
+double scoreOf(const sim::SiteView& view, const RuleSet& rules, sim::Vec3 to_vx, double proximity_vx) {
+  const Prefer& prefer = rules.prefer;
+  double score =
+      prefer.has_proximity ? prefer.weight * std::abs(proximity_vx - prefer.proximity.number) : 0.0;
+  for (const SensePreference& by : prefer.senses)
+    score += by.weight * std::abs(readingOf(view, senseNamed(rules, by.name), to_vx) - by.at);
+  return score;
+}
+
 std::optional<Candidate> bestTrial(const sim::SiteView& view, const RuleSet& rules,
                                    const Surroundings& around, const Ways& ways, const Trials& trials,
                                    sim::Proposal& proposal) {
@@ -64,7 +73,7 @@ std::optional<Candidate> bestTrial(const sim::SiteView& view, const RuleSet& rul
   sim::Offsets ends;
   sim::Felt felt;
   // Without a preference any good one will do.
-  const int enough = trials.first + (rules.prefer.has_proximity ? trials.min : 1);
+  const int enough = trials.first + (rules.prefer.any() ? trials.min : 1);
   // Where any good one will do, one of the first mostly does.
   constexpr int kFew = 16;
   for (int first = trials.first; first < trials.max && !(best && first >= enough);) {
@@ -83,8 +92,7 @@ std::optional<Candidate> bestTrial(const sim::SiteView& view, const RuleSet& rul
       ++proposal.trials[static_cast<std::size_t>(outcome)];
       if (outcome != Outcome::grown) continue;
       if (!best) count = std::min(ahead, std::max(enough - first, i + 1));
-      const double score =
-          rules.prefer.has_proximity ? std::abs(proximity_vx - rules.prefer.proximity.number) : 0.0;
+      const double score = scoreOf(view, rules, sim::endOf(around.at_vx, ends, n), proximity_vx);
       if (score < best_score) {
         best_score = score;
         best = Candidate{sim::endOf(around.at_vx, ends, n), {}, {}, passage, proximity_vx};

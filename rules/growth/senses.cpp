@@ -4,6 +4,8 @@
 #include <iterator>
 
 #include "rules/growth/apices.h"
+#include "sim/grow/plant.h"
+#include "sim/sense/company.h"
 #include "sim/sense/mass.h"
 #include "sim/sense/proximity.h"
 #include "sim/tile/tiling.h"
@@ -39,6 +41,40 @@ double vigourAt(const RuleSet& rules, double exposure) {
   return 1.0 + (rules.light.boost - 1.0) * std::clamp(above, 0.0, 1.0);
 }
 
+sim::Whose whoseOf(const sim::SiteView& view, const SenseSpec& sense) {
+  using Kind = sim::Whose::Kind;
+  const auto word = std::find(kWhose.begin(), kWhose.end(), sense.of);
+  const int plant = sim::numberOf(view.world, view.plant);
+  if (word == kWhose.end()) return {Kind::region, plant, sense.of};
+  return {static_cast<Kind>(word - kWhose.begin()), plant, {}};
+}
+
+/// What a sense finds in a place.
+struct Found {
+  double value = 0.0;
+  sim::Vec3 way{0.0};  ///< unit, or zero
+};
+
+Found find(const sim::SiteView& view, const SenseSpec& sense, sim::Vec3 at_vx) {
+  const sim::Whose whose = whoseOf(view, sense);
+  const sim::Voxel about = sim::voxelAt(at_vx);
+  const double within_vx = sense.within.number, voxel_m = view.world.frame().voxel_m;
+  switch (sense.measure) {
+    case SenseSpec::Measure::density: {
+      const sim::Crowd crowd = sim::crowdAround(view.world, whose, about, within_vx);
+      return {crowd.density, crowd.centre ? unitOrZero(*crowd.centre - at_vx) : sim::Vec3(0.0)};
+    }
+    case SenseSpec::Measure::distance: {
+      const auto nearest = sim::nearestOf(view.world, whose, about, within_vx);
+      if (!nearest) return {within_vx * voxel_m, sim::Vec3(0.0)};
+      return {glm::length(sim::Vec3(*nearest - about)) * voxel_m, unitOrZero(sim::Vec3(*nearest) - at_vx)};
+    }
+    case SenseSpec::Measure::height:
+      break;
+  }
+  return {sim::heightAbove(view.world, whose, at_vx) * voxel_m, {0.0, -1.0, 0.0}};
+}
+
 }  // namespace
 
 Surroundings lookAround(const sim::SiteView& view, const sim::Site& site) {
@@ -71,6 +107,20 @@ Vigour vigourOf(const Exposure& seen, const RuleSet& rules) {
   return {exposure, vigourAt(rules, exposure)};
 }
 
+double readingOf(const sim::SiteView& view, const SenseSpec& sense, sim::Vec3 at_vx) {
+  return find(view, sense, at_vx).value;
+}
+
+bool readsAsRequired(const RuleSet& rules, const Senses& senses) {
+  for (const SenseBounds& bounds : rules.require.senses) {
+    for (const Reading& reading : senses.circumstance.readings) {
+      if (reading.sense == bounds.name && !(reading.value >= bounds.min && reading.value <= bounds.max))
+        return false;
+    }
+  }
+  return true;
+}
+
 Senses sense(const sim::SiteView& view, const Surroundings& around, const Vigour& vigour,
              const RuleSet& rules) {
   Senses senses;
@@ -93,8 +143,15 @@ Senses sense(const sim::SiteView& view, const Surroundings& around, const Vigour
         unitOrZero(pull.direction ? *pull.direction
                                   : sim::voxelFromWorld(view.world.frame(), *pull.point_m) - around.at_vx);
   }
-  senses.circumstance = {senses.exposure, static_cast<double>(view.iteration),
-                         around.at_vx.y * view.world.frame().voxel_m};
+  senses.circumstance = {
+      senses.exposure, static_cast<double>(view.iteration), around.at_vx.y * view.world.frame().voxel_m, {}};
+  for (const SenseSpec& spec : rules.senses) {
+    const Found found = find(view, spec, around.at_vx);
+    senses.circumstance.readings.push_back({spec.name, found.value});
+    for (std::size_t i = 0; i < rules.bias.senses.size(); ++i) {
+      if (rules.bias.senses[i].name == spec.name) senses.sensed[i] = found.way;
+    }
+  }
   return senses;
 }
 

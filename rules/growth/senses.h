@@ -36,6 +36,7 @@ struct Senses {
   sim::Vec3 twist{0.0};
   sim::Vec3 apex{0.0};  ///< unit, to the nearest apex that `bias.apex` means; zero where there is none
   std::array<sim::Vec3, kMostPulls> towards{};  ///< unit, as `bias.towards` has them
+  std::array<sim::Vec3, kMostSenses> sensed{};  ///< unit, as `bias.senses` has them
   double exposure = 0.0;                        ///< blended
   double vigour = 1.0;                          ///< growth rate over that at the least exposure: 1 .. boost
   Circumstance circumstance;                    ///< what the rule set's values may depend on
@@ -48,6 +49,10 @@ Exposure exposureOf(const sim::Light& light);
 /// What one rule set makes of the light. To be asked before all else, which is dearer: many sites end by it.
 Vigour vigourOf(const Exposure& seen, const RuleSet& rules);
 Surroundings lookAround(const sim::SiteView& view, const sim::Site& site);
+/// What one of a rule set's senses reads in a place inside the world.
+double readingOf(const sim::SiteView& view, const SenseSpec& sense, sim::Vec3 at_vx);
+/// Whether what a tip reads is what its rule set requires.
+bool readsAsRequired(const RuleSet& rules, const Senses& senses);
 Senses sense(const sim::SiteView& view, const Surroundings& around, const Vigour& vigour,
              const RuleSet& rules);
 

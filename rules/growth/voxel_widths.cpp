@@ -48,6 +48,7 @@ void convert(RuleSet& rules, double voxel_m) {
        {&rules.colonization.step, &rules.colonization.influence, &rules.colonization.kill}) {
     if (*distance) convert(**distance, voxel_m);
   }
+  for (SenseSpec& sense : rules.senses) convert(sense.within, voxel_m);
   for (Element& element : rules.elements) {
     if (element.size_metres) convert(element.size, voxel_m);
     element.size_metres = false;
@@ -131,6 +132,10 @@ std::string wrongWith(const RuleSet& rules, const std::string& at) {
                        least > 0.0 ? fmt::format("at least {}", least) : "more than 0", most);
   };
   std::string wrong = within("bias.twist.radius", rules.bias.twist_radius, 0.0, kFarthestTwist);
+  for (const SenseSpec& sense : rules.senses) {
+    if (wrong.empty())
+      wrong = within(("senses." + sense.name + ".within").c_str(), sense.within, 0.0, kFarthestTwist);
+  }
   if (wrong.empty()) wrong = within("stem.radius", rules.stem.radius, kThinnestTwig, kThickestTwig);
   if (wrong.empty()) wrong = within("stem.thickest", rules.stem.thickest, kThinnestTwig, kNoLimit);
   if (!wrong.empty()) return wrong;

@@ -260,6 +260,9 @@ void bendBy(const RuleSet& rules, const Surroundings& around, const Senses& sens
   for (std::size_t i = 0; i < rules.bias.towards.size(); ++i)
     pull(senses.towards[i], rules.bias.towards[i].amount,
          static_cast<TrialSlot>(static_cast<std::size_t>(TrialSlot::towards) + i));
+  for (std::size_t i = 0; i < rules.bias.senses.size(); ++i)
+    pull(senses.sensed[i], rules.bias.senses[i].amount,
+         static_cast<TrialSlot>(static_cast<std::size_t>(TrialSlot::sensed) + i));
   for (int axis = 0; axis < 3; ++axis) ways.flat[static_cast<std::size_t>(axis)] = world_size[axis] == 1;
 }
 

@@ -28,9 +28,10 @@ enum class TrialSlot : unsigned {
   toward,
   twist,
   apex,
-  towards  // the first of kMostPulls
+  towards,                       // the first of kMostPulls
+  sensed = towards + kMostPulls  // the first of kMostSenses
 };
-inline constexpr std::size_t kTrialSlots = static_cast<std::size_t>(TrialSlot::towards) + kMostPulls;
+inline constexpr std::size_t kTrialSlots = static_cast<std::size_t>(TrialSlot::sensed) + kMostSenses;
 
 /// A rule's number over the trials of a site: low + span * the trial's own draw in [0, 1).
 struct Spread {
@@ -55,7 +56,7 @@ struct Ways {
   /// once the angle more for trial `widest` - 1.
   int narrow = 0, widest = 0;
   float narrowly = 1.0f;
-  std::array<Pull, 7 + kMostPulls> pulls;  ///< in this order; only those that do anything
+  std::array<Pull, 7 + kMostPulls + kMostSenses> pulls;  ///< in this order; only those that do anything
   std::size_t pull_count = 0;
   Spread length_vx;
   std::array<bool, 3> flat{};  ///< axes along which nothing may move: the world has a single voxel there

@@ -47,7 +47,8 @@ void addSolids(TableOf<T>& table, A access) {
                {.meaning = "A round crown as high as its radius, by the Bezier radii R, R, R/2, R/6."},
                "radius")
       .section("cylinder", at(&E::cylinder), detail::cylinderKeys(), {.meaning = "An upright cylinder."})
-      .section("sphere", at(&E::sphere), detail::sphereKeys(), {.meaning = "A ball that stands on its foot."}, "radius")
+      .section("sphere", at(&E::sphere), detail::sphereKeys(), {.meaning = "A ball that stands on its foot."},
+               "radius")
       .section("ellipsoid", at(&E::ellipsoid), detail::ellipsoidKeys(),
                {.meaning = "An ellipsoid along the axes."}, "radii")
       .section("box", at(&E::box), detail::boxKeys(), {.meaning = "A box along the axes."}, "size")

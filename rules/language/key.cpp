@@ -34,7 +34,10 @@ std::string written(const Value& value, std::string_view unit) {
   std::string points;
   for (const auto& [x, y] : value.curve)
     points += fmt::format("{}[{}, {}{}]", points.empty() ? "" : ", ", x, y, unit);
-  const char* over = value.over == Over::exposure ? "exposure" : value.over == Over::age ? "age" : "height";
+  const std::string over = value.over == Over::exposure ? "exposure"
+                           : value.over == Over::age    ? "age"
+                           : value.over == Over::height ? "height"
+                                                        : value.sense;
   return fmt::format("{{over: {}, points: [{}]}}", over, points);
 }
 
@@ -112,7 +115,7 @@ std::string rangeText(const Limits& limits) {
 
 std::string expectation(const Key& key) {
   constexpr std::string_view kOrVaries =
-      ", a range [a, b] of such, or a curve {over: exposure, age or height, points: [[x, y], ...]}";
+      ", a range [a, b] of such, or a curve {over: exposure, age, height or a sense, points: [[x, y], ...]}";
   switch (key.kind) {
     case Kind::header:
       return "rules, rules/1, scene or scene/1";

@@ -3,6 +3,7 @@
 #include "rules/language/element_keys.h"
 #include "rules/language/envelope_keys.h"
 #include "rules/language/key_builder.h"
+#include "rules/language/sense_keys.h"
 
 // Greene's names are those of figure 4 and section 6 of: Ned Greene, Voxel Space Automata, SIGGRAPH 1989.
 namespace espalier::rules {
@@ -187,6 +188,11 @@ std::shared_ptr<const Table> biasKeys() {
       .list<PullSpec>("towards", Kind::entries, &Bias::towards, pull,
                       {.meaning = "To places and along ways of the scene; a list replaces that of the base.",
                        .most = kMostPulls})
+      .list<SenseBias>(
+          "senses", Kind::named, &Bias::senses, senseBiasKeys(),
+          {.meaning = "To or from what the rule set's senses find; a number stands for its amount.",
+           .most = kMostSenses},
+          "amount")
       .shared();
 }
 
@@ -242,6 +248,8 @@ std::shared_ptr<const Table> requireKeys() {
                {.meaning = "When a tip grows, counted from the first iteration."})
       .section("in_region", std::identity{}, in_region,
                {.meaning = "How long a limb stays near one region of the scene."})
+      .list<SenseBounds>("senses", Kind::named, &Require::senses, senseBoundsKeys(),
+                         {.meaning = "What a tip must read by the rule set's senses.", .most = kMostSenses})
       .shared();
 }
 
@@ -259,6 +267,15 @@ std::shared_ptr<const Table> preferKeys() {
            .meaning = "The trial whose mean distance from the scene is nearest to this wins; without it the "
                       "first that is good does.",
            .greene = "seekprox"})
+      .number("weight", &Prefer::weight,
+              {.unit = "weight",
+               .limits = {0.0, 1e6, true},
+               .meaning = "What a voxel width off from proximity counts, beside what senses prefer."})
+      .list<SensePreference>(
+          "senses", Kind::named, &Prefer::senses, sensePreferenceKeys(),
+          {.meaning = "What the rule set's senses should read at a trial's end; a number stands for at.",
+           .most = kMostSenses},
+          "at")
       .shared();
 }
 
@@ -307,6 +324,11 @@ Table makeTable() {
                {.meaning = "Rejects the trials that do not meet these."})
       .section("prefer", &RuleSet::prefer, preferKeys(), {.meaning = "Ranks the trials that are left."})
       .section("light", &RuleSet::light, lightKeys(), {.meaning = "What light is, and what it does."})
+      .list<SenseSpec>(
+          "senses", Kind::named, &RuleSet::senses, senseKeys(),
+          {.meaning = "What is sensed around a place, by names of your own: bias, require, prefer "
+                      "and curves ask for it.",
+           .most = kMostSenses})
       .section("stem", &RuleSet::stem, stemKeys(),
                {.meaning =
                     "What all of a plant's stems are like; sets of regions and otherwise have no say in it."})

@@ -4,6 +4,7 @@
 
 #include "rules/language/envelope_keys.h"
 #include "rules/language/registry.h"
+#include "rules/language/sense_keys.h"
 #include "sim/base/counted.h"
 
 namespace espalier::rules {
@@ -165,6 +166,7 @@ const std::vector<Check>& ruleChecks() {
           "require.age.min", "require.age.max", [](auto& r) { return Distance{double(r.require.age_min)}; },
           [](auto& r) { return Distance{double(r.require.age_max)}; }, true),
       check({}, checkPulls),
+      check({}, checkSenses),
       check({}, checkElements),
       check({}, checkColonization),
   };

@@ -1,4 +1,5 @@
 #pragma once
+#include <array>
 #include <functional>
 #include <limits>
 #include <map>
@@ -105,6 +106,38 @@ struct PullSpec {
 };
 inline constexpr std::size_t kMostPulls = 8;
 
+/// Something that is sensed around a place, by a name of its own: biases, requirements, preferences and
+/// curves ask for it.
+struct SenseSpec {
+  enum class Measure {
+    density,   ///< share of the voxels within `within` that are filled, 0..1; its way is to their centre of
+               ///< mass
+    distance,  ///< to the nearest, metres; `within` where none is nearer; its way is there
+    height  ///< above the first that lies straight below, or else the world's floor, metres; its way is down
+  };
+  std::string name;
+  Measure measure = Measure::density;
+  std::string of = "everything";  ///< whose voxels: everything, scene, plants, own, others, or a region
+  Distance within{6.0};
+};
+inline constexpr std::size_t kMostSenses = 8;
+/// What `of` says beside the names of regions; in the order of sim::Whose::Kind.
+inline constexpr std::array kWhose{"everything", "scene", "plants", "own", "others"};
+
+/// What a rule set does by a sense.
+struct SenseBias {
+  std::string name;
+  Value amount = 0.0;  ///< along the sense's way; below 0 the other way
+};
+struct SenseBounds {
+  std::string name;
+  double min = -kNoLimit, max = kNoLimit;  ///< of what a tip reads
+};
+struct SensePreference {
+  std::string name;
+  double at = 0.0, weight = 1.0;  ///< a trial scores by how far the reading at its end is from `at`
+};
+
 /// Each bends a trial's direction towards a vector by its weight: 0 not at all, 1 all the way.
 struct Bias {
   Value up = 0.0;
@@ -118,6 +151,7 @@ struct Bias {
   Value apex = 0.0;            ///< to the nearest apex of a region; below 0 away from it
   std::string apex_of;         ///< which region's; empty: of that which is nearest
   std::vector<PullSpec> towards;
+  std::vector<SenseBias> senses;
 };
 
 /// A trial that does not meet these is rejected.
@@ -129,12 +163,16 @@ struct Require {
   double exposure_max = 1.0;
   int age_min = 0, age_max = kNoAge;  ///< iterations since growth began
   int in_region_max = kNoAge;         ///< segments of a limb, one after another, near one region
+  std::vector<SenseBounds> senses;
 };
 
-/// Ranks the trials that are left.
+/// Ranks the trials that are left: the least sum wins of how far each is from what is preferred, by weight.
 struct Prefer {
   bool has_proximity = false;
-  Distance proximity;  ///< the mean proximity nearest to this wins
+  Distance proximity;   ///< mean over the segment
+  double weight = 1.0;  ///< of proximity, a voxel width
+  std::vector<SensePreference> senses = {};
+  bool any() const { return has_proximity || !senses.empty(); }
 };
 
 struct Light {
@@ -202,6 +240,7 @@ struct RuleSet {
   Require require;
   Prefer prefer;
   Light light;
+  std::vector<SenseSpec> senses;
   Stem stem;
   std::vector<Element> elements;
   std::map<std::string, RegionRule, std::less<>> regions;  ///< by region name
@@ -210,6 +249,9 @@ struct RuleSet {
   std::shared_ptr<const RuleSet> twigs;      ///< of limbs that leave those, and so on; null: as branches
   std::shared_ptr<const RuleSet> otherwise;  ///< tried where this one fails (Greene's secondary set)
 };
+
+/// The sense of a name, which the rule set has.
+const SenseSpec& senseNamed(const RuleSet& rules, std::string_view name);
 
 /// What holds in a region: what its name says, or else `others`; null where the rule set says nothing of it.
 /// Beyond the boundary layers no region is known, and nobody should ask.

@@ -42,6 +42,11 @@ double evaluate(const Value& value, const Circumstance& at, double draw) {
       return along(value.curve, at.age);
     case Over::height:
       return along(value.curve, at.height_m);
+    case Over::sense:
+      for (const Reading& reading : at.readings) {
+        if (reading.sense == value.sense) return along(value.curve, reading.value);
+      }
+      return value.low;  // rules/language/sense_keys.h refuses curves over what is not there
   }
   return value.low;
 }

@@ -1,10 +1,12 @@
 #pragma once
+#include <string>
+#include <string_view>
 #include <vector>
 
 namespace espalier::rules {
 
-/// What a curve's x axis stands for.
-enum class Over { exposure, age, height };
+/// What a curve's x axis stands for; `sense`: one of the rule set's own senses, by its name.
+enum class Over { exposure, age, height, sense };
 
 /// A number of a rule: a constant, a range from which each use draws evenly, or a curve over a quantity of
 /// the node that uses it (piecewise linear, constant beyond its ends).
@@ -19,6 +21,7 @@ struct Value {
   double low = 0.0;   ///< the constant, or the range's lower end
   double high = 0.0;  ///< the range's upper end
   Over over = Over::exposure;
+  std::string sense = {};    ///< which, of Over::sense
   std::vector<Point> curve;  ///< sorted by x
 
   Value() = default;
@@ -26,11 +29,18 @@ struct Value {
   friend bool operator==(const Value&, const Value&) = default;
 };
 
+/// What a sense of a rule set has read.
+struct Reading {
+  std::string_view sense;
+  double value = 0.0;
+};
+
 /// What a value may depend on.
 struct Circumstance {
   double exposure = 1.0;  ///< 0..1
   double age = 0.0;       ///< iterations since the plant was seeded
   double height_m = 0.0;  ///< above the world's floor
+  std::vector<Reading> readings = {};
 };
 
 /// `draw` in [0, 1) picks from a range.

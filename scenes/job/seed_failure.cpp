@@ -26,7 +26,7 @@ Outcome mostly(const sim::OutcomeCounts& counts, const std::array<Outcome, N>& a
 
 /// What ended a site, or else what it met most often.
 Outcome reasonOf(const sim::Tally& tally) {
-  for (const Outcome end : {Outcome::forbidden, Outcome::too_dark, Outcome::too_bright}) {
+  for (const Outcome end : {Outcome::forbidden, Outcome::too_dark, Outcome::too_bright, Outcome::unmet}) {
     if (sim::timesOf(tally.sites, end) > 0) return end;
   }
   const Outcome often =

@@ -196,6 +196,9 @@ std::string whyItDidNotGrow(const SeedFailure& failure) {
     case Outcome::forbidden:
       return fmt::format("the nearest region is '{}', and {} forbids growth there", failure.region,
                          inQuotes(failure.forbidden_by));
+    case Outcome::unmet:
+      return "where and when it stood, its rules' require.age, require.in_region or require.senses was not "
+             "met";
     case Outcome::too_dark:
     case Outcome::too_bright:
       return ofLight(failure, failure.reason);

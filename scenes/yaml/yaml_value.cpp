@@ -124,10 +124,14 @@ class ValueReader {
       value.over = rules::Over::age;
     } else if (node.kind == Node::Kind::scalar && node.text == "height") {
       value.over = rules::Over::height;
+    } else if (node.kind == Node::Kind::scalar && !node.text.empty()) {
+      value.over = rules::Over::sense;  // whether the rule set has it is known when all of it is
+      value.sense = node.text;
     } else {
-      read_.say(node, fmt::format("{}.over is {}; expected exposure, age (iterations) or height (metres){}",
-                                  read_.path, described(node),
-                                  didYouMean(node.text, {"exposure", "age", "height"})));
+      read_.say(node,
+                fmt::format("{}.over is {}; expected exposure, age (iterations), height (metres) or the "
+                            "name of a sense",
+                            read_.path, described(node)));
       return false;
     }
     return true;

@@ -26,6 +26,8 @@ std::string_view nameOf(Outcome outcome) {
       return "claimed";
     case Outcome::no_trial:
       return "no_trial";
+    case Outcome::unmet:
+      return "unmet";
   }
   return "";
 }

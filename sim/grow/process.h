@@ -33,9 +33,10 @@ enum class Outcome {
   out_of_world,
   forbidden,  ///< the nearest region allows no growth
   claimed,    ///< another site took a voxel first in the same iteration
-  no_trial    ///< none of a site's trials met the rules
+  no_trial,   ///< none of a site's trials met the rules
+  unmet       ///< what a site senses is not what its rules require
 };
-inline constexpr std::size_t kOutcomes = 11;
+inline constexpr std::size_t kOutcomes = 12;
 std::string_view nameOf(Outcome outcome);
 
 using OutcomeCounts = std::array<std::uint64_t, kOutcomes>;

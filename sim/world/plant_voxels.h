@@ -45,6 +45,21 @@ class PlantVoxels {
     }
   }
 
+  /// Of the voxels that bits of `among` name, as above, those where plants are.
+  std::uint64_t takenAmong(Voxel first, std::uint64_t among) const {
+    std::uint64_t taken = 0;
+    while (among != 0) {
+      Voxel v = first;
+      v.x += std::countr_zero(among);
+      const int shift = (v.x & ~7) - first.x;  // below 0 at the start
+      const std::uint64_t row = blocks_.of(v).taken[rowOf(v)];
+      const auto at = [&](std::uint64_t eight) { return shift < 0 ? eight >> -shift : eight << shift; };
+      taken |= among & at(row);
+      among &= ~at(0xff);
+    }
+    return taken;
+  }
+
   /// A voxel is to be asked for or added soon.
   void prefetch(Voxel v) const { blocks_.prefetch(v); }
   /// Into a voxel where no plant is.

@@ -284,6 +284,10 @@ std::uint64_t World::ofPlant(Voxel first, std::uint64_t among, int plant) const 
   return own;
 }
 
+std::uint64_t World::ofPlants(Voxel first, std::uint64_t among) const {
+  return grids_->plants.takenAmong(first, among);
+}
+
 std::optional<Surface> World::surfaceAt(Voxel v) const {
   if (!occupied_.at(v)) return std::nullopt;
   if (const auto plant = grids_->plants.surfaceAt(v)) return plant;

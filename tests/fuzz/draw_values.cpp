@@ -73,7 +73,7 @@ std::string ValueDrawer::varying(const rules::Key& key, const Limits& usual) {
     if (!alike) return low;
     return fmt::format("[{}, {}]", low, high);
   }
-  constexpr std::array kOver{"exposure", "age", "height"};
+  constexpr std::array kOver{"exposure", "exposure", "age", "age", "height", "height", "main"};
   std::vector<double> x;
   for (int i = numbers_.whole(2, 5); i > 0; --i)
     x.push_back(numbers_.chance(0.1) ? numbers_.uniform(-1.0, 1.0) * std::numeric_limits<double>::max()

@@ -179,6 +179,16 @@ void RandomFiles::knowSpecials() {
   text("sky.background.file", [this] { return writeSky(); });
   // Most regions that are drawn are not there, or level.
   special("rules:bias.apex.of", [this] { return std::string(numbers_.chance(0.06) ? "roof" : ""); });
+  special("rules:senses.<name>.of", [this] {
+    std::vector<std::string> of(rules::kWhose.begin(), rules::kWhose.end());
+    if (world_.meshes && numbers_.chance(0.1)) of = {"floor"};
+    return numbers_.pick(of);
+  });
+  // Most tips read what lies between.
+  special("rules:require.senses.<name>.min",
+          [this] { return fmt::format("{}", numbers_.uniform(-1.0, 0.05)); });
+  special("rules:require.senses.<name>.max",
+          [this] { return fmt::format("{}", numbers_.uniform(0.5, 9.0)); });
   text("meshes[].scale", [this] { return fmt::format("{}", world_.longest_m()); });
   for (const std::string of : {"meshes[].", "plants[].skeleton."}) {
     text(of + "unit", [this] {

@@ -35,8 +35,11 @@ inline rules::RuleSet lively() {
   rules.bias.twist_radius = {5.0};
   rules.bias.apex = 0.05;
   rules.bias.towards = {{std::nullopt, sim::Vec3(1, 0, 0), 0.05}};
-  rules.require.proximity_max = {4.5};
-  rules.prefer = {true, {1.8}};
+  rules.senses = {{"crowd", rules::SenseSpec::Measure::distance, "scene", {5.0}}};
+  rules.bias.senses = {{"crowd", -0.05}};
+  rules.require.senses = {{"crowd"}};
+  rules.require.proximity_max = {3.0};
+  rules.prefer = {true, {1.8}, 1.0, {{"crowd", 0.1, 10.0}}};
   rules.light = {0.5, 0.5, 1.5};
   rules::Element leaf;
   leaf.per_segment = 1.5;

@@ -131,7 +131,7 @@ TEST(Legend, KeepsClearOfTheEdgesAndShowsTheMap) {
   }
 }
 
-TEST(ContactSheet, SetsPicturesInRowsAndRefusesOddOnes) {
+TEST(ContactSheet, SetsPicturesInRows) {
   const Image red(80, 60, 3, 0.25f), blue(80, 60, 3, 0.75f);
   const std::vector<Captioned> four = {
       {&red, "A", "one"}, {&blue, "B", "two"}, {&red, "C", "three"}, {&blue, "D", ""}};
@@ -141,10 +141,23 @@ TEST(ContactSheet, SetsPicturesInRowsAndRefusesOddOnes) {
   EXPECT_GT(sheet.height, 2 * 30);
   EXPECT_NE(std::count(sheet.pixels.begin(), sheet.pixels.end(), 0.25f), 0);
   EXPECT_NE(std::count(sheet.pixels.begin(), sheet.pixels.end(), 0.75f), 0);
-  const Image other(81, 60, 3);
-  const std::vector<Captioned> odd = {{&red, "", ""}, {&other, "", ""}};
+  const Image grey(80, 60, 1);
+  const std::vector<Captioned> odd = {{&red, "", ""}, {&grey, "", ""}};
   EXPECT_THROW(contactSheet(odd), sim::InputError);
   EXPECT_THROW(contactSheet({}), sim::InputError);
+}
+
+TEST(ContactSheet, ShowsPicturesOfOtherShapesWhole) {
+  const Image wide(80, 20, 3, 0.125f), tower(20, 200, 3, 0.75f);
+  const std::vector<Captioned> both = {{&wide, "", ""}, {&tower, "", ""}};
+  const Image sheet = contactSheet(both, {2, 40, "", ""});
+  const auto pixelsOf = [&](float value) {
+    return std::count_if(sheet.pixels.begin(), sheet.pixels.end(),
+                         [=](float v) { return std::abs(v - value) < 0.01f; }) /
+           3;
+  };
+  EXPECT_EQ(pixelsOf(0.125f), 40 * 10);
+  EXPECT_EQ(pixelsOf(0.75f), 4 * 40) << "as high as a square cell";
 }
 
 TEST(Section, PutsVoxelsWhereTheyBelong) {

@@ -36,7 +36,7 @@ const std::map<std::string, Datum>& otherValues() {
       {"random_tree.fork", WholeRange{1, 3}},
       {"random_tree.fork_angle", 80.0},
       {"random_tree.trials.min", std::int64_t{3}},
-      {"random_tree.trials.max", std::int64_t{60}},
+      {"random_tree.trials.max", std::int64_t{4}},
       {"bias.up", Value(0.3)},
       {"bias.gravity", Value(0.2)},
       {"bias.light.amount", Value(0.4)},
@@ -50,9 +50,18 @@ const std::map<std::string, Datum>& otherValues() {
       {"bias.towards[].point", sim::Vec3(0.4, 1.0, 0.2)},
       {"bias.towards[].direction", sim::Vec3(-1, 0, 1)},
       {"bias.towards[].amount", Value(-0.3)},
+      {"bias.senses[].amount", Value(0.2)},
+      {"senses[].measure", std::string("height")},
+      {"senses[].of", std::string("everything")},
+      {"senses[].within", Distance{2.0}},
+      {"require.senses[].min", 0.05},
+      {"require.senses[].max", 0.1},
+      {"prefer.weight", 5.0},
+      {"prefer.senses[].at", 0.9},
+      {"prefer.senses[].weight", 40.0},
       {"require.clear", false},
       {"require.proximity.min", Distance{1.6}},
-      {"require.proximity.max", Distance{2.2}},
+      {"require.proximity.max", Distance{1.9}},
       {"require.age.min", std::int64_t{2}},
       {"require.age.max", std::int64_t{4}},
       {"require.in_region.max", std::int64_t{2}},
@@ -159,7 +168,7 @@ void forEachKey(const Table& table, const std::string& prefix,
                 const std::function<void(const std::string&)>& visit) {
   for (const Key& key : table.keys) {
     if (key.child) {
-      forEachKey(*key.child, prefix + key.name + (key.kind == Kind::entries ? "[]." : "."), visit);
+      forEachKey(*key.child, prefix + key.name + (key.kind == Kind::section ? "." : "[]."), visit);
     } else {
       visit(prefix + key.name);
     }

@@ -1,6 +1,7 @@
 // States that are whole, and hold what nobody has grown.
 #include "scenes/job/saved_growth.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <functional>
@@ -212,6 +213,33 @@ TEST(KeptFront, ThatIsNoneIsADamagedStateToRunsAndPictures) {
   }
   const std::string lacking = said([&](sim::Commons& commons) { commons.erase(crown); }, false);
   EXPECT_NE(lacking.find("growth.state: the state is damaged: "), std::string::npos) << lacking;
+}
+
+TEST(KeptFront, OfPlantsThatGrowToOneAttractorInTwoWaysGoesOn) {
+  const tests::Scratch scratch;
+  const auto read = [&](int iterations) {
+    auto scene = readScene(scratch.write(
+        "scene.yaml",
+        "espalier: scene\nworld: {voxel: 10 cm, bounds: {min: [0, 0, 0], max: [2, 2, 2]}}\n"
+        "attractors: {one: {sphere: 10 cm, at: [1, 1.5, 1], count: 1}}\nplants:\n"
+        "  - {seeds: [[0.7, 0.3, 1]], rules: {propagate: colonization, colonization: {attractors: one, "
+        "acts: on_nearest_node, step: 15 cm, influence: 2 m, kill: 5 cm}}}\n"
+        "  - {seeds: [[1.3, 0.3, 1]], rules: {propagate: colonization, colonization: {attractors: one, "
+        "acts: on_every_node, step: 15 cm, influence: 2 m, kill: 5 cm}}}\n" +
+            fmt::format("iterations: {}\n", iterations)));
+    EXPECT_TRUE(scene) << format(scene.problems());
+    return *scene;
+  };
+  RunOptions at_once, in_parts;
+  at_once.folder = scratch.path("at_once");
+  in_parts.folder = scratch.path("in_parts");
+  const Report whole = runScene(read(6), at_once, {.keep = true});
+  runScene(read(3), in_parts, {.keep = true});
+  const Report resumed = runScene(read(6), in_parts, {.resume = true});
+  ASSERT_EQ(whole.growth->plants.size(), 2u);
+  for (const auto& plant : whole.growth->plants) EXPECT_GT(plant.segments, 3);
+  EXPECT_EQ(resumed.growth->plants[0].segments, whole.growth->plants[0].segments);
+  EXPECT_EQ(resumed.growth->plants[1].segments, whole.growth->plants[1].segments);
 }
 
 constexpr const char* kTree =

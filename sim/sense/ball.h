@@ -1,0 +1,123 @@
+#pragma once
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <cstdint>
+#include <optional>
+
+#include "sim/base/bits.h"
+
+/// How everything that looks around in a ball walks through its voxels: in rows of 64 along x.
+namespace espalier::sim {
+
+/// The largest whole number whose square is at most `square`, which is not negative.
+inline int rootBelow(double square) {
+  const int root = static_cast<int>(std::sqrt(square));
+  return root * root > square ? root - 1 : root;  // a root rounded up to a whole number
+}
+
+/// How many voxels' centres lie within a radius of a voxel's own.
+std::int64_t voxelsOfBall(double radius_vx);
+
+/// Calls visit(first, bits, dy, dz) for each word of voxels that are set within a radius of one: bit i is
+/// that i voxels from `first` along x, and dy and dz are how far off the row lies. Word by word along x, and
+/// from low to high in y and z.
+template <class Visit>
+void forEachWordOfBall(const BitVolume& set, Voxel about, double radius_vx, Visit visit) {
+  const Voxel size = set.size();
+  const int reach = static_cast<int>(radius_vx);
+  const double square = radius_vx * radius_vx;
+  const Voxel low = glm::max(Voxel(-reach), -about), high = glm::min(Voxel(reach), size - 1 - about);
+  for (int w = (about.x + low.x) >> 6; w <= (about.x + high.x) >> 6; ++w) {
+    const int first_x = 64 * w - about.x;  // of the word's voxels
+    for (int dy = low.y; dy <= high.y; ++dy) {
+      const int wide = rootBelow(square - dy * dy);
+      for (int dz = std::max(-wide, low.z); dz <= std::min(wide, high.z); ++dz) {
+        std::uint64_t word = set.row(about.y + dy, about.z + dz)[w];
+        if (word == 0) continue;
+        const int half = rootBelow(square - dy * dy - dz * dz);
+        const int first = -half - first_x, last = half - first_x;
+        if (first > 63 || last < 0) continue;
+        if (first > 0) word &= ~std::uint64_t{0} << first;
+        if (last < 63) word &= ~std::uint64_t{0} >> (63 - last);
+        if (word != 0) visit(Voxel(64 * w, about.y + dy, about.z + dz), word, dy, dz);
+      }
+    }
+  }
+}
+
+/// The numbers of the bits whose place in the word has bit k set.
+inline constexpr std::array<std::uint64_t, 6> kPlaces{0xaaaaaaaaaaaaaaaa, 0xcccccccccccccccc,
+                                                      0xf0f0f0f0f0f0f0f0, 0xff00ff00ff00ff00,
+                                                      0xffff0000ffff0000, 0xffffffff00000000};
+
+/// The sum of the places of a word's bits.
+inline std::int64_t sumOfPlaces(std::uint64_t word) {
+  std::int64_t sum = 0;
+  for (std::size_t k = 0; k < kPlaces.size(); ++k) sum += std::int64_t{std::popcount(word & kPlaces[k])} << k;
+  return sum;
+}
+
+/// How often each of a word's bits has come: plane k holds the counts' bits k.
+class BitCounts {
+ public:
+  void add(std::uint64_t word) {
+    std::size_t k = 0;
+    const auto carry = [&] {
+      const std::uint64_t both = planes_[k] & word;
+      planes_[k++] ^= word;
+      word = both;
+    };
+    for (int always = 0; always < 4; ++always) carry();  // seldom is anything left after these
+    while (word != 0) carry();
+  }
+  /// Of all bits that came.
+  std::int64_t sumOfPlaces() const {
+    std::int64_t sum = 0;
+    for (std::size_t k = 0; k < planes_.size(); ++k) sum += sim::sumOfPlaces(planes_[k]) << k;
+    return sum;
+  }
+
+ private:
+  std::array<std::uint64_t, 32> planes_{};
+};
+
+/// The mass of the words of a ball that were picked: whole numbers, so that their order does not matter.
+class MassOfBall {
+ public:
+  explicit MassOfBall(Voxel about) : about_(about) {}
+
+  /// As forEachWordOfBall has them, in its order.
+  void add(Voxel first, std::uint64_t word, int dy, int dz) {
+    if (first.x != word_x_) endWord();
+    word_x_ = first.x;
+    columns_.add(word);
+    const std::int64_t here = std::popcount(word);
+    in_word_ += here;
+    sum_ += glm::i64vec3(0, here * dy, here * dz);
+  }
+  std::int64_t count() const { return count_ + in_word_; }
+  /// Voxel space; nothing where there are none.
+  std::optional<Vec3> centre() {
+    endWord();
+    if (count_ == 0) return std::nullopt;
+    return Vec3(about_) + Vec3(sum_) / static_cast<double>(count_);
+  }
+
+ private:
+  void endWord() {
+    sum_.x += columns_.sumOfPlaces() + in_word_ * (word_x_ - about_.x);
+    count_ += in_word_;
+    in_word_ = 0;
+    columns_ = {};
+  }
+
+  Voxel about_;
+  BitCounts columns_;
+  glm::i64vec3 sum_{0};
+  std::int64_t count_ = 0, in_word_ = 0;
+  int word_x_ = 0;
+};
+
+}  // namespace espalier::sim

@@ -1,0 +1,100 @@
+#include "sim/sense/company.h"
+
+#include <bit>
+#include <limits>
+
+#include "sim/sense/ball.h"
+#include "sim/tile/tiling.h"
+
+namespace espalier::sim {
+namespace {
+
+std::uint64_t ofRegion(const World& world, const std::string& region, Voxel first, std::uint64_t among) {
+  std::uint64_t those = 0;
+  for (std::uint64_t left = among; left != 0; left &= left - 1) {
+    const Voxel v = first + Voxel(std::countr_zero(left), 0, 0);
+    if (world.part(world.partAt(v)).region == region) those |= left & -left;
+  }
+  return those;
+}
+
+/// The bit nearest to a place of -63 to 126; of two the lower. The word is not 0.
+int nearestBit(std::uint64_t word, int place) {
+  const std::uint64_t up_to = place < 0 ? 0 : place >= 63 ? word : word & ((std::uint64_t{2} << place) - 1);
+  const std::uint64_t beyond = word & ~up_to;
+  if (up_to == 0) return std::countr_zero(beyond);
+  const int before = 63 - std::countl_zero(up_to);
+  if (beyond == 0) return before;
+  const int behind = std::countr_zero(beyond);
+  return place - before <= behind - place ? before : behind;
+}
+
+}  // namespace
+
+std::int64_t voxelsOfBall(double radius_vx) {
+  const int reach = static_cast<int>(radius_vx);
+  const double square = radius_vx * radius_vx;
+  std::int64_t voxels = 0;
+  for (int dy = -reach; dy <= reach; ++dy) {
+    const int wide = rootBelow(square - dy * dy);
+    for (int dz = -wide; dz <= wide; ++dz) voxels += 2 * rootBelow(square - dy * dy - dz * dz) + 1;
+  }
+  return voxels;
+}
+
+std::uint64_t thoseOf(const World& world, const Whose& whose, Voxel first, std::uint64_t among) {
+  if (whose.kind == Whose::Kind::everything || among == 0) return among;
+  const std::uint64_t plants = world.ofPlants(first, among);
+  const auto own = [&] { return plants != 0 ? world.ofPlant(first, plants, whose.plant) : 0; };
+  switch (whose.kind) {
+    case Whose::Kind::scene:
+      return among & ~plants;
+    case Whose::Kind::plants:
+      return plants;
+    case Whose::Kind::own:
+      return own();
+    case Whose::Kind::others:
+      return plants & ~own();
+    case Whose::Kind::region:
+      return ofRegion(world, whose.region, first, among & ~plants);
+    case Whose::Kind::everything:
+      break;
+  }
+  return among;
+}
+
+Crowd crowdAround(const World& world, const Whose& whose, Voxel about, double radius_vx) {
+  MassOfBall mass(about);
+  forEachWordOfBall(world.occupied(), about, radius_vx, [&](Voxel first, std::uint64_t word, int dy, int dz) {
+    mass.add(first, thoseOf(world, whose, first, word), dy, dz);
+  });
+  const auto all = static_cast<double>(voxelsOfBall(radius_vx));
+  return {static_cast<double>(mass.count()) / all, mass.centre()};
+}
+
+std::optional<Voxel> nearestOf(const World& world, const Whose& whose, Voxel about, double radius_vx) {
+  std::optional<Voxel> nearest;
+  std::int64_t least = std::numeric_limits<std::int64_t>::max();
+  const auto before = [](Voxel a, Voxel b) { return std::tie(a.y, a.z, a.x) < std::tie(b.y, b.z, b.x); };
+  forEachWordOfBall(world.occupied(), about, radius_vx, [&](Voxel first, std::uint64_t word, int dy, int dz) {
+    if (std::int64_t{dy} * dy + std::int64_t{dz} * dz > least) return;
+    const std::uint64_t those = thoseOf(world, whose, first, word);
+    if (those == 0) return;
+    Voxel v = first;
+    v.x += nearestBit(those, about.x - first.x);
+    const std::int64_t dx = v.x - about.x, square = dx * dx + std::int64_t{dy} * dy + std::int64_t{dz} * dz;
+    if (square > least || (square == least && !before(v, *nearest))) return;
+    least = square;
+    nearest = v;
+  });
+  return nearest;
+}
+
+double heightAbove(const World& world, const Whose& whose, Vec3 at_vx) {
+  Voxel v = voxelAt(at_vx);
+  const Voxel own = v;
+  while (v.y >= 0 && !(v != own && world.occupied().at(v) && thoseOf(world, whose, v, 1) != 0)) --v.y;
+  return std::max(0.0, at_vx.y - (v.y + 0.5));
+}
+
+}  // namespace espalier::sim

@@ -144,8 +144,8 @@ HWY_INLINE Direction bent(Direction direction, const Pull& pull, Numbers& number
   return chosen(bends, divided(mixed, long_), direction);
 }
 
-/// Of half the cone's angle. `narrow`: all trials are before those that wander farther and farther.
-HWY_INLINE F cosineOfWander(const Ways& ways, bool narrow, hn::Vec<Whole> trial, Numbers& numbers) {
+/// In degrees, not yet limited. `narrow`: all trials are before those that wander farther and farther.
+HWY_INLINE F widened(const Ways& ways, bool narrow, hn::Vec<Whole> trial, Numbers& numbers) {
   F wander = numbers.value(ways.wander_deg, TrialSlot::wander);
   if (narrow) {
     if (ways.narrowly != 1.0f) wander = hn::Mul(set(ways.narrowly), wander);
@@ -154,17 +154,74 @@ HWY_INLINE F cosineOfWander(const Ways& ways, bool narrow, hn::Vec<Whole> trial,
     const F share = hn::Div(beyond, set(static_cast<float>(std::max(1, ways.widest - ways.narrow))));
     wander = hn::Mul(hn::Add(set(ways.narrowly), hn::Max(set(0.0f), share)), wander);
   }
-  return circle(hn::Mul(hn::Min(set(180.0f), wander), set(1.0f / 360))).cosine;
+  return wander;
+}
+
+/// The natural logarithm of normal numbers above 0, by the series of the area tangent about 1.
+HWY_INLINE F logarithm(F x) {
+  constexpr std::int32_t kRootOfHalf = 0x3f3504f3;  // the bits of that number: it begins what is nearest to 1
+  const Floats d;
+  const Whole whole;
+  const auto bits = hn::BitCast(whole, x);
+  const auto octave = hn::ShiftRight<23>(hn::Sub(bits, hn::Set(whole, kRootOfHalf)));
+  const F m = hn::BitCast(d, hn::Sub(bits, hn::ShiftLeft<23>(octave)));
+  const F z = hn::Div(hn::Sub(m, set(1.0f)), hn::Add(m, set(1.0f))), z2 = hn::Mul(z, z);
+  F sum = hn::Mul(z2, set(1.0f / 9));
+  for (const float term : {1.0f / 7, 1.0f / 5, 1.0f / 3}) sum = hn::Mul(hn::Add(sum, set(term)), z2);
+  const F of_m = hn::Mul(hn::Mul(set(2.0f), z), hn::Add(set(1.0f), sum));
+  return hn::Add(hn::Mul(hn::ConvertTo(d, octave), set(0.69314718055994531f)), of_m);
+}
+
+/// How far from their middle two normal numbers of deviation 1 lie together, by an even number in [0, 1).
+HWY_INLINE F rayleigh(F even) {
+  return hn::Sqrt(hn::Mul(set(-2.0f), logarithm(hn::Sub(set(1.0f), even))));
+}
+
+/// A share of the angle as a table has it, by an even number in [0, 1).
+HWY_INLINE F drawnFrom(const AngleDensity& angles, F even) {
+  const auto& first = angles.pieces[0];
+  F from = set(first.from), per_share = set(first.per_share), low = set(first.low), rise = set(first.rise),
+    at = set(first.at), span = set(first.span);
+  for (std::size_t i = 1; i < angles.count; ++i) {
+    const auto& piece = angles.pieces[i];
+    const auto in = hn::Ge(even, set(piece.from));
+    from = hn::IfThenElse(in, set(piece.from), from);
+    per_share = hn::IfThenElse(in, set(piece.per_share), per_share);
+    low = hn::IfThenElse(in, set(piece.low), low);
+    rise = hn::IfThenElse(in, set(piece.rise), rise);
+    at = hn::IfThenElse(in, set(piece.at), at);
+    span = hn::IfThenElse(in, set(piece.span), span);
+  }
+  const F part = hn::Min(set(1.0f), hn::Mul(hn::Sub(even, from), per_share));
+  const F square = hn::Add(hn::Mul(low, low), hn::Mul(hn::Mul(set(2.0f), rise), part));
+  const F below = hn::Add(low, hn::Sqrt(hn::Max(set(0.0f), square)));
+  const F along = hn::Div(hn::Mul(set(2.0f), part), hn::Max(set(1e-20f), below));
+  return hn::Add(at, hn::Mul(span, hn::Min(set(1.0f), along)));
+}
+
+/// How far a trial goes along the way that it wanders from, and how far across. `narrow`: as above.
+struct Lean {
+  F along, across;
+};
+HWY_INLINE Lean leanOf(const Ways& ways, bool narrow, hn::Vec<Whole> trial, Numbers& numbers) {
+  const F wander = widened(ways, narrow, trial, numbers), even = numbers.uniform(TrialSlot::cone_height);
+  const auto circleOf = [](F degrees) {
+    return circle(hn::Mul(hn::Min(set(180.0f), degrees), set(1.0f / 360)));
+  };
+  if (ways.wanders == AngleDistribution::cone) {
+    // Even in height is even on the sphere (Archimedes).
+    const F along = hn::Sub(set(1.0f), hn::Mul(even, hn::Sub(set(1.0f), circleOf(wander).cosine)));
+    return {along, hn::Sqrt(hn::Max(set(0.0f), hn::Sub(set(1.0f), hn::Mul(along, along))))};
+  }
+  const bool gaussian = ways.wanders == AngleDistribution::gaussian;
+  const Circle lean = circleOf(hn::Mul(wander, gaussian ? rayleigh(even) : drawnFrom(ways.angles, even)));
+  return {lean.cosine, lean.sine};
 }
 
 /// `axes`: of the limb; `narrow`: as above.
 HWY_INLINE Direction directionOf(const Ways& ways, const Axes& axes, bool narrow, hn::Vec<Whole> trial,
                                  Numbers& numbers) {
-  const F cosine = cosineOfWander(ways, narrow, trial, numbers);
-  // Even in height is even on the sphere (Archimedes).
-  const F along =
-      hn::Sub(set(1.0f), hn::Mul(numbers.uniform(TrialSlot::cone_height), hn::Sub(set(1.0f), cosine)));
-  const F across = hn::Sqrt(hn::Max(set(0.0f), hn::Sub(set(1.0f), hn::Mul(along, along))));
+  const auto [along, across] = leanOf(ways, narrow, trial, numbers);
   const F turn = numbers.uniform(TrialSlot::cone_turn);
   Direction direction = axes.axis;
   if (ways.branch) {
@@ -235,6 +292,8 @@ Ways waysOf(const RuleSet& rules, const Surroundings& around, const Senses& sens
     ways.branch = key.number != 0;
     ways.side_angle_deg = spreadOf(tree.branch_angle_deg, senses.circumstance);
     ways.wander_deg = spreadOf(tree.wander_deg, senses.circumstance);
+    ways.wanders = tree.distribution();
+    if (ways.wanders == AngleDistribution::table) ways.angles = angleDensityOf(tree.wander_table);
     ways.narrow = tree.trials_min;
   }
   ways.widest = tree.trials_max;

@@ -1,6 +1,7 @@
 #pragma once
 #include <array>
 
+#include "rules/growth/angle_density.h"
 #include "rules/growth/senses.h"
 #include "rules/language/rule_set.h"
 #include "sim/base/random.h"
@@ -52,6 +53,8 @@ struct Ways {
   sim::Vec3f axis{0, 1, 0};  ///< unit: the limb's way, or a seed's
   bool branch = false;       ///< leaves the axis at `side_angle_deg`, on a side by chance, before it wanders
   Spread side_angle_deg{}, wander_deg{};
+  AngleDistribution wanders = AngleDistribution::cone;
+  AngleDensity angles;  ///< where it is a table
   /// Trials below `narrow` wander up to `narrowly` times the angle; from there on farther and farther, up to
   /// once the angle more for trial `widest` - 1.
   int narrow = 0, widest = 0;

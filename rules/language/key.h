@@ -131,7 +131,8 @@ const Key* briefOf(const Key& key);
 
 /// Something that must hold between keys.
 struct Check {
-  using Given = std::function<bool(std::string_view path)>;  ///< was this key written?
+  /// Which of the files that build on each other wrote this key last, from 1; 0: none did.
+  using Given = std::function<int(std::string_view path)>;
   using Complain = std::function<void(const std::string& path, const std::string& text)>;
 
   std::vector<std::string> reads;  ///< paths; the check waits where one of these is wrong by itself

@@ -4,6 +4,7 @@
 #include "rules/language/envelope_keys.h"
 #include "rules/language/key_builder.h"
 #include "rules/language/sense_keys.h"
+#include "rules/language/wander_keys.h"
 
 // Greene's names are those of figure 4 and section 6 of: Ned Greene, Voxel Space Automata, SIGGRAPH 1989.
 namespace espalier::rules {
@@ -45,10 +46,11 @@ std::shared_ptr<const Table> randomTreeKeys() {
               .limits = kAngle,
               .meaning = "Angle between a branch and the limb that it leaves.",
               .greene = "branch_angle"})
-      .value("wander", &RandomTree::wander_deg,
-             {.unit = kDegrees,
-              .limits = kAngle,
-              .meaning = "A trial's direction lies within this angle of the way that the limb was going."})
+      .section(
+          "wander", std::identity{}, wanderKeys(),
+          {.meaning =
+               "How far trials turn from the way that the limb was going; a number stands for its angle."},
+          "angle")
       .section("trials", std::identity{}, trials,
                {.meaning = "How hard a tip tries to find a place for its next segment."})
       .wholeRange("fork", &RandomTree::fork_min, &RandomTree::fork_max,

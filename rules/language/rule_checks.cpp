@@ -5,6 +5,7 @@
 #include "rules/language/envelope_keys.h"
 #include "rules/language/registry.h"
 #include "rules/language/sense_keys.h"
+#include "rules/language/wander_keys.h"
 #include "sim/base/counted.h"
 
 namespace espalier::rules {
@@ -165,6 +166,7 @@ const std::vector<Check>& ruleChecks() {
       ordered(
           "require.age.min", "require.age.max", [](auto& r) { return Distance{double(r.require.age_min)}; },
           [](auto& r) { return Distance{double(r.require.age_max)}; }, true),
+      check({"random_tree.wander"}, checkWander),
       check({}, checkPulls),
       check({}, checkSenses),
       check({}, checkElements),

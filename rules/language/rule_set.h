@@ -44,6 +44,16 @@ struct Polygons {
   friend bool operator==(const Polygons&, const Polygons&) = default;
 };
 
+/// What the angle between a trial and its limb's way is drawn from; the side it leans to is always even.
+enum class AngleDistribution {
+  cone,      ///< as many trials on each piece of the cap that wander reaches
+  gaussian,  ///< wander is the standard deviation to each of two sides, so that the angle is Rayleigh's
+  table      ///< of angles as shares of wander, as RandomTree::wander_table says
+};
+
+inline constexpr std::size_t kMostAngles = 64;   ///< of a table
+inline constexpr double kMostOfWander = 1000.0;  ///< as a share
+
 /// Greene's random walk: each tip grows by its best trial, and nodes branch when they come of age.
 struct RandomTree {
   Length length{2.4};
@@ -51,12 +61,19 @@ struct RandomTree {
   int branch_age_max = 3;
   Value branch_angle_deg = 60.0;
   Value wander_deg = 20.0;  ///< a trial's direction lies within this angle of the way that the limb was going
-  int trials_min = 150;     ///< trials before the best one is taken
-  int trials_max = 300;     ///< trials before the tip gives up
+  std::optional<AngleDistribution> wander_distribution;  ///< as it was written; ask distribution()
+  std::vector<glm::dvec2> wander_table;  ///< [share of wander, density of the angle there], straight between
+  int trials_min = 150;                  ///< trials before the best one is taken
+  int trials_max = 300;                  ///< trials before the tip gives up
   /// Segments that a tip lays at once: as many as find room, and none where fewer do. Where a plant's rules
   /// have more than one anywhere, limbs leave each other in no other way.
   int fork_min = 1, fork_max = 1;
   double fork_angle_deg = 30.0;  ///< at least, between any two of them
+
+  AngleDistribution distribution() const {
+    return wander_distribution.value_or(wander_table.empty() ? AngleDistribution::cone
+                                                             : AngleDistribution::table);
+  }
 };
 
 /// Who chooses whom, of attractors and nodes.

@@ -238,8 +238,9 @@ void runChecks(const std::vector<rules::Check>& checks, const void* target,
                        [&](const auto& f) { return overlap(f, path); });
   };
   const auto given = [&](std::string_view path) {
-    return std::any_of(layers.begin(), layers.end(),
-                       [&](const auto* layer) { return locate(*layer, path).whole; });
+    const auto last = std::find_if(layers.rbegin(), layers.rend(),
+                                   [&](const auto* layer) { return locate(*layer, path).whole; });
+    return static_cast<int>(layers.rend() - last);
   };
   const auto complain = [&](const std::string& path, const std::string& text) {
     if (!hasFailed(path)) reading.problems.add(placeOf(layers, path), text);

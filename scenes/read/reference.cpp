@@ -31,6 +31,7 @@ How values are written:
 - *length*: a value of such; all of a range's or a curve's numbers have units, or none has.
 - *size*: a value that is a factor; or lengths with units, `6 cm`, `[4 cm, 8 cm]`, each of which is then as long as 1 in
   the polygons.
+- *pairs*: a list of `[a, b]`, such as `[[0, 1], [0.5, 3]]`.
 - *polygons*: lists of corners `[x, y, z]`, all of an element's in voxel widths or all with units, `[0, 6 cm, -5 mm]`; 0
   needs none.
 - *colour*: `"#4f7a2c"`, in quotes, for an unquoted `#` begins a comment; or `[r, g, b]` from 0 to 1. Both sRGB.

@@ -207,6 +207,14 @@ void agreeOnElement(Drawn& element, tests::Numbers& numbers) {
 }
 
 void agreeOnRules(Drawn& rules) {
+  Drawn* const tree = find(rules, "random_tree");
+  if (Drawn* const wander = tree ? find(*tree, "wander") : nullptr) {
+    Drawn* const named = find(*wander, "distribution");
+    if (find(*wander, "table"))
+      takeOut(*wander, {"distribution"});
+    else if (named && named->text == "table")
+      named->text = "gaussian";
+  }
   Drawn* const require = find(rules, "require");
   for (const char* const key : {"proximity", "age"}) {
     Drawn* const bounds = require ? find(*require, key) : nullptr;

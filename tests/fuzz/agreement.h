@@ -16,7 +16,8 @@ void agreeOnCrown(Drawn& crown, const std::string& radius, tests::Numbers& numbe
 /// Gives an element something to be, and one way to say how many there are.
 void agreeOnElement(Drawn& element, tests::Numbers& numbers);
 
-/// Puts the bounds of what a rule set requires in order, where they are written alike.
+/// Puts the bounds of what a rule set requires in order, where they are written alike; limbs wander by one
+/// distribution.
 void agreeOnRules(Drawn& rules);
 
 /// Gives a pull either a place or a way.

@@ -1,5 +1,6 @@
 #pragma once
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <limits>
 #include <optional>
@@ -51,6 +52,46 @@ inline sim::Vec3f plainLeaning(sim::Vec3f axis, float along, float across, float
   return axis * along + (u * side.cosine + v * side.sine) * across;
 }
 
+inline float plainLogarithm(float x) {
+  const auto bits = std::bit_cast<std::int32_t>(x);
+  const std::int32_t octave = (bits - 0x3f3504f3) >> 23;
+  const float m = std::bit_cast<float>(bits - octave * (1 << 23)), z = (m - 1.0f) / (m + 1.0f), z2 = z * z;
+  float sum = z2 * (1.0f / 9);
+  for (const float term : {1.0f / 7, 1.0f / 5, 1.0f / 3}) sum = (sum + term) * z2;
+  return static_cast<float>(octave) * 0.69314718055994531f + 2.0f * z * (1.0f + sum);
+}
+
+inline float plainShare(const rules::AngleDensity& angles, float even) {
+  std::size_t i = 0;
+  while (i + 1 < angles.count && even >= angles.pieces[i + 1].from) ++i;
+  const rules::AngleDensity::Piece& piece = angles.pieces[i];
+  const float part = std::min(1.0f, (even - piece.from) * piece.per_share);
+  const float square = piece.low * piece.low + 2.0f * piece.rise * part;
+  const float below = piece.low + std::sqrt(std::max(0.0f, square));
+  return piece.at + piece.span * std::min(1.0f, 2.0f * part / std::max(1e-20f, below));
+}
+
+struct PlainLean {
+  float along, across;
+};
+inline PlainLean plainLean(const rules::Ways& ways, float wander, float even) {
+  const auto circleOf = [](float degrees) { return plainCircle(std::min(180.0f, degrees) * (1.0f / 360)); };
+  switch (ways.wanders) {
+    case rules::AngleDistribution::cone:
+      break;
+    case rules::AngleDistribution::gaussian: {
+      const PlainCircle lean = circleOf(wander * std::sqrt(-2.0f * plainLogarithm(1.0f - even)));
+      return {lean.cosine, lean.sine};
+    }
+    case rules::AngleDistribution::table: {
+      const PlainCircle lean = circleOf(wander * plainShare(ways.angles, even));
+      return {lean.cosine, lean.sine};
+    }
+  }
+  const float along = 1.0f - even * (1.0f - circleOf(wander).cosine);
+  return {along, std::sqrt(std::max(0.0f, 1.0f - along * along))};
+}
+
 inline sim::Fixed plainTrialEnd(const rules::Ways& ways, const sim::RandomKey& key, unsigned set, int trial) {
   sim::Slots slots(key, sim::Purpose::trial, set, static_cast<unsigned>(trial));
   const auto uniform = [&](rules::TrialSlot slot) { return slots.uniformFloat(static_cast<unsigned>(slot)); };
@@ -68,11 +109,9 @@ inline sim::Fixed plainTrialEnd(const rules::Ways& ways, const sim::RandomKey& k
     widening += static_cast<float>(trial - ways.narrow + 1) /
                 static_cast<float>(std::max(1, ways.widest - ways.narrow));
   }
-  const float wander = std::min(180.0f, widening * value(ways.wander_deg, rules::TrialSlot::wander));
-  const float cosine = plainCircle(wander * (1.0f / 360)).cosine;
-  const float along = 1.0f - uniform(rules::TrialSlot::cone_height) * (1.0f - cosine);
-  const float across = std::sqrt(std::max(0.0f, 1.0f - along * along));
-  sim::Vec3f direction = plainLeaning(axis, along, across, uniform(rules::TrialSlot::cone_turn));
+  const PlainLean lean = plainLean(ways, widening * value(ways.wander_deg, rules::TrialSlot::wander),
+                                   uniform(rules::TrialSlot::cone_height));
+  sim::Vec3f direction = plainLeaning(axis, lean.along, lean.across, uniform(rules::TrialSlot::cone_turn));
   for (std::size_t i = 0; i < ways.pull_count; ++i) {
     const rules::Pull& pull = ways.pulls[i];
     const float weight = value(pull.weight, pull.slot);

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <random>
 
 #include "sim/sweep/lanes.h"
@@ -20,6 +21,18 @@ sim::Vec3 anyUnit(std::mt19937& random) {
   return glm::normalize(sim::Vec3(x, y, z) + sim::Vec3(1e-3));
 }
 
+/// Of two points to as many as may be, with gaps.
+std::vector<glm::dvec2> anyTable(std::mt19937& random) {
+  std::vector<glm::dvec2> table;
+  double share = 0.0;
+  for (std::size_t left = random() % 4 == 0 ? kMostAngles : 2 + random() % 5; left > 0; --left) {
+    share += (1.0 + static_cast<double>(random() % 1000)) / 2000.0;
+    table.emplace_back(share, random() % 3 == 0 ? 0.0 : static_cast<double>(random() % 1000));
+  }
+  table.back().y = 1.0;
+  return table;
+}
+
 /// Rules in which each quantity is a number, a range, or nothing.
 RuleSet anyRules(std::mt19937& random) {
   const auto any = [&](double low, double high) {
@@ -35,6 +48,11 @@ RuleSet anyRules(std::mt19937& random) {
   RuleSet rules;
   rules.random_tree.length = {any(0.5, 7.5)};
   rules.random_tree.wander_deg = any(0.0, 180.0);
+  constexpr std::array kDistributions{AngleDistribution::cone, AngleDistribution::cone,
+                                      AngleDistribution::gaussian, AngleDistribution::table};
+  rules.random_tree.wander_distribution = kDistributions[random() % kDistributions.size()];
+  if (rules.random_tree.distribution() == AngleDistribution::table)
+    rules.random_tree.wander_table = anyTable(random);
   rules.random_tree.branch_angle_deg = any(0.0, 180.0);
   rules.random_tree.trials_min = 1 + static_cast<int>(random() % 100);
   rules.random_tree.trials_max = rules.random_tree.trials_min + static_cast<int>(random() % 100);

@@ -41,6 +41,8 @@ std::shared_ptr<const Table> variationKeys() {
       .number("age", &ColourVariation::by_age, weight("How much lighter the young ones are."))
       .number("light", &ColourVariation::by_light,
               weight("How much brighter those are that grew in the light."))
+      .number("height", &ColourVariation::by_height,
+              weight("How far the higher ones of a plant go from green to gold."))
       .shared();
 }
 

@@ -66,6 +66,7 @@ const std::map<std::string, Datum>& otherValues() {
       {"elements[].per_segment", Value(0.4)},
       {"elements[].size", Length{0.6}},
       {"elements[].face", Value(0.1)},
+      {"elements[].pose", std::string("hang")},
       {"elements[].polygons", Polygons{square()}},
       {"elements[].petiole", Length{0.8}},
       {"elements[].crosses", true},

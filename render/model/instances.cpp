@@ -35,7 +35,7 @@ Instances bladesAsInstances(const ModelMesh& blades, const sim::Plant& plant, co
   Instances result;
   result.shape = likeOf(blades);
   result.tinted = !blades.tints.empty();
-  appendElement(result.shape, {}, plant.shapes[shape], {Vec3(0.0), frame.voxel_m, frame.size}, 0.0f, 0);
+  appendElement(result.shape, {}, plant.shapes[shape], {Vec3(0.0), frame.voxel_m, frame.size}, {}, 0);
   for (std::size_t v = 0; v < blades.pieces.size(); ++v) {
     if (v > 0 && blades.pieces[v] == blades.pieces[v - 1]) continue;
     const sim::PlacedElement element = feet.of(plant.elements[blades.pieces[v]]).element;

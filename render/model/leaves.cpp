@@ -4,8 +4,6 @@
 #include <cmath>
 #include <limits>
 
-#include "render/model/leaf_tint.h"
-
 namespace espalier::render {
 namespace {
 
@@ -80,7 +78,7 @@ Vec3 bladeBase(const sim::ElementShape& shape) {
 }
 
 void appendElement(ModelMesh& mesh, const sim::PlacedElement& element, const sim::ElementShape& shape,
-                   const sim::Frame& frame, float youth, std::uint32_t piece) {
+                   const sim::Frame& frame, const LeafPlace& place, std::uint32_t piece) {
   const Extent extent = extentOf(shape);
   for (const auto& polygon : shape.polygons) {
     std::vector<Vec3> corners = polygon;
@@ -91,7 +89,7 @@ void appendElement(ModelMesh& mesh, const sim::PlacedElement& element, const sim
     const Vec3 normal = glm::normalize(areaVector(corners));
     if (fan.with_centre) corners.push_back(centreOf(corners));
     const int across = std::abs(normal.x) > std::abs(normal.z) ? 2 : 0;
-    const sim::Colour tint = leafTint(piece, youth, element.exposure, shape.varies);
+    const sim::Colour tint = leafTint(piece, place, element.exposure, shape.varies);
     const auto first = static_cast<std::uint32_t>(mesh.positions_m.size());
     for (const Vec3 corner : corners) {
       const Vec3 uv = (corner - extent.low) / extent.size;
@@ -100,7 +98,7 @@ void appendElement(ModelMesh& mesh, const sim::PlacedElement& element, const sim
       mesh.uvs.emplace_back(uv[across], uv.y);
       mesh.tints.push_back(tint);
       mesh.exposures.push_back(element.exposure);
-      mesh.youths.push_back(youth);
+      mesh.youths.push_back(place.youth);
       mesh.pieces.push_back(piece);
     }
     for (const auto& t : fan.triangles) mesh.triangles.push_back({first + t[0], first + t[1], first + t[2]});

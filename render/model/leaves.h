@@ -4,6 +4,7 @@
 #include <span>
 #include <vector>
 
+#include "render/model/leaf_tint.h"
 #include "render/model/model_mesh.h"
 #include "sim/base/frame.h"
 #include "sim/grow/plant.h"
@@ -29,6 +30,6 @@ sim::Vec3 bladeBase(const sim::ElementShape& shape);
 /// Appends a placed element's polygons. Flat normals on the shape's face (+z) side; UVs span the shape's own
 /// x and y extent, v along its growth; of a polygon that faces x rather than z, u spans the extent in z.
 void appendElement(ModelMesh& mesh, const sim::PlacedElement& element, const sim::ElementShape& shape,
-                   const sim::Frame& frame, float youth, std::uint32_t piece);
+                   const sim::Frame& frame, const LeafPlace& place, std::uint32_t piece);
 
 }  // namespace espalier::render

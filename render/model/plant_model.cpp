@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
 #include "render/model/drawn_bark.h"
 #include "render/model/drawn_leaf.h"
@@ -51,6 +52,23 @@ class Youth {
   std::int32_t last_ = 1;
 };
 
+/// How high on its plant an element stands, 0..1.
+class Height {
+ public:
+  explicit Height(const sim::Plant& plant) {
+    for (const sim::PlacedElement& element : plant.elements) {
+      low_ = std::min(low_, element.position_vx.y);
+      high_ = std::max(high_, element.position_vx.y);
+    }
+  }
+  float of(const sim::PlacedElement& element) const {
+    return high_ > low_ ? static_cast<float>((element.position_vx.y - low_) / (high_ - low_)) : 0.0f;
+  }
+
+ private:
+  double low_ = std::numeric_limits<double>::infinity(), high_ = -low_;
+};
+
 /// How thick a stalk is: thinner than a twig, and in proportion to a small blade.
 double stalkRadius(const sim::Plant& plant, const sim::PlacedElement& element, Vec3 base_vx) {
   const double blade_vx = glm::distance(base_vx, sim::placed(element, {0.0, 1.0, 0.0}));
@@ -90,6 +108,7 @@ PlantModel modelPlant(const sim::Plant& plant, const sim::Frame& frame, const Mo
   if (options.walls != nullptr) blocked = [&](Vec3 p_vx) { return options.walls->at(sim::voxelAt(p_vx)); };
   const StemCurves curves = stemCurves(plant.skeleton, radii, blocked);
   const Youth youth(plant);
+  const Height height(plant);
 
   LimbData data{plant.skeleton, radii, {}, {}};
   const Exposure exposure(plant.skeleton);
@@ -132,7 +151,7 @@ PlantModel modelPlant(const sim::Plant& plant, const sim::Frame& frame, const Mo
     ModelMesh& mesh = model.elements[static_cast<std::size_t>(element.shape)];
     const auto piece = static_cast<std::uint32_t>(e);
     const float young = youth.of(element.born);
-    appendElement(mesh, element, shape, frame, young, piece);
+    appendElement(mesh, element, shape, frame, {young, height.of(plant.elements[e])}, piece);
     appendStalk(model.stalks, plant, foot, frame, young, piece);
   }
   const auto orderOf = [&](const sim::PlacedElement& element) {

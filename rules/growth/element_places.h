@@ -53,14 +53,27 @@ enum ElementSlot : unsigned {
   kPitch,
   kPetiole,
   kSway,
-  kTilt
+  kTilt,
+  kLift
 };
 
+/// Farther than this from where it is attached no element is lifted off the surface that it lies on, voxel
+/// widths.
+inline constexpr double kMostLift = 0.75;
+
+/// Unit, square to the scene's surface that is nearest to a place inside the world, and away from it: as the
+/// surface was modelled, where that is known, and else as the distance to it grows. Zero where nothing is
+/// near.
+sim::Vec3 surfaceNormal(const sim::World& world, sim::Vec3 place_vx);
+
 /// Which way an element's trial stands on its segment; the axes of `element` are set, and its position moved
-/// out by the petiole. `stem`: unit, the segment's way; `across`: of LimbPlace. By phyllotaxis it leaves the
-/// stem by the pitch, swaying the more the later the trial; else it points outwards and a little down, as its
-/// own weight and its stalk make it. Its face turns towards the open and the light, as a leaf's blade does.
+/// out by the petiole. `stem`: unit, the segment's way; `across`: of LimbPlace; `surface`: of surfaceNormal,
+/// which the pose `surface` alone asks for. Free: by phyllotaxis it leaves the stem by the pitch, swaying the
+/// more the later the trial; else it points outwards and a little down, as its own weight and its stalk make
+/// it. Its face turns towards the open and the light, as a leaf's blade does. In any other pose it turns
+/// about what the pose fixes, an axis or a normal, by chance and the farther the later the trial.
 void stand(sim::PlacedElement& element, const Element& rule, const ElementPlace& place, sim::Vec3 stem,
-           sim::Vec3 across, const Surroundings& around, const Senses& senses, int trial, sim::Slots& slots);
+           sim::Vec3 across, const Surroundings& around, const Senses& senses, sim::Vec3 surface, int trial,
+           sim::Slots& slots);
 
 }  // namespace espalier::rules

@@ -45,9 +45,10 @@ sim::LatticeBox reachOf(const sim::SiteView& view, const RuleSet& rules, double 
   double reach = 0.0;
   for (std::size_t i = 0; i < rules.elements.size(); ++i) {
     const auto part = view.plant.element_parts[static_cast<std::size_t>(first_shape) + i];
-    const double petiole_vx = highest(rules.elements[i].petiole.value);
+    double away_vx = highest(rules.elements[i].petiole.value);
+    if (rules.elements[i].pose == Pose::surface) away_vx += kMostLift;
     for (const sim::Vec3 corner : view.pieces.shapeOf(part).corners)
-      reach = std::max(reach, petiole_vx + glm::length(corner) * highest(rules.elements[i].size) * vigour);
+      reach = std::max(reach, away_vx + glm::length(corner) * highest(rules.elements[i].size) * vigour);
   }
   const sim::Vec3 rim(sim::Vec3(view.world.frame().size));
   const sim::Vec3 most(reach + 1e-3);
@@ -123,7 +124,9 @@ std::vector<sim::ProposedElement> proposeElements(const sim::SiteView& view, con
         element.position_vx = glm::mix(around.at_vx, to_vx, along);
         element.exposure = static_cast<float>(senses.exposure);
         element.scale = evaluate(rule.size, senses.circumstance, slots.uniform(kSize)) * senses.vigour;
-        stand(element, rule, places[i], stem, begins.across, around, senses, trial, slots);
+        const sim::Vec3 surface =
+            rule.pose == Pose::surface ? surfaceNormal(view.world, element.position_vx) : sim::Vec3(0.0);
+        stand(element, rule, places[i], stem, begins.across, around, senses, surface, trial, slots);
         // The cheap questions first. The world is frozen: the element's own segment does not stand there yet.
         if (!sim::place(element, facet_shape, facets) || !sim::inside(view.world.frame().size, facets) ||
             (!rule.crosses && nearby.clash(facets, {sim::latticePoint(element.position_vx)})))

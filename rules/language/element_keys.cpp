@@ -41,6 +41,8 @@ std::shared_ptr<const Table> variationKeys() {
       .number("age", &ColourVariation::by_age, weight("How much lighter the young ones are."))
       .number("light", &ColourVariation::by_light,
               weight("How much brighter those are that grew in the light."))
+      .number("height", &ColourVariation::by_height,
+              weight("How far the higher ones of a plant go from green to gold."))
       .shared();
 }
 
@@ -106,6 +108,15 @@ std::shared_ptr<const Table> elementKeys() {
              {.unit = "weight",
               .limits = {0.0, 1.0},
               .meaning = "How far the face turns from the stem's own way to the open and the sky."})
+      .choice<Pose>(
+          "pose", &Element::pose,
+          {{"free", Pose::free},
+           {"hang", Pose::hang},
+           {"stand", Pose::stand},
+           {"light", Pose::light},
+           {"surface", Pose::surface}},
+          {.meaning = "Hanging or standing upright, facing the brightest sky, or flat on the nearest "
+                      "surface; free: by face and pitch."})
       .colour("colour", &Element::colour, {.meaning = "Colour of its polygons."})
       .custom(
           "polygons", Kind::polygons,

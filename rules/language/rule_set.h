@@ -206,6 +206,15 @@ struct Phyllotaxis {
   Value pitch_deg = 50.0;    ///< between an element and the way that its stem goes
 };
 
+/// What decides how an element stands.
+enum class Pose {
+  free,    ///< chance or phyllotaxis, and its face by Element::face
+  hang,    ///< it grows straight down
+  stand,   ///< straight up
+  light,   ///< its face looks at the brightest part of the sky; free where none is seen
+  surface  ///< it lies flat on the scene, along its limb; free where nothing is near
+};
+
 struct Element {
   std::string name = "leaf";
   int trials = 30;
@@ -213,6 +222,7 @@ struct Element {
   Value size = 1.0;          ///< scale of the polygons at the least exposure
   bool size_metres = false;  ///< size is what a polygon's unit measures, in metres; else a factor
   Value face = 0.7;  ///< how much the face turns from the stem's own way to the open and the sky, 0..1
+  Pose pose = Pose::free;
   sim::Colour colour{0.13f, 0.30f, 0.05f};       ///< linear RGB
   std::vector<std::vector<sim::Vec3>> polygons;  ///< corners (see sim::ElementShape)
   bool polygons_metres = false;                  ///< they are in metres; else in voxel widths, or in sizes

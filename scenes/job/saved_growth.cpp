@@ -75,9 +75,9 @@ std::vector<std::string> told(const std::vector<std::string>& differences) {
   return lines;
 }
 
-constexpr std::array<std::string_view, 8> kLooks{".stem.by",       ".stem.exponent", ".stem.thickens",
+constexpr std::array<std::string_view, 9> kLooks{".stem.by",       ".stem.exponent", ".stem.thickens",
                                                  ".stem.thickest", ".stem.texture",  ".varies.chance",
-                                                 ".varies.age",    ".varies.light"};
+                                                 ".varies.age",    ".varies.light",  ".varies.height"};
 
 /// How thick stems are beyond their twigs is for models alone, and so are what is painted on them and how far
 /// leaves differ.

@@ -41,11 +41,13 @@ inline const std::vector<float>* find(const Skeleton& skeleton, std::string_view
   return at == skeleton.columns.end() ? nullptr : &at->second;
 }
 
-/// How far the colours of a shape's elements differ, each 0 (not at all) or more; 1 as leaves mostly do.
+/// How far the colours of a shape's elements differ, each 0 (not at all) or more; by default as
+/// leaves mostly do.
 struct ColourVariation {
   double by_chance = 1.0;  ///< each its own shade and hue
   double by_age = 1.0;     ///< what is young is lighter
   double by_light = 1.0;   ///< what grew in the light is warmer and brighter
+  double by_height = 0.0;  ///< what is high on its plant goes from green to gold
 };
 
 /// A shape that is placed on a plant: a leaf, a flower. Local frame: the element is attached at the origin,

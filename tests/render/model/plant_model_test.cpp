@@ -119,6 +119,43 @@ TEST(PlantModel, OrdersAreThoseOfBranching) {
             (Found{{0, {0}}, {1, {7}}, {2, {7}}, {3, {7}}, {4, {255}}}));
 }
 
+/// The tints of elements at three heights, as meshes or as instances have them.
+std::vector<sim::Colour> tintsByHeight(double weight, bool as_instances) {
+  sim::Plant plant;
+  for (const Vec3 p : {Vec3(2, 0, 2), Vec3(2, 5, 2), Vec3(2, 10, 2)})
+    tests::addNode(plant.skeleton, plant.skeleton.size() - 1, p);
+  plant.shapes = {tests::keeledLeaf()};
+  plant.shapes[0].varies = {0.0, 0.0, 0.0, weight};
+  for (const double y : {1.0, 4.0, 9.0})
+    plant.elements.push_back({.node = y < 5.0 ? 1 : 2, .position_vx = {2, y, 2}, .exposure = 0.5f});
+  render::ModelOptions options;
+  options.instances = as_instances;
+  const auto model = modelPlant(plant, kUnit, options);
+  std::vector<sim::Colour> tints(3);
+  if (as_instances) {
+    for (std::size_t i = 0; i < 3; ++i) tints[i] = model.instances.back().places.at(i).tint;
+    return tints;
+  }
+  const ModelMesh& mesh = model.elements.at(0);
+  for (std::size_t v = 0; v < mesh.pieces.size(); ++v) tints[mesh.pieces[v]] = mesh.tints.at(v);
+  return tints;
+}
+
+TEST(PlantModel, ColoursFollowHeightOnlyWhereTheyAreToldTo) {
+  for (const bool as_instances : {false, true}) {
+    const auto same = tintsByHeight(0.0, as_instances);
+    EXPECT_EQ(same[0], same[1]);
+    EXPECT_EQ(same[0], same[2]);
+    const auto golden = tintsByHeight(1.0, as_instances);
+    EXPECT_EQ(golden[0], same[0]) << "the lowest is as it was";
+    const auto gold = [](sim::Colour c) { return c.r / c.g; };
+    EXPECT_GT(gold(golden[1]), 1.2f * gold(golden[0]));
+    EXPECT_GT(gold(golden[2]), 1.2f * gold(golden[1]));
+    for (const sim::Colour& tint : tintsByHeight(3.0, as_instances))
+      EXPECT_GE(std::min({tint.r, tint.g, tint.b}), 0.0f);
+  }
+}
+
 TEST(PlantModel, DegeneratePlants) {
   sim::Plant plant;
   EXPECT_TRUE(modelPlant(plant, kUnit).stems.empty());
@@ -152,7 +189,7 @@ TEST(Leaves, AreWhereTheyWerePlaced) {
   const sim::Frame frame{sim::Vec3(10, 0, 0), 0.5, sim::Voxel(16)};
   const sim::ElementShape shape{"tile", {{{-1, 0, 0}, {1, 0, 0}, {1, 1, 0}, {-1, 1, 0}}}, {}};
   ModelMesh mesh;
-  render::appendElement(mesh, element, shape, frame, 0.5f, 9);
+  render::appendElement(mesh, element, shape, frame, {0.5f}, 9);
   expectSound(mesh);
   ASSERT_EQ(mesh.positions_m.size(), 4u);
   // (-1, 0, 0): 2 * -x = +z 2 -> voxel (3, 4, 7) -> metres (11.5, 2, 3.5)
@@ -166,7 +203,7 @@ TEST(Leaves, AreWhereTheyWerePlaced) {
 
 TEST(Leaves, FaceTheirOwnFaceHoweverTheyAreWound) {
   ModelMesh mesh;
-  render::appendElement(mesh, {}, tests::keeledLeaf(), kUnit, 0.0f, 0);
+  render::appendElement(mesh, {}, tests::keeledLeaf(), kUnit, {}, 0);
   for (const auto& t : mesh.triangles) {
     const Vec3f a = mesh.positions_m[t[0]], b = mesh.positions_m[t[1]], c = mesh.positions_m[t[2]];
     EXPECT_GT(glm::cross(b - a, c - a).z, 0.0f);

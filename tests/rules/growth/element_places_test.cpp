@@ -129,7 +129,8 @@ sim::PlacedElement standing(const Element& rule, double turn_deg, int trial = 0)
   const Senses senses;
   sim::Slots slots({7, 0}, sim::Purpose::element);
   sim::PlacedElement element;
-  stand(element, rule, {0.5, turn_deg, true}, Vec3(0, 1, 0), Vec3(1, 0, 0), around, senses, trial, slots);
+  stand(element, rule, {0.5, turn_deg, true}, Vec3(0, 1, 0), Vec3(1, 0, 0), around, senses, Vec3(0.0), trial,
+        slots);
   return element;
 }
 

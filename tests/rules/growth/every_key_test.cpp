@@ -77,6 +77,7 @@ const std::map<std::string, Datum>& otherValues() {
       {"elements[].per_segment", Value(0.4)},
       {"elements[].size", Length{0.6}},
       {"elements[].face", Value(0.1)},
+      {"elements[].pose", std::string("hang")},
       {"elements[].polygons", Polygons{square()}},
       {"elements[].petiole", Length{0.8}},
       {"elements[].crosses", true},
@@ -89,6 +90,7 @@ const std::map<std::string, Datum>& otherValues() {
       {"elements[].varies.chance", 0.2},
       {"elements[].varies.age", 0.2},
       {"elements[].varies.light", 0.2},
+      {"elements[].varies.height", 0.2},
       {"elements[].name", std::string("thorn")},
       {"elements[].colour", sim::Colour(0.9f, 0.1f, 0.1f)},
   };
@@ -204,6 +206,7 @@ Result resultOf(const RuleSet& book, int iterations = 7) {
       colour(shape.colour);
       colour({static_cast<float>(shape.varies.by_chance), static_cast<float>(shape.varies.by_age),
               static_cast<float>(shape.varies.by_light)});
+      result.colours.push_back(static_cast<float>(shape.varies.by_height));
     }
     result.segments += plant.skeleton.size() - 1;
     result.elements += plant.elements.size();

@@ -21,6 +21,13 @@ const std::vector<BadFile> kBadRules = {
     {"no way at all",
      "bias: {towards: [{direction: [0, 0, 0], amount: 0.1}]}\n",
      {"2:19: [0, 0, 0] is no direction; expected one that leads somewhere"}},
+    {"an unknown pose",
+     "elements:\n  - texture: ivy\n    pose: hangs\n",
+     {"4:11: elements[0].pose is 'hangs'; expected one of free, hang, stand, light, surface; did you mean "
+      "'hang'?"}},
+    {"too much of a difference by height",
+     "elements:\n  - {texture: ivy, varies: {height: 3.5}}\n",
+     {"3:37: elements[0].varies.height is '3.5', which is out of range"}},
     {"a fork of none", "random_tree: {fork: 0}\n", {"2:21: random_tree.fork is '0', which is out of range"}},
     {"ages of growth the wrong way round",
      "require: {age: {min: 9, max: 3}}\n",

@@ -58,6 +58,8 @@ oiiotool $work/tendril/vines.png $work/tendril.png --paste +1592+0 -o $work/tend
 small $work/tendril.png tendril 1400
 grow scenes/library/clusters.yaml
 small $work/clusters/vines.png clusters 960
+grow scenes/library/shy_shrubs.yaml
+small $work/shy_shrubs/vines.png shy_shrubs 960
 grow scenes/library/gable.yaml
 small $work/gable/gable.png gable 1200
 

@@ -185,8 +185,8 @@ std::string expectation(const Key& key) {
   std::vector<std::string> names;
   for (const auto& k : key.child->keys) names.push_back(k.name);
   auto mapping = fmt::format("a mapping with some of the keys {}", fmt::join(names, ", "));
-  if (key.kind == Kind::named) return "a mapping from names, each to " + mapping;
   if (const Key* brief = briefOf(key)) mapping = fmt::format("{}, or {}", mapping, expectation(*brief));
+  if (key.kind == Kind::named) return "a mapping from names, each to " + mapping;
   return key.kind == Kind::entries ? "a list, each entry " + mapping : mapping;
 }
 

@@ -168,7 +168,7 @@ Json valueOf(const Key& key) {
     case Kind::entries:
       return list(nested(key), 0, key.most);
     case Kind::named:
-      return {{"type", "object"}, {"maxProperties", key.most}, {"additionalProperties", table(*key.child)}};
+      return {{"type", "object"}, {"maxProperties", key.most}, {"additionalProperties", nested(key)}};
   }
   return {};
 }

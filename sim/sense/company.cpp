@@ -29,6 +29,16 @@ int nearestBit(std::uint64_t word, int place) {
   return place - before <= behind - place ? before : behind;
 }
 
+/// The bits that are so far from a place at most.
+std::uint64_t bitsAbout(int place, int far) {
+  const int low = place - far, high = place + far;
+  if (low > 63 || high < 0) return 0;
+  std::uint64_t bits = ~std::uint64_t{0};
+  if (low > 0) bits &= ~std::uint64_t{0} << low;
+  if (high < 63) bits &= ~std::uint64_t{0} >> (63 - high);
+  return bits;
+}
+
 }  // namespace
 
 std::int64_t voxelsOfBall(double radius_vx) {
@@ -72,22 +82,37 @@ Crowd crowdAround(const World& world, const Whose& whose, Voxel about, double ra
   return {static_cast<double>(mass.count()) / all, mass.centre()};
 }
 
-std::optional<Voxel> nearestOf(const World& world, const Whose& whose, Voxel about, double radius_vx) {
+namespace {
+
+std::optional<Voxel> nearestWithin(const World& world, const Whose& whose, Voxel about, double radius_vx) {
   std::optional<Voxel> nearest;
-  std::int64_t least = std::numeric_limits<std::int64_t>::max();
+  auto least = static_cast<double>(std::numeric_limits<int>::max());
   const auto before = [](Voxel a, Voxel b) { return std::tie(a.y, a.z, a.x) < std::tie(b.y, b.z, b.x); };
   forEachWordOfBall(world.occupied(), about, radius_vx, [&](Voxel first, std::uint64_t word, int dy, int dz) {
-    if (std::int64_t{dy} * dy + std::int64_t{dz} * dz > least) return;
+    const double off = static_cast<double>(dy * dy + dz * dz);
+    if (off > least) return;
+    const int place = about.x - first.x;
+    if (nearest) word &= bitsAbout(place, rootBelow(least - off));
     const std::uint64_t those = thoseOf(world, whose, first, word);
     if (those == 0) return;
     Voxel v = first;
-    v.x += nearestBit(those, about.x - first.x);
-    const std::int64_t dx = v.x - about.x, square = dx * dx + std::int64_t{dy} * dy + std::int64_t{dz} * dz;
+    v.x += nearestBit(those, place);
+    const double dx = v.x - about.x, square = dx * dx + off;
     if (square > least || (square == least && !before(v, *nearest))) return;
     least = square;
     nearest = v;
   });
   return nearest;
+}
+
+}  // namespace
+
+std::optional<Voxel> nearestOf(const World& world, const Whose& whose, Voxel about, double radius_vx) {
+  constexpr double kFirst = 5.0;  // a ball of the double radius has eight times the voxels
+  for (double radius = kFirst; radius < radius_vx; radius *= 2.0) {
+    if (const auto nearest = nearestWithin(world, whose, about, radius)) return nearest;
+  }
+  return nearestWithin(world, whose, about, radius_vx);
 }
 
 double heightAbove(const World& world, const Whose& whose, Vec3 at_vx) {

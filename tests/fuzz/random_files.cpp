@@ -95,30 +95,6 @@ RandomFiles::RandomFiles(std::uint64_t seed, std::filesystem::path folder)
   knowSpecials();
 }
 
-RandomFiles::World RandomFiles::drawWorld(tests::Numbers& numbers) {
-  constexpr std::array kSides{1, 2, 3, 5, 8, 9, 15, 16, 17, 24, 31, 33, 63, 64, 65, 100};
-  constexpr std::array kVoxels{0.04, 0.04, 0.04, 0.01, 1.0, 2e-5, 1e-3, 100.0};
-  constexpr int kMostVoxels = 30'000;
-  World world;
-  do {
-    for (int axis = 0; axis < 3; ++axis) world.size[axis] = numbers.pick(kSides);
-  } while (world.size.x * world.size.y * world.size.z > kMostVoxels);
-  if (numbers.chance(0.4)) world.size = sim::Voxel(numbers.whole(4, 24));
-  world.voxel_m = numbers.pick(kVoxels);
-  if (numbers.chance(0.02)) {
-    world.voxel_m = 1e6;
-    world.size = glm::min(world.size, sim::Voxel(2));
-  } else if (numbers.chance(0.3)) {
-    for (int axis = 0; axis < 3; ++axis) world.middle_m[axis] = numbers.uniform(-20.0, 20.0) * world.voxel_m;
-  }
-  const bool flat = std::min({world.size.x, world.size.y, world.size.z}) < 6;  // a mesh leaves no room there
-  world.meshes = numbers.chance(flat ? 0.1 : 0.7);
-  world.bounds = !world.meshes || numbers.chance(0.5);
-  if (!world.bounds)
-    world.size = sim::Voxel(std::min(30, std::max({world.size.x, world.size.y, world.size.z})));
-  return world;
-}
-
 /// A point in the world, or as far outside of it.
 sim::Vec3 RandomFiles::within(double beyond) {
   sim::Vec3 at;

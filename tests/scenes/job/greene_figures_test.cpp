@@ -11,7 +11,8 @@
 #include "sim/light/brightest.h"
 #include "tests/support/scratch.h"
 
-/// The library's scenes of figures 7 to 9 of Ned Greene's "Voxel Space Automata" show what they say.
+/// The library's scenes of figures 7 to 9 of Ned Greene's "Voxel Space Automata", and of what plants sense
+/// after its section 3, show what they say.
 namespace espalier::scenes {
 namespace {
 
@@ -222,6 +223,39 @@ TEST(Gable, EaveLimbsEndAndGableLimbsTurnAway) {
   EXPECT_LE(limbs.longest, 5);
   EXPECT_GT(limbs.at_gables, 50);
   EXPECT_GT(limbs.off_apex_deg, plain.off_apex_deg + 10.0);
+}
+
+/// Share of the nodes of plants whose names begin so that stand nearer to another one of them.
+double shareNear(const Figure& figure, const std::string& of, double near_m) {
+  std::vector<std::vector<Vec3>> plants;
+  for (const sim::Plant& plant : figure.growth.plants) {
+    if (!plant.name.starts_with(of)) continue;
+    plants.emplace_back();
+    for (std::size_t n = 0; n < plant.skeleton.position_vx.size(); ++n)
+      plants.back().push_back(placeOf(figure, plant, n));
+  }
+  std::size_t all = 0, close = 0;
+  for (std::size_t a = 0; a < plants.size(); ++a) {
+    for (const Vec3 at : plants[a]) {
+      ++all;
+      bool found = false;
+      for (std::size_t b = 0; b < plants.size() && !found; ++b) {
+        found = b != a && std::any_of(plants[b].begin(), plants[b].end(),
+                                      [&](Vec3 other) { return glm::distance(at, other) < near_m; });
+      }
+      close += found;
+    }
+  }
+  return static_cast<double>(close) / static_cast<double>(all);
+}
+
+TEST(ShyShrubs, KeepClearOfEachOther) {
+  const Figure figure = grown(library("shy_shrubs"));
+  for (const sim::Plant& plant : figure.growth.plants) EXPECT_GT(plant.skeleton.size(), 200) << plant.name;
+  const double careless = shareNear(figure, "careless", 0.12), shy = shareNear(figure, "shy", 0.12);
+  RecordProperty("careless", std::to_string(careless));
+  EXPECT_GT(careless, 0.15);
+  EXPECT_LT(shy, 0.05) << careless;
 }
 
 }  // namespace

@@ -77,6 +77,7 @@ Place sketch() {
 }
 
 const std::map<std::string, std::vector<std::pair<std::string, Place (*)()>>> kHomes = {
+    {"shy_shrub", {{"open ground", openGround}}},
     {"flowering_plant", {{"open ground", openGround}, {"a wall's foot", wallsFoot}}},
     {"line_tracker", {{"a sketch", sketch}}},
     {"sketch_limbs", {{"a sketch", sketch}}},

@@ -164,7 +164,7 @@ inline std::vector<std::string> badTexts(const rules::Key& key) {
       return more(beyond(plain), {"[3]", "[5, 4]", "1.5"});
     case Kind::value:
       return more(beyond(plain),
-                  {"[1]", "[0.5, 0.25]", "true", "\"1\"", "{over: x, points: [[0, 0.5], [1, 0.5]]}",
+                  {"[1]", "[0.5, 0.25]", "true", "\"1\"", "{over: [x], points: [[0, 0.5], [1, 0.5]]}",
                    "{over: age, points: [[0, 0.5]]}"});
     case Kind::length:
       return more(beyond(plain), {"3 yards", "[4 mm, 3 mm]", "[1 vx, 1 m]", "-1 cm", "true"});
@@ -221,7 +221,7 @@ inline std::vector<std::string> badTexts(const rules::Key& key) {
     case Kind::entries:
       return {"{}", "few_words", "[{unknown_key: 1}]", "[[]]"};
     case Kind::named:
-      return {"[]", "few_words", "{a: {unknown_key: 1}}", "{a: 5}"};
+      return {"[]", "few_words", "{a: {unknown_key: 1}}", "{a: [true]}"};
   }
   return {};
 }

@@ -1,0 +1,58 @@
+#include <gtest/gtest.h>
+
+#include <string>
+
+#include "tests/scenes/read/bad_file.h"
+
+/// What bias, require and senses may not say.
+namespace espalier::scenes {
+namespace {
+
+using tests::BadFile;
+
+// Rule files begin with "espalier: rules" on line 1.
+const std::vector<BadFile> kBadVerbs = {
+    {"a sense that is not there",
+     "senses: {crowd: {of: others}}\nbias: {senses: {crown: 0.1}}\n",
+     {"3:24: the rule set has no sense 'crown'; expected one of crowd"}},
+    {"a curve over a sense that is not there",
+     "bias: {up: {over: crowd, points: [[0, 0], [1, 0.1]]}}\n",
+     {"2:8: a curve over 'crowd'; expected exposure, age (iterations), height (metres) or a sense"}},
+    {"a sense by a name that curves have",
+     "senses: {age: {of: others}}\n",
+     {"2:10: a sense named 'age', which curves have already; expected another name"}},
+    {"readings the wrong way round",
+     "senses: {gap: {measure: distance}}\nrequire: {senses: {gap: {min: 2, max: 1}}}\n",
+     {"3:20: min is 2 and max is 1; expected the first to be at most the second"}},
+    {"a light that is too strong",
+     "bias: {light: -1.5}\n",
+     {"2:15: bias.light.amount is '-1.5', which is out of range"}},
+    {"a place and a way",
+     "bias: {towards: [{point: [0, 0, 0], direction: [1, 0, 0], amount: 0.1}]}\n",
+     {"2:18: expected either a point or a direction"}},
+    {"no way at all",
+     "bias: {towards: [{direction: [0, 0, 0], amount: 0.1}]}\n",
+     {"2:19: [0, 0, 0] is no direction; expected one that leads somewhere"}},
+    {"an unknown pose",
+     "elements:\n  - texture: ivy\n    pose: hangs\n",
+     {"4:11: elements[0].pose is 'hangs'; expected one of free, hang, stand, light, surface; did you mean "
+      "'hang'?"}},
+    {"too much of a difference by height",
+     "elements:\n  - {texture: ivy, varies: {height: 3.5}}\n",
+     {"3:37: elements[0].varies.height is '3.5', which is out of range"}},
+    {"a fork of none", "random_tree: {fork: 0}\n", {"2:21: random_tree.fork is '0', which is out of range"}},
+    {"ages of growth the wrong way round",
+     "require: {age: {min: 9, max: 3}}\n",
+     {"2:22: require.age.min is 9 and require.age.max is 3; expected the first to be at most"}},
+};
+
+class BadVerbs : public testing::TestWithParam<BadFile> {};
+
+TEST_P(BadVerbs, AreRefusedWithPlaceAndReason) {
+  tests::expectMessages(GetParam(), "r.yaml", std::string("espalier: rules\n") + GetParam().text);
+}
+
+INSTANTIATE_TEST_SUITE_P(Corpus, BadVerbs, testing::ValuesIn(kBadVerbs), tests::testName);
+
+}  // namespace
+}  // namespace espalier::scenes

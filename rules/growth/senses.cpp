@@ -108,6 +108,8 @@ Vigour vigourOf(const Exposure& seen, const RuleSet& rules) {
 }
 
 double readingOf(const sim::SiteView& view, const SenseSpec& sense, sim::Vec3 at_vx) {
+  if (sense.measure == SenseSpec::Measure::density)
+    return sim::densityAround(view.world, whoseOf(view, sense), sim::voxelAt(at_vx), sense.within.number);
   return find(view, sense, at_vx).value;
 }
 
@@ -146,11 +148,15 @@ Senses sense(const sim::SiteView& view, const Surroundings& around, const Vigour
   senses.circumstance = {
       senses.exposure, static_cast<double>(view.iteration), around.at_vx.y * view.world.frame().voxel_m, {}};
   for (const SenseSpec& spec : rules.senses) {
+    const auto bends = std::find_if(rules.bias.senses.begin(), rules.bias.senses.end(),
+                                    [&](const SenseBias& by) { return by.name == spec.name; });
+    if (bends == rules.bias.senses.end()) {
+      senses.circumstance.readings.push_back({spec.name, readingOf(view, spec, around.at_vx)});
+      continue;
+    }
     const Found found = find(view, spec, around.at_vx);
     senses.circumstance.readings.push_back({spec.name, found.value});
-    for (std::size_t i = 0; i < rules.bias.senses.size(); ++i) {
-      if (rules.bias.senses[i].name == spec.name) senses.sensed[i] = found.way;
-    }
+    senses.sensed[static_cast<std::size_t>(bends - rules.bias.senses.begin())] = found.way;
   }
   return senses;
 }

@@ -1,10 +1,10 @@
 #pragma once
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <cmath>
 #include <cstdint>
 #include <optional>
+#include <vector>
 
 #include "sim/base/bits.h"
 
@@ -17,8 +17,24 @@ inline int rootBelow(double square) {
   return root * root > square ? root - 1 : root;  // a root rounded up to a whole number
 }
 
-/// How many voxels' centres lie within a radius of a voxel's own.
-std::int64_t voxelsOfBall(double radius_vx);
+/// The voxels whose centres lie within a radius of a voxel's own, by rows along x.
+struct Ball {
+  struct Row {
+    int dy, dz, half;  ///< it reaches from -half to half
+  };
+  std::vector<Row> rows;  ///< from low to high in (y, z)
+  std::int64_t voxels = 0;
+};
+/// It is remembered by each thread for the radii that it asked for last.
+const Ball& ballOf(double radius_vx);
+
+/// How many bits are set; std::popcount is a call where a program must run on any processor.
+inline int bitCount(std::uint64_t word) {
+  word -= word >> 1 & 0x5555555555555555;
+  word = (word & 0x3333333333333333) + (word >> 2 & 0x3333333333333333);
+  word = (word + (word >> 4)) & 0x0f0f0f0f0f0f0f0f;
+  return static_cast<int>(word * 0x0101010101010101 >> 56);
+}
 
 /// Calls visit(first, bits, dy, dz) for each word of voxels that are set within a radius of one: bit i is
 /// that i voxels from `first` along x, and dy and dz are how far off the row lies. Word by word along x, and
@@ -26,23 +42,21 @@ std::int64_t voxelsOfBall(double radius_vx);
 template <class Visit>
 void forEachWordOfBall(const BitVolume& set, Voxel about, double radius_vx, Visit visit) {
   const Voxel size = set.size();
+  const Ball& ball = ballOf(radius_vx);
   const int reach = static_cast<int>(radius_vx);
-  const double square = radius_vx * radius_vx;
-  const Voxel low = glm::max(Voxel(-reach), -about), high = glm::min(Voxel(reach), size - 1 - about);
-  for (int w = (about.x + low.x) >> 6; w <= (about.x + high.x) >> 6; ++w) {
+  const int low = std::max(0, about.x - reach), high = std::min(size.x - 1, about.x + reach);
+  for (int w = low >> 6; w <= high >> 6; ++w) {
     const int first_x = 64 * w - about.x;  // of the word's voxels
-    for (int dy = low.y; dy <= high.y; ++dy) {
-      const int wide = rootBelow(square - dy * dy);
-      for (int dz = std::max(-wide, low.z); dz <= std::min(wide, high.z); ++dz) {
-        std::uint64_t word = set.row(about.y + dy, about.z + dz)[w];
-        if (word == 0) continue;
-        const int half = rootBelow(square - dy * dy - dz * dz);
-        const int first = -half - first_x, last = half - first_x;
-        if (first > 63 || last < 0) continue;
-        if (first > 0) word &= ~std::uint64_t{0} << first;
-        if (last < 63) word &= ~std::uint64_t{0} >> (63 - last);
-        if (word != 0) visit(Voxel(64 * w, about.y + dy, about.z + dz), word, dy, dz);
-      }
+    for (const auto& [dy, dz, half] : ball.rows) {
+      const int y = about.y + dy, z = about.z + dz;
+      if (y < 0 || y >= size.y || z < 0 || z >= size.z) continue;
+      std::uint64_t word = set.row(y, z)[w];
+      if (word == 0) continue;
+      const int first = -half - first_x, last = half - first_x;
+      if (first > 63 || last < 0) continue;
+      if (first > 0) word &= ~std::uint64_t{0} << first;
+      if (last < 63) word &= ~std::uint64_t{0} >> (63 - last);
+      if (word != 0) visit(Voxel(64 * w, y, z), word, dy, dz);
     }
   }
 }
@@ -55,7 +69,7 @@ inline constexpr std::array<std::uint64_t, 6> kPlaces{0xaaaaaaaaaaaaaaaa, 0xcccc
 /// The sum of the places of a word's bits.
 inline std::int64_t sumOfPlaces(std::uint64_t word) {
   std::int64_t sum = 0;
-  for (std::size_t k = 0; k < kPlaces.size(); ++k) sum += std::int64_t{std::popcount(word & kPlaces[k])} << k;
+  for (std::size_t k = 0; k < kPlaces.size(); ++k) sum += std::int64_t{bitCount(word & kPlaces[k])} << k;
   return sum;
 }
 
@@ -93,7 +107,7 @@ class MassOfBall {
     if (first.x != word_x_) endWord();
     word_x_ = first.x;
     columns_.add(word);
-    const std::int64_t here = std::popcount(word);
+    const std::int64_t here = bitCount(word);
     in_word_ += here;
     sum_ += glm::i64vec3(0, here * dy, here * dz);
   }

@@ -41,36 +41,31 @@ std::uint64_t bitsAbout(int place, int far) {
 
 }  // namespace
 
-std::int64_t voxelsOfBall(double radius_vx) {
-  const int reach = static_cast<int>(radius_vx);
-  const double square = radius_vx * radius_vx;
-  std::int64_t voxels = 0;
-  for (int dy = -reach; dy <= reach; ++dy) {
-    const int wide = rootBelow(square - dy * dy);
-    for (int dz = -wide; dz <= wide; ++dz) voxels += 2 * rootBelow(square - dy * dy - dz * dz) + 1;
-  }
-  return voxels;
-}
-
 std::uint64_t thoseOf(const World& world, const Whose& whose, Voxel first, std::uint64_t among) {
   if (whose.kind == Whose::Kind::everything || among == 0) return among;
-  const std::uint64_t plants = world.ofPlants(first, among);
-  const auto own = [&] { return plants != 0 ? world.ofPlant(first, plants, whose.plant) : 0; };
   switch (whose.kind) {
     case Whose::Kind::scene:
-      return among & ~plants;
+      return among & ~world.ofPlants(first, among);
     case Whose::Kind::plants:
-      return plants;
+      return world.ofPlants(first, among);
     case Whose::Kind::own:
-      return own();
+      return world.ofPlant(first, among, whose.plant);
     case Whose::Kind::others:
-      return plants & ~own();
+      return world.ofOtherPlants(first, among, whose.plant);
     case Whose::Kind::region:
-      return ofRegion(world, whose.region, first, among & ~plants);
+      return ofRegion(world, whose.region, first, among & ~world.ofPlants(first, among));
     case Whose::Kind::everything:
       break;
   }
   return among;
+}
+
+double densityAround(const World& world, const Whose& whose, Voxel about, double radius_vx) {
+  std::int64_t count = 0;
+  forEachWordOfBall(world.occupied(), about, radius_vx, [&](Voxel first, std::uint64_t word, int, int) {
+    count += bitCount(thoseOf(world, whose, first, word));
+  });
+  return static_cast<double>(count) / static_cast<double>(ballOf(radius_vx).voxels);
 }
 
 Crowd crowdAround(const World& world, const Whose& whose, Voxel about, double radius_vx) {
@@ -78,7 +73,7 @@ Crowd crowdAround(const World& world, const Whose& whose, Voxel about, double ra
   forEachWordOfBall(world.occupied(), about, radius_vx, [&](Voxel first, std::uint64_t word, int dy, int dz) {
     mass.add(first, thoseOf(world, whose, first, word), dy, dz);
   });
-  const auto all = static_cast<double>(voxelsOfBall(radius_vx));
+  const auto all = static_cast<double>(ballOf(radius_vx).voxels);
   return {static_cast<double>(mass.count()) / all, mass.centre()};
 }
 

@@ -26,7 +26,7 @@ class PlantVoxels {
   std::optional<Surface> surfaceAt(Voxel v) const;
 
   /// Calls visit(bit, part) for each plant's voxel that a bit of `among` names: bit i is i voxels from
-  /// `first` along x. They must lie inside the world.
+  /// `first` along x. They must lie inside the world; those without a plant are passed over.
   template <typename Visit>
   void forEachAmong(Voxel first, std::uint64_t among, Visit visit) const {
     while (among != 0) {
@@ -37,9 +37,10 @@ class PlantVoxels {
       const std::uint64_t eight = shift < 0 ? std::uint64_t{0xff} >> -shift : std::uint64_t{0xff} << shift;
       const Block& block = blocks_.of(v);
       const unsigned taken = block.taken[rowOf(v)];
-      for (std::uint64_t left = among & eight; left != 0; left &= left - 1) {
+      const std::uint64_t here = shift < 0 ? std::uint64_t{taken} >> -shift : std::uint64_t{taken} << shift;
+      for (std::uint64_t left = among & here; left != 0; left &= left - 1) {
         v.x = first.x + std::countr_zero(left);
-        if ((taken >> (v.x & 7) & 1) != 0) visit(left & -left, block.entries[numberIn(block, v)].part);
+        visit(left & -left, block.entries[numberIn(block, v)].part);
       }
       among &= ~eight;
     }

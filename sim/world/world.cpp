@@ -284,6 +284,14 @@ std::uint64_t World::ofPlant(Voxel first, std::uint64_t among, int plant) const 
   return own;
 }
 
+std::uint64_t World::ofOtherPlants(Voxel first, std::uint64_t among, int plant) const {
+  std::uint64_t others = 0;
+  grids_->plants.forEachAmong(first, among, [&](std::uint64_t bit, PartId id) {
+    if (part(id).plant != plant) others |= bit;
+  });
+  return others;
+}
+
 std::uint64_t World::ofPlants(Voxel first, std::uint64_t among) const {
   return grids_->plants.takenAmong(first, among);
 }

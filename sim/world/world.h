@@ -150,11 +150,13 @@ class World {
   /// The part whose guide a voxel is; kFree where none is.
   PartId guideAt(Voxel v) const;
   /// Of the voxels from `first` on along x that bits of `among` name (bit i: i voxels on), those that partAt
-  /// says belong to a plant with this number. All of them must lie inside the world, and hold plants alone.
+  /// says belong to a plant with this number. All of them must lie inside the world.
   std::uint64_t ofPlant(Voxel first, std::uint64_t among, int plant) const;
   /// Of the voxels that bits of `among` name, as above, those that belong to plants. All must lie inside the
   /// world.
   std::uint64_t ofPlants(Voxel first, std::uint64_t among) const;
+  /// The same, of all plants but the one with this number.
+  std::uint64_t ofOtherPlants(Voxel first, std::uint64_t among, int plant) const;
   std::optional<Surface> surfaceAt(Voxel v) const;
   std::optional<Nearness> nearnessAt(Voxel v) const;
   NearSteps nearSteps() const;

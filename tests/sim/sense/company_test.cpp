@@ -107,6 +107,7 @@ TEST(Company, IsWhatEveryVoxelInTheBallSays) {
           const Plain plain = plainly(world, whose, about, radius_vx);
           const sim::Crowd crowd = sim::crowdAround(world, whose, about, radius_vx);
           EXPECT_EQ(crowd.density, static_cast<double>(plain.those) / static_cast<double>(plain.all));
+          EXPECT_EQ(sim::densityAround(world, whose, about, radius_vx), crowd.density);
           ASSERT_EQ(crowd.centre.has_value(), plain.those > 0);
           if (crowd.centre) {
             EXPECT_EQ(*crowd.centre, Vec3(about) + Vec3(plain.sum) / static_cast<double>(plain.those));

@@ -1,0 +1,40 @@
+#include "sim/sense/ball.h"
+
+#include <array>
+
+namespace espalier::sim {
+namespace {
+
+Ball makeBall(double radius_vx) {
+  const int reach = static_cast<int>(radius_vx);
+  const double square = radius_vx * radius_vx;
+  Ball ball;
+  for (int dy = -reach; dy <= reach; ++dy) {
+    const int wide = rootBelow(square - dy * dy);
+    for (int dz = -wide; dz <= wide; ++dz) {
+      const int half = rootBelow(square - dy * dy - dz * dz);
+      ball.rows.push_back({dy, dz, half});
+      ball.voxels += 2 * half + 1;
+    }
+  }
+  return ball;
+}
+
+}  // namespace
+
+const Ball& ballOf(double radius_vx) {
+  struct Known {
+    double radius_vx = -1.0;
+    Ball ball;
+  };
+  thread_local std::array<Known, 16> known;  // a rule set's senses, in balls that grow
+  thread_local std::size_t oldest = 0;
+  for (const Known& one : known) {
+    if (one.radius_vx == radius_vx) return one.ball;
+  }
+  Known& one = known[oldest++ % known.size()];
+  one = {radius_vx, makeBall(radius_vx)};
+  return one.ball;
+}
+
+}  // namespace espalier::sim

@@ -59,6 +59,27 @@ std::set<std::string> linesOf(const std::string& text) {
   return lines;
 }
 
+/// What was read, and beside it the lines as they were before a key became a mapping in which it has a name:
+/// "wander.angle: 20" was "wander: 20", and a file may go on to say so.
+std::set<std::string> withBriefs(std::set<std::string> lines) {
+  std::set<std::string> names;  // such as ".wander.angle: "
+  for (const rules::Table* table : {&rules::ruleTable(), &sceneTable()}) {
+    forEachKey(*table, [&](const std::string&, const rules::Key& key) {
+      if (key.kind == rules::Kind::section && !key.shorthand.empty())
+        names.insert("." + key.name + "." + key.shorthand + ": ");
+    });
+  }
+  std::set<std::string> all = lines;
+  for (const std::string& line : lines) {
+    const std::size_t value = line.find(": "), last = line.rfind('.', value);
+    if (value == line.npos || last == line.npos || last == 0) continue;
+    const std::size_t before = line.rfind('.', last - 1);
+    if (before != line.npos && names.contains(line.substr(before, value + 2 - before)))
+      all.insert(line.substr(0, last) + line.substr(value));
+  }
+  return all;
+}
+
 class Version1 : public testing::TestWithParam<fs::path> {};
 
 TEST_P(Version1, IsReadAsItWasRead) {
@@ -66,7 +87,7 @@ TEST_P(Version1, IsReadAsItWasRead) {
   const auto kept = fs::path(GetParam()).replace_extension(".txt");
   if (std::getenv("ESPALIER_UPDATE_DOCS") && !fs::exists(kept)) std::ofstream(kept, std::ios::binary) << read;
   ASSERT_TRUE(fs::exists(kept)) << "run this test once with ESPALIER_UPDATE_DOCS=1 and commit " << kept;
-  const auto now = linesOf(read);
+  const auto now = withBriefs(linesOf(read));
   const auto then = linesOf(tests::fileText(kept));
   EXPECT_GT(then.size(), 25u);
   for (const auto& line : then)

@@ -274,6 +274,7 @@ inline constexpr std::array<std::string_view, 4> kImageParts{"scene", "stems", "
 struct RegionMention {
   std::string region;
   Place place;
+  bool sensed = false;  ///< by a sense, which finds only what fills voxels
 };
 
 /// A guide field that bends fronts.

@@ -182,28 +182,6 @@ std::vector<sim::Peak> apicesOf(const sim::World& world) {
   return sim::peaksOf(world, parts, kProminence_vx);
 }
 
-/// Complains where a sense asks after a region that is not there.
-void requireSensed(const PlantSpec& spec, const Scene& scene, const sim::World& world, Gathering& wrong) {
-  std::set<std::string> regions;
-  for (const sim::Part& part : world.parts()) {
-    if (part.kind == sim::PartKind::scene) regions.insert(part.region);
-  }
-  rules::forEachSet(*spec.rules, [&](const rules::RuleSet& set, const std::string& path) {
-    for (const rules::SenseSpec& sense : set.senses) {
-      const bool word =
-          std::find(rules::kWhose.begin(), rules::kWhose.end(), sense.of) != rules::kWhose.end();
-      if (word || regions.contains(sense.of)) continue;
-      const std::vector<std::string> names(regions.begin(), regions.end());
-      wrong.add(
-          problemAt(spec.rules_place, scene.file,
-                    fmt::format("{}senses.{}.of: no mesh of the scene has a region {}; expected one of {}, "
-                                "or everything, scene, plants, own, others{}",
-                                path.empty() ? "" : path + ".", sense.name, inQuotes(sense.of),
-                                listed(names, sense.of), didYouMean(sense.of, names))));
-    }
-  });
-}
-
 /// Complains where a rule set names a region for its apices that has none.
 void requireApices(const PlantSpec& spec, const Scene& scene, const sim::World& world, Gathering& wrong) {
   if (!rules::asksForApices(*spec.rules)) return;
@@ -233,7 +211,6 @@ std::vector<sim::Planting> makePlantings(const Scene& scene, const Site& site) {
       continue;
     }
     requireApices(spec, scene, site.world, wrong);
-    requireSensed(spec, scene, site.world, wrong);
     wrong.part(spec.rules_place, [&] {
       plantings.push_back(spec.skeleton
                               ? given(spec, site.skeletons.at(i), scene, site.world.frame())

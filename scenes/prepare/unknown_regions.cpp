@@ -11,10 +11,11 @@ namespace {
 /// The regions of the meshes, each once, in the order of the meshes.
 class Regions {
  public:
-  explicit Regions(const sim::World& world) {
+  /// `but`: objects whose regions are none of them.
+  explicit Regions(const sim::World& world, const std::set<std::string>& but = {}) {
     for (const sim::Part& part : world.parts()) {
-      if (part.kind == sim::PartKind::scene && known_.insert(part.region).second)
-        names_.push_back(part.region);
+      const bool of_scene = part.kind == sim::PartKind::scene && !but.contains(part.object);
+      if (of_scene && known_.insert(part.region).second) names_.push_back(part.region);
     }
   }
 
@@ -34,10 +35,21 @@ class Regions {
 }  // namespace
 
 std::vector<Problem> unknownRegions(const Scene& scene, const sim::World& world) {
-  const Regions regions(world);
+  std::set<std::string> guides;
+  for (const auto& mesh : scene.meshes) {
+    if (mesh.guide) guides.insert(mesh.name);
+  }
+  const Regions regions(world), filling(world, guides);
   Problems problems;
-  for (const auto& [region, place] : scene.region_mentions) {
-    if (!regions.has(region) && !problems.full()) problems.add(place, regions.unknown(region));
+  for (const auto& [region, place, sensed] : scene.region_mentions) {
+    if (problems.full()) break;
+    if (!regions.has(region)) {
+      problems.add(place, regions.unknown(region));
+    } else if (sensed && !filling.has(region)) {
+      problems.add(place, fmt::format("the region {} is a guide's, of which nothing is sensed; expected one "
+                                      "that fills voxels",
+                                      inQuotes(region)));
+    }
   }
   return problems.sorted();
 }

@@ -174,6 +174,7 @@ RulesPointer RuleLoader::build(const Layers& layers, RuleSet rules) {
     rules.otherwise = within(*otherwise, "otherwise", rules);
   }
   addRegions(layers, rules);
+  mentionSensed(layers);
   // Branches and twigs keep to the same regions, and fail over as the trunk does.
   const RuleSet trunk = rules;
   if (const auto* branches = lastGiven(layers, "branches"))
@@ -269,7 +270,7 @@ void RuleLoader::addRegions(const Layers& layers, RuleSet& rules) {
       if (entry.key == rules::kOthers) {
         rules.others = std::move(rule);
       } else {
-        mention(entry);
+        mention(entry.key, entry.place, false);
         rules.regions[entry.key] = std::move(rule);
       }
     }
@@ -341,10 +342,19 @@ rules::RegionRule RuleLoader::region(const YamlNode& node, const std::string& pa
   return {false, within(whole->value, path + ".rules", enclosing)};
 }
 
-void RuleLoader::mention(const YamlEntry& region) {
-  const Place& place = region.place;
+void RuleLoader::mentionSensed(const Layers& layers) {
+  const auto* senses = lastGiven(layers, "senses");
+  if (!senses) return;
+  for (const auto& sense : senses->entries) {
+    const auto* of = sense.value.entry("of");
+    if (of && std::find(rules::kWhose.begin(), rules::kWhose.end(), of->value.text) == rules::kWhose.end())
+      mention(of->value.text, of->value.place, true);
+  }
+}
+
+void RuleLoader::mention(const std::string& region, const Place& place, bool sensed) {
   if (mentioned_.emplace(place.path.get(), place.line, place.column).second)
-    mentions_.push_back({region.key, place});
+    mentions_.push_back({region, place, sensed});
 }
 
 bool RuleLoader::countOne(const Place& place) {

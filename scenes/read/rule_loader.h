@@ -74,7 +74,8 @@ class RuleLoader {
   /// Warns of keys of colonization that have no effect in such a rule set.
   void warnOfFront(const YamlNode& node, const std::string& path);
   rules::RegionRule region(const YamlNode& node, const std::string& path, const rules::RuleSet& enclosing);
-  void mention(const YamlEntry& region);
+  void mentionSensed(const Layers& layers);
+  void mention(const std::string& region, const Place& place, bool sensed);
   bool countOne(const Place& place);
 
   Problems& problems_;

@@ -74,6 +74,28 @@ TEST_F(UnknownRegions, AreFoundWhereverARuleSetStands) {
       << "a name that a later layer repeats is still in the base";
 }
 
+TEST_F(UnknownRegions, ThatSensesAskAfterAreNamedToo) {
+  EXPECT_EQ(
+      warningsOfFile("senses: {gap: {measure: distance, of: wal}}\n"),
+      "r.yaml:2:39: no mesh of the scene has a region 'wal'; expected one of paving, wall; did you mean "
+      "'wall'?");
+  EXPECT_EQ(warningsOfFile("otherwise: {senses: {gap: {of: roof}}}\n").substr(0, 12), "r.yaml:2:32:");
+  EXPECT_EQ(warningsOfFile("senses: {a: {of: wall}, b: {of: others}, c: {}}\n"), "");
+}
+
+TEST_F(UnknownRegions, AreThoseOfGuidesToSenses) {
+  const auto scene = readScene(
+      scratch_.write("s.yaml",
+                     "espalier: scene\nmeshes: [{file: plot.obj, guide: true}]\n"
+                     "world: {voxel: 10 cm, margin: 50 cm}\nplants:\n  - {rules: {senses: {gap: {of: wall}}, "
+                     "regions: {paving: forbid}}, seeds: [[0.5, 0.3, 0.5]]}\n"));
+  ASSERT_TRUE(scene) << format(scene.problems());
+  EXPECT_EQ(
+      scratch_.shown(unknownRegions(*scene, makeSite(*scene).world)),
+      "s.yaml:5:33: the region 'wall' is a guide's, of which nothing is sensed; expected one that fills "
+      "voxels");
+}
+
 TEST_F(UnknownRegions, AreToldOnceForEachPlace) {
   scratch_.write("base.yaml", "espalier: rules\nregions: {roof: forbid}\n");
   scratch_.write("other.yaml", "espalier: rules\nbase: base.yaml\n");

@@ -366,12 +366,9 @@ namespace {
 std::string fates(const Report::Growth& report) {
   const auto of = [&](sim::Outcome outcome) { return report.buds[static_cast<std::size_t>(outcome)]; };
   std::string text =
-      fmt::format("buds that ended: {} found no way, {} too dark, {} too bright, {} in forbidden regions",
+      fmt::format("buds that ended: {} found no way, {} too dark, {} too bright, {} in forbidden regions{}\n",
                   of(sim::Outcome::no_trial), of(sim::Outcome::too_dark), of(sim::Outcome::too_bright),
-                  of(sim::Outcome::forbidden));
-  if (const auto unmet = of(sim::Outcome::unmet); unmet > 0)
-    text += fmt::format(", {} not of the age, region or senses that they require", unmet);
-  text += "\n";
+                  of(sim::Outcome::forbidden), unmetAmong(report.buds));
   for (const Report::Growth::Attractors& one : report.attractors)
     text += fmt::format("attractors {}: {}\n", inQuotes(one.name), one.ending);
   for (const std::string& met : report.in_the_way) text += "note: " + met + "\n";

@@ -140,6 +140,8 @@ std::string titleOf(Outcome reason) {
       return "too dark";
     case Outcome::too_bright:
       return "too bright";
+    case Outcome::unmet:
+      return "what they require did not hold";
     case Outcome::resting:
       return "resting";
     case Outcome::claimed:
@@ -183,13 +185,18 @@ std::string soonStopped(const std::vector<const Plant*>& stand) {
   if (poor.empty() || *middle < kMany) return "";
   return fmt::format(
       "note: {} of {} plants of '{}' stopped at fewer than {} segments: {}; of their buds {} found "
-      "no way, {} were too dark, {} too bright, {} in forbidden regions\n",
+      "no way, {} were too dark, {} too bright, {} in forbidden regions{}\n",
       poor.size(), stand.size(), stand.front()->planting, kFew, firstOf(poor),
       sim::timesOf(ends, Outcome::no_trial), sim::timesOf(ends, Outcome::too_dark),
-      sim::timesOf(ends, Outcome::too_bright), sim::timesOf(ends, Outcome::forbidden));
+      sim::timesOf(ends, Outcome::too_bright), sim::timesOf(ends, Outcome::forbidden), unmetAmong(ends));
 }
 
 }  // namespace
+
+std::string unmetAmong(const sim::OutcomeCounts& ends) {
+  const std::uint64_t unmet = sim::timesOf(ends, Outcome::unmet);
+  return unmet == 0 ? "" : fmt::format(", {} not of the age, region or senses that they require", unmet);
+}
 
 std::string whyItDidNotGrow(const SeedFailure& failure) {
   switch (failure.reason) {

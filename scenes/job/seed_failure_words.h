@@ -15,4 +15,7 @@ std::string whyItDidNotGrow(const SeedFailure& failure);
 /// plants that soon stopped where others of their planting made much more.
 std::string poorPlants(const std::vector<Report::Growth::Plant>& plants);
 
+/// ", 3 not of the age, region or senses that they require" of ends of buds; empty where there are none.
+std::string unmetAmong(const sim::OutcomeCounts& ends);
+
 }  // namespace espalier::scenes

@@ -253,7 +253,6 @@ TEST(ShyShrubs, KeepClearOfEachOther) {
   const Figure figure = grown(library("shy_shrubs"));
   for (const sim::Plant& plant : figure.growth.plants) EXPECT_GT(plant.skeleton.size(), 200) << plant.name;
   const double careless = shareNear(figure, "careless", 0.12), shy = shareNear(figure, "shy", 0.12);
-  RecordProperty("careless", std::to_string(careless));
   EXPECT_GT(careless, 0.15);
   EXPECT_LT(shy, 0.05) << careless;
 }

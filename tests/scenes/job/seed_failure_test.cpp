@@ -212,6 +212,19 @@ TEST(PoorPlants, AreToldOfInEightLinesAtMost) {
   EXPECT_NE(text.find("and 13 more such lines"), std::string::npos) << text;
 }
 
+TEST_F(SeedFailures, UnmetIsNoForbiddenRegion) {
+  rules_.senses = {{"rise", rules::SenseSpec::Measure::height, "scene", {6.0}}};
+  rules_.require.senses = {{"rise", 0.5}};  // metres
+  const SeedFailure failure = failureAt({20, 2, 30});
+  EXPECT_EQ(failure.reason, Outcome::unmet);
+  const std::string words = whyItDidNotGrow(failure);
+  EXPECT_NE(words.find("require.senses"), std::string::npos) << words;
+  std::vector<Report::Growth::Plant> plants{plantOf("ivy", 1, 0), plantOf("ivy", 2, 0)};
+  for (auto& plant : plants) plant.failure = failure;
+  EXPECT_NE(poorPlants(plants).find("did not grow, what they require did not hold: ivy 1"), std::string::npos)
+      << poorPlants(plants);
+}
+
 TEST(PoorPlants, ThatSoonStoppedAreToldOfWhereTheOthersThrive) {
   std::vector<Report::Growth::Plant> plants = {plantOf("ivy", 1, 200), plantOf("ivy", 2, 3),
                                                plantOf("ivy", 3, 90)};
@@ -220,6 +233,9 @@ TEST(PoorPlants, ThatSoonStoppedAreToldOfWhereTheOthersThrive) {
       poorPlants(plants),
       "note: 1 of 3 plants of 'ivy' stopped at fewer than 5 segments: ivy 2; of their buds 4 found no way, 0 "
       "were too dark, 0 too bright, 0 in forbidden regions\n");
+  plants[1].tally.sites[static_cast<std::size_t>(Outcome::unmet)] = 2;
+  EXPECT_NE(poorPlants(plants).find("regions, 2 not of the age, region or senses that they require\n"),
+            std::string::npos);
   plants[0].segments = 20;
   plants[2].segments = 20;
   EXPECT_EQ(poorPlants(plants), "");

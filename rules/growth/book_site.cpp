@@ -4,6 +4,7 @@
 
 #include "rules/growth/element_places.h"
 #include "rules/growth/elements.h"
+#include "rules/language/rule_values.h"
 
 namespace espalier::rules {
 namespace {
@@ -106,20 +107,15 @@ sim::Proposal proposeByBook(const sim::SiteView& view, const sim::Site& site, co
 
 namespace {
 
-bool followsExposure(const Value& value) {
-  return value.kind == Value::Kind::curve && value.over == Over::exposure;
-}
-
 /// Whether anything that a set says depends on light.
 bool asksForLight(const RuleSet& set) {
-  const Bias& bias = set.bias;
-  const Value none = 0.0;
-  return set.require.exposure_min > 0.0 || set.require.exposure_max < 1.0 || set.light.boost != 1.0 ||
-         !(bias.light == none) || !set.elements.empty() || followsExposure(bias.up) ||
-         followsExposure(bias.gravity) || followsExposure(bias.away) || followsExposure(bias.toward) ||
-         followsExposure(bias.twist) ||
-         std::any_of(bias.senses.begin(), bias.senses.end(),
-                     [](const SenseBias& by) { return followsExposure(by.amount); });
+  bool asks = set.require.exposure_min > 0.0 || set.require.exposure_max < 1.0 || set.light.boost != 1.0 ||
+              !(set.bias.light == Value(0.0)) || !set.elements.empty();
+  forEachValue(set, [&](const std::string& path, const Value& value) {
+    const bool follows = value.kind == Value::Kind::curve && value.over == Over::exposure;
+    asks = asks || (follows && path.starts_with("bias."));
+  });
+  return asks;
 }
 
 }  // namespace

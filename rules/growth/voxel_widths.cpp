@@ -8,6 +8,7 @@
 
 #include "rules/growth/element_places.h"
 #include "rules/growth/rule_book.h"
+#include "rules/language/sense_keys.h"
 #include "sim/base/error.h"
 
 namespace espalier::rules {
@@ -132,6 +133,11 @@ std::string wrongWith(const RuleSet& rules, const std::string& at) {
                        least > 0.0 ? fmt::format("at least {}", least) : "more than 0", most);
   };
   std::string wrong = within("bias.twist.radius", rules.bias.twist_radius, 0.0, kFarthestTwist);
+  // Of sets that no reader has checked too: senses are asked for by their names.
+  checkSenses(rules, [](std::string_view) { return 0; },
+              {[&](const std::string& path, const std::string& text, const Check::Misnamed&) {
+                if (wrong.empty()) wrong = path + ": " + text;
+              }});
   for (const SenseSpec& sense : rules.senses) {
     if (wrong.empty())
       wrong = within(("senses." + sense.name + ".within").c_str(), sense.within, 0.0, kFarthestTwist);

@@ -34,10 +34,8 @@ std::string written(const Value& value, std::string_view unit) {
   std::string points;
   for (const auto& [x, y] : value.curve)
     points += fmt::format("{}[{}, {}{}]", points.empty() ? "" : ", ", x, y, unit);
-  const std::string over = value.over == Over::exposure ? "exposure"
-                           : value.over == Over::age    ? "age"
-                           : value.over == Over::height ? "height"
-                                                        : value.sense;
+  const std::string over =
+      value.over == Over::sense ? value.sense : kAxes.at(static_cast<std::size_t>(value.over));
   return fmt::format("{{over: {}, points: [{}]}}", over, points);
 }
 

@@ -133,7 +133,17 @@ const Key* briefOf(const Key& key);
 struct Check {
   /// Which of the files that build on each other wrote this key last, from 1; 0: none did.
   using Given = std::function<int(std::string_view path)>;
-  using Complain = std::function<void(const std::string& path, const std::string& text)>;
+  /// A name that means nothing, and those that are known: whoever tells of it may say which was meant.
+  struct Misnamed {
+    std::string name;
+    std::vector<std::string> known;
+  };
+  struct Complain {
+    std::function<void(const std::string& path, const std::string& text, const Misnamed&)> say;
+    void operator()(const std::string& path, const std::string& text, const Misnamed& name = {}) const {
+      say(path, text, name);
+    }
+  };
 
   std::vector<std::string> reads;  ///< paths; the check waits where one of these is wrong by itself
   std::function<void(const void*, const Given&, const Complain&)> run;

@@ -7,12 +7,10 @@
 #include <array>
 
 #include "rules/language/key_builder.h"
-#include "rules/language/registry.h"
+#include "rules/language/rule_values.h"
 
 namespace espalier::rules {
 namespace {
-
-constexpr std::array kOwnAxes{"exposure", "age", "height"};  // of curves
 
 std::vector<std::string> namesOf(const std::vector<SenseSpec>& senses) {
   std::vector<std::string> names;
@@ -20,27 +18,20 @@ std::vector<std::string> namesOf(const std::vector<SenseSpec>& senses) {
   return names;
 }
 
-/// Calls visit(path, value) for all numbers of a struct that may be curves. Other rule sets that it leads to
-/// have senses of their own.
-void forEachValue(const Table& table, const void* object, const std::string& prefix,
-                  const std::function<void(const std::string&, const Value&)>& visit) {
-  if (object == nullptr) return;
-  for (const Key& key : table.keys) {
-    const std::string path = prefix + key.name;
-    if (key.kind == Kind::section) {
-      forEachValue(*key.child, key.look(object), path + ".", visit);
-    } else if (key.kind == Kind::entries || key.kind == Kind::named) {
-      const auto items = key.items(object);
-      for (std::size_t i = 0; i < items.size(); ++i) {
-        const auto at = key.kind == Kind::named ? "." + items[i].name : fmt::format("[{}]", i);
-        forEachValue(*key.child, items[i].object, path + at + ".", visit);
-      }
-    } else if (key.kind == Kind::value || key.kind == Kind::length || key.kind == Kind::size) {
-      const Datum datum = key.get(object);
-      if (const auto* value = std::get_if<Value>(&datum)) visit(path, *value);
-      if (const auto* length = std::get_if<Length>(&datum)) visit(path, length->value);
-    }
-  }
+void checkSense(const SenseSpec& sense, const Check::Given& given, const Check::Complain& complain) {
+  const std::string at = "senses." + sense.name;
+  if (std::find(kAxes.begin(), kAxes.end(), sense.name) != kAxes.end())
+    complain(at,
+             fmt::format("a sense named '{}', which curves have already; expected another name", sense.name));
+  if (sense.measure == SenseSpec::Measure::height && given(at + ".within") > 0)
+    complain(at + ".within",
+             "within says nothing of a height, which goes all the way down; expected it gone");
+  const bool holds_own = sense.of == "everything" || sense.of == "plants" || sense.of == "own";
+  if (sense.measure == SenseSpec::Measure::distance && holds_own)
+    complain(at + (given(at + ".of") > 0 ? ".of" : ".measure"),
+             fmt::format("the distance to {} is none, as a plant touches itself; expected others, scene or a "
+                         "region",
+                         sense.of));
 }
 
 }  // namespace
@@ -96,41 +87,41 @@ std::shared_ptr<const Table> sensePreferenceKeys() {
       .shared();
 }
 
-void checkSenses(const RuleSet& rules, const Check::Given&, const Check::Complain& complain) {
+void checkSenses(const RuleSet& rules, const Check::Given& given, const Check::Complain& complain) {
   const std::vector<std::string> names = namesOf(rules.senses);
   const auto known = [&](const std::string& name) {
     return std::find(names.begin(), names.end(), name) != names.end();
   };
-  const std::string have = names.empty() ? "senses: {" + std::string("NAME: ...}")
-                                         : fmt::format("one of {}", fmt::join(names, ", "));
+  const std::string have =
+      names.empty() ? "senses: {NAME: ...}" : fmt::format("one of {}", fmt::join(names, ", "));
   const auto require = [&](const std::string& path, const auto& uses) {
     for (const auto& use : uses) {
       if (!known(use.name))
         complain(path + "." + use.name,
-                 fmt::format("the rule set has no sense '{}'; expected {}", use.name, have));
+                 fmt::format("the rule set has no sense '{}'; expected {}", use.name, have),
+                 {use.name, names});
     }
   };
   require("bias.senses", rules.bias.senses);
   require("require.senses", rules.require.senses);
   require("prefer.senses", rules.prefer.senses);
-  for (const SenseSpec& sense : rules.senses) {
-    if (std::find(kOwnAxes.begin(), kOwnAxes.end(), sense.name) != kOwnAxes.end())
-      complain(
-          "senses." + sense.name,
-          fmt::format("a sense named '{}', which curves have already; expected another name", sense.name));
-  }
+  for (const SenseSpec& sense : rules.senses) checkSense(sense, given, complain);
   for (const SenseBounds& bounds : rules.require.senses) {
     if (bounds.min > bounds.max)
       complain("require.senses." + bounds.name,
                fmt::format("min is {} and max is {}; expected the first to be at most the second", bounds.min,
                            bounds.max));
   }
-  forEachValue(ruleTable(), &rules, "", [&](const std::string& path, const Value& value) {
+  forEachValue(rules, [&](const std::string& path, const Value& value) {
     if (value.kind != Value::Kind::curve || value.over != Over::sense || known(value.sense)) return;
-    complain(path,
-             fmt::format("a curve over '{}'; expected exposure, age (iterations), height (metres) or a "
-                         "sense of this rule set{}",
-                         value.sense, names.empty() ? "" : fmt::format(": {}", fmt::join(names, ", "))));
+    std::vector<std::string> over(kAxes.begin(), kAxes.end());
+    over.insert(over.end(), names.begin(), names.end());
+    complain(
+        path + ".over",
+        fmt::format("{}.over is '{}'; expected exposure, age (iterations), height (metres) or a sense of "
+                    "this rule set{}",
+                    path, value.sense, names.empty() ? "" : fmt::format(": {}", fmt::join(names, ", "))),
+        {value.sense, over});
   });
 }
 

@@ -1,4 +1,5 @@
 #pragma once
+#include <array>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -7,6 +8,8 @@ namespace espalier::rules {
 
 /// What a curve's x axis stands for; `sense`: one of the rule set's own senses, by its name.
 enum class Over { exposure, age, height, sense };
+/// The words of all but senses, in their order.
+inline constexpr std::array kAxes{"exposure", "age", "height"};
 
 /// A number of a rule: a constant, a range from which each use draws evenly, or a curve over a quantity of
 /// the node that uses it (piecewise linear, constant beyond its ends).

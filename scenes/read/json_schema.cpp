@@ -59,7 +59,7 @@ Json varying(const Json& one) {
                    {"additionalProperties", false},
                    {"required", {"over", "points"}},
                    {"properties",
-                    {{"over", {{"type", "string"}, {"examples", {"exposure", "age", "height"}}}},
+                    {{"over", {{"type", "string"}, {"examples", rules::kAxes}}},
                      {"points", list({{"type", "array"},
                                       {"prefixItems", {{{"type", "number"}}, one}},
                                       {"items", false},

@@ -242,9 +242,11 @@ void runChecks(const std::vector<rules::Check>& checks, const void* target,
                                    [&](const auto* layer) { return locate(*layer, path).whole; });
     return static_cast<int>(layers.rend() - last);
   };
-  const auto complain = [&](const std::string& path, const std::string& text) {
-    if (!hasFailed(path)) reading.problems.add(placeOf(layers, path), text);
-  };
+  const rules::Check::Complain complain{
+      [&](const std::string& path, const std::string& text, const rules::Check::Misnamed& misnamed) {
+        if (!hasFailed(path))
+          reading.problems.add(placeOf(layers, path), text + didYouMean(misnamed.name, misnamed.known));
+      }};
   for (const auto& check : checks) {
     if (std::none_of(check.reads.begin(), check.reads.end(), hasFailed)) check.run(target, given, complain);
   }

@@ -24,7 +24,7 @@ How values are written:
 - *number*: decimal, such as `2.4` or `.5`. No units, no leading zeros.
 - *value*: a number; or a range `[a, b]`, from which every use draws evenly; or a curve
   `{over: exposure, points: [[0.3, 1], [1, 1.8]]}`, straight between its points and level beyond them. `over` is
-  `exposure` (0 to 1), `age` (iterations since the plant was seeded) `height` (metres above the world's floor)
+  `exposure` (0 to 1), `age` (iterations since the plant was seeded), `height` (metres above the world's floor)
   or a sense of the rule set by its name (what it reads).
 - *distance*: a number of voxel widths; or text with a unit, `12 cm`, `0.12 m`, `120 mm`, which stays the same when the
   voxels change. `2.4 vx` is `2.4`.

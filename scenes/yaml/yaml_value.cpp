@@ -118,22 +118,17 @@ class ValueReader {
   }
 
   bool readOver(const Node& node, Value& value) {
-    if (node.kind == Node::Kind::scalar && node.text == "exposure") {
-      value.over = rules::Over::exposure;
-    } else if (node.kind == Node::Kind::scalar && node.text == "age") {
-      value.over = rules::Over::age;
-    } else if (node.kind == Node::Kind::scalar && node.text == "height") {
-      value.over = rules::Over::height;
-    } else if (node.kind == Node::Kind::scalar && !node.text.empty()) {
-      value.over = rules::Over::sense;  // whether the rule set has it is known when all of it is
-      value.sense = node.text;
-    } else {
+    if (node.kind != Node::Kind::scalar || node.text.empty()) {
       read_.say(node,
                 fmt::format("{}.over is {}; expected exposure, age (iterations), height (metres) or the "
                             "name of a sense",
                             read_.path, described(node)));
       return false;
     }
+    const auto axis = std::find(rules::kAxes.begin(), rules::kAxes.end(), node.text);
+    value.over = static_cast<rules::Over>(axis - rules::kAxes.begin());
+    // Whether the rule set has such a sense is known when all of it is.
+    if (value.over == rules::Over::sense) value.sense = node.text;
     return true;
   }
 

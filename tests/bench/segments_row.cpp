@@ -15,7 +15,7 @@
 namespace espalier::bench {
 namespace {
 
-/// Figure 4's vine with every bias, every requirement, ranges, and a table of the sky.
+/// Figure 4's vine with every bias, every requirement, ranges, senses, and a table of the sky.
 rules::RuleSet withEverything(rules::RuleSet rules) {
   const auto range = [](double low, double high) {
     rules::Value value(low);
@@ -33,6 +33,12 @@ rules::RuleSet withEverything(rules::RuleSet rules) {
   rules.bias.away = 0.02;
   rules.bias.toward = range(0.05, 0.1);
   rules.bias.twist = range(-0.2, 0.2);
+  using Measure = rules::SenseSpec::Measure;
+  rules.senses = {{"crowd", Measure::density, "others", {6.0}},
+                  {"gap", Measure::distance, "others", {12.0}},
+                  {"rise", Measure::height, "scene", {6.0}}};
+  rules.bias.senses = {{"crowd", -0.02}, {"gap", -0.02}};
+  rules.require.senses = {{"crowd", -rules::kNoLimit, 0.9}, {"rise", 0.0, rules::kNoLimit}};
   return rules;
 }
 

@@ -215,6 +215,18 @@ void agreeOnRules(Drawn& rules) {
     else if (named && named->text == "table")
       named->text = "gaussian";
   }
+  if (Drawn* const senses = find(rules, "senses")) {
+    for (DrawnEntry& sense : senses->entries) {
+      Drawn* const measure = find(sense.value, "measure");
+      if (measure && measure->text == "height") takeOut(sense.value, {"within"});
+      if (!measure || measure->text != "distance") continue;
+      Drawn* const of = find(sense.value, "of");
+      if (of == nullptr)
+        measure->text = "density";
+      else if (of->text == "everything" || of->text == "plants" || of->text == "own")
+        of->text = "others";
+    }
+  }
   Drawn* const require = find(rules, "require");
   for (const char* const key : {"proximity", "age"}) {
     Drawn* const bounds = require ? find(*require, key) : nullptr;

@@ -160,11 +160,13 @@ void RandomFiles::knowSpecials() {
     if (world_.meshes && numbers_.chance(0.1)) of = {"floor"};
     return numbers_.pick(of);
   });
-  // Most tips read what lies between.
-  special("rules:require.senses.<name>.min",
-          [this] { return fmt::format("{}", numbers_.uniform(-1.0, 0.05)); });
-  special("rules:require.senses.<name>.max",
-          [this] { return fmt::format("{}", numbers_.uniform(0.5, 9.0)); });
+  // Most tips read what lies between, mostly.
+  const auto reading = [this](double low, double high) {
+    return fmt::format("{}",
+                       numbers_.chance(0.8) ? numbers_.uniform(low, high) : numbers_.uniform(-1e6, 1e6));
+  };
+  special("rules:require.senses.<name>.min", [=] { return reading(-1.0, 0.05); });
+  special("rules:require.senses.<name>.max", [=] { return reading(0.5, 9.0); });
   text("meshes[].scale", [this] { return fmt::format("{}", world_.longest_m()); });
   for (const std::string of : {"meshes[].", "plants[].skeleton."}) {
     text(of + "unit", [this] {

@@ -54,7 +54,7 @@ const std::map<std::string, Datum>& otherValues() {
       {"bias.towards[].amount", Value(-0.3)},
       {"bias.senses[].amount", Value(0.2)},
       {"senses[].measure", std::string("height")},
-      {"senses[].of", std::string("everything")},
+      {"senses[].of", std::string("brick")},
       {"senses[].within", Distance{2.0}},
       {"require.senses[].min", 0.05},
       {"require.senses[].max", 0.1},

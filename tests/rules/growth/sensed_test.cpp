@@ -2,8 +2,9 @@
 
 #include <algorithm>
 
+#include "sim/base/error.h"
 #include "sim/grow/grow.h"
-#include "tests/support/lively.h"
+#include "tests/support/colonies.h"
 #include "tests/support/plots.h"
 
 /// What rule sets do by senses of their own: bias, require, prefer, and curves over what they read.
@@ -126,10 +127,39 @@ TEST(Sensed, CurvesFollowReadings) {
   EXPECT_NEAR(first(48), 4.5, 0.01);
 }
 
-TEST(Sensed, HoldInRegionsBranchesAndOtherwise) {
+TEST(Sensed, HoldInOtherwise) {
   RuleSet top = tests::failing();
   top.otherwise = std::make_shared<const RuleSet>(drawnTo("oak", Measure::density, 0.4));
   EXPECT_LT(endOf(grown(posts(), top, {{32, 4, 16}})[0]).x, 20.0);
+}
+
+TEST(Sensed, BendFrontsAndEndThem) {
+  const auto middle = [](const RuleSet& rules) {
+    sim::World world({Vec3(0.0), 0.05, tests::kSize});
+    tests::addBox(world, "oak", {2, 0, 30}, {4, 63, 34});
+    world.setLayers(4);
+    const sim::Growth growth = tests::grown(world, rules, {{32, 32, 32}}, tests::crown(300), 12);
+    Vec3 sum(0.0);
+    for (const Vec3& at : growth.plants[0].skeleton.position_vx) sum += at;
+    return sum / static_cast<double>(growth.plants[0].skeleton.size());
+  };
+  RuleSet rules = tests::tree();
+  const Vec3 plain = middle(rules);
+  rules.senses = {{"oak", Measure::distance, "oak", {60.0}}, {"rise", Measure::height, "scene", {6.0}}};
+  EXPECT_EQ(middle(rules), plain) << "nobody asks";
+  rules.bias.senses = {{"oak", 0.4}};
+  EXPECT_LT(middle(rules).x, plain.x - 0.3);
+  rules.bias.senses = {{"oak", -0.4}};
+  EXPECT_GT(middle(rules).x, plain.x + 0.3);
+  rules.bias.senses.clear();
+  rules.require.senses = {{"rise", -kNoLimit, 2.0}};  // metres: 40 voxel widths
+  EXPECT_LT(middle(rules).y, plain.y - 1.0);
+}
+
+TEST(Sensed, AreAskedForByNamesThatThereAre) {
+  RuleSet rules = walker();
+  rules.prefer.senses = {{"gap", 0.0, 1.0}};
+  EXPECT_THROW(grown(posts(), rules, {{32, 4, 16}}), sim::InputError);
 }
 
 }  // namespace

@@ -54,4 +54,8 @@ inline std::string testName(const testing::TestParamInfo<BadFile>& info) {
   return name;
 }
 
+/// Rule files, by their text after "espalier: rules" on line 1; bad_rules_test.cpp tries those of every file
+/// that instantiates it.
+class BadRules : public testing::TestWithParam<BadFile> {};
+
 }  // namespace espalier::tests

@@ -8,6 +8,7 @@ namespace espalier::scenes {
 namespace {
 
 using tests::BadFile;
+using tests::BadRules;
 
 // Rule files begin with "espalier: rules" on line 1.
 const std::vector<BadFile> kBadRules = {
@@ -128,9 +129,8 @@ const std::vector<BadFile> kBadRules = {
     {"a curve without points", "bias: {up: {over: age}}\n", {"2:12: bias.up is a mapping without 'points'"}},
     {"a curve over something unknown",
      "bias: {up: {over: ages, points: [[0, 0], [1, 1]]}}\n",
-     {"2:8: a curve over 'ages'; expected exposure, age (iterations), height (metres) or a sense of this "
-      "rule "
-      "set"}},
+     {"2:19: bias.up.over is 'ages'; expected exposure, age (iterations), height (metres) or a sense of this "
+      "rule set; did you mean 'age'?"}},
     {"a curve that turns back",
      "bias: {up: {over: age, points: [[0, 0], [5, 1], [5, 0.5]]}}\n",
      {"2:49: bias.up.points has x = 5 after 5; expected x to rise"}},
@@ -382,8 +382,6 @@ const std::vector<BadFile> kBadRules = {
      {"2:12: bias.up is '2'", "2:15: unknown key 'lihgt'", "3:16: light.boost is '99'",
       "4:7: name is empty"}},
 };
-
-class BadRules : public testing::TestWithParam<BadFile> {};
 
 TEST_P(BadRules, AreRefusedWithPlaceAndReason) {
   tests::expectMessages(GetParam(), "r.yaml", std::string("espalier: rules\n") + GetParam().text);

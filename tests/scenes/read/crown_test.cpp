@@ -16,8 +16,9 @@ std::pair<rules::CrownSpec, std::string> crown(const std::string& text) {
   if (root) readTable(*root, *rules::crownKeys(), &spec, "", reading);
   std::string said = format(problems.sorted());
   if (said.empty()) {
-    rules::checkCrown(spec, "crown",
-                      [&](const std::string& path, const std::string& what) { said += path + ": " + what; });
+    rules::checkCrown(spec, "crown", {[&](const std::string& path, const std::string& what, const auto&) {
+                        said += path + ": " + what;
+                      }});
   }
   return {spec, said};
 }

@@ -71,6 +71,28 @@ TEST_P(EveryKey, SetsItsOwnFieldAndNoOther) {
   EXPECT_GT(set, 60);
 }
 
+/// A curve may run over a sense, so only all of a rule set tells that there is none of that name.
+TEST(EveryValue, RefusesCurvesOverWhatIsNotThere) {
+  const tests::Scratch scratch;
+  int tried = 0;
+  tests::forEachKeyInPlace(
+      rules::ruleTable(), "", [](const std::string& root) { return root; },
+      [&](const std::string& path, const Key& key, const auto& wrap) {
+        using rules::Kind;
+        if (key.kind != Kind::value && key.kind != Kind::length && key.kind != Kind::size) return;
+        ++tried;
+        const auto shown = [&](const std::string& over) {
+          const std::string curve = fmt::format("{{over: {}, points: [[0, 0.5], [1, 0.5]]}}", over);
+          const std::string text = "{espalier: rules, " + wrap(curve).substr(1) + "\n";
+          return format(readRulesOrScene(scratch.write("f.yaml", text)).problems());
+        };
+        EXPECT_NE(shown("x").find(".over is 'x'; expected exposure"), std::string::npos)
+            << path << shown("x");
+        EXPECT_EQ(shown("age").find(".over is"), std::string::npos) << path;
+      });
+  EXPECT_GE(tried, 15);
+}
+
 bool namesRuleSets(const Key& key) {
   return key.kind == rules::Kind::header || key.kind == rules::Kind::base || key.kind == rules::Kind::rules ||
          key.kind == rules::Kind::regions;

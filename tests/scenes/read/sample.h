@@ -221,7 +221,7 @@ inline std::vector<std::string> badTexts(const rules::Key& key) {
     case Kind::entries:
       return {"{}", "few_words", "[{unknown_key: 1}]", "[[]]"};
     case Kind::named:
-      return {"[]", "few_words", "{a: {unknown_key: 1}}", "{a: [true]}"};
+      return {"[]", "few_words", "{a: {unknown_key: 1}}", rules::briefOf(key) ? "{a: [true]}" : "{a: 5}"};
   }
   return {};
 }

@@ -11,6 +11,7 @@ namespace {
 using rules::AngleDistribution;
 using rules::Value;
 using tests::BadFile;
+using tests::BadRules;
 using tests::Scratch;
 
 rules::RandomTree treeOf(const Scratch& scratch, const std::string& wander, const std::string& header = "") {
@@ -110,13 +111,7 @@ const std::vector<BadFile> kBadWander = {
      {"2:46: random_tree.wander.table is '-2', which is out of range; expected a list of 1 to 64 pairs"}},
 };
 
-class BadWander : public testing::TestWithParam<BadFile> {};
-
-TEST_P(BadWander, IsRefusedWithPlaceAndReason) {
-  tests::expectMessages(GetParam(), "r.yaml", std::string("espalier: rules\n") + GetParam().text);
-}
-
-INSTANTIATE_TEST_SUITE_P(Files, BadWander, testing::ValuesIn(kBadWander), tests::testName);
+INSTANTIATE_TEST_SUITE_P(Wander, BadRules, testing::ValuesIn(kBadWander), tests::testName);
 
 }  // namespace
 }  // namespace espalier::scenes

@@ -35,6 +35,13 @@ class BitVolume {
   /// Sets all that are set in a volume of the same size.
   void add(const BitVolume& more);
 
+  /// The 64 voxels from one on along x, bit 0 being itself; zeros before the row and behind it. The row must
+  /// lie inside, and x between -63 and the row's end.
+  std::uint64_t from(Voxel v) const {
+    const std::uint64_t* const words = row(v.y, v.z) + (v.x >> 6);
+    const int shift = v.x & 63;
+    return words[0] >> shift | words[1] << 1 << (63 - shift);
+  }
   const std::uint64_t* row(int y, int z) const { return words_.data() + rowOffset(y, z); }
   std::uint64_t* row(int y, int z) { return words_.data() + rowOffset(y, z); }
   const std::vector<std::uint64_t>& words() const { return words_; }

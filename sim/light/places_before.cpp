@@ -117,13 +117,6 @@ void appendTaps(const Places& places, Vec3f normal, float offset, std::vector<Ta
   }
 }
 
-/// 64 bits of a row from a voxel on, zeros before it and behind it.
-std::uint64_t bitsFrom(const BitVolume& volume, Voxel from) {
-  const std::uint64_t* const row = volume.row(from.y, from.z) + (from.x >> 6);
-  const int shift = from.x & 63;
-  return (row[0] >> shift) | (row[1] << 1 << (63 - shift));
-}
-
 }  // namespace
 
 PlacesBefore::PlacesBefore(const BitVolume& opaque, const BitVolume* nooks)
@@ -179,8 +172,8 @@ bool PlacesBefore::holds(const Pattern& pattern, Voxel voxel) const {
   for (const Pattern::Row& row : pattern.rows) {
     const Voxel from(voxel.x - kWayZero, voxel.y + row.y, voxel.z + row.z);
     if (from.y < 0 || from.y >= size.y || from.z < 0 || from.z >= size.z) return false;
-    if ((bitsFrom(opaque_, from) & row.free) != 0) return false;
-    if (nooks_ && (bitsFrom(*nooks_, from) & row.free) != 0) return false;
+    if ((opaque_.from(from) & row.free) != 0) return false;
+    if (nooks_ && (nooks_->from(from) & row.free) != 0) return false;
   }
   return true;
 }

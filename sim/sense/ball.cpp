@@ -1,5 +1,6 @@
 #include "sim/sense/ball.h"
 
+#include <algorithm>
 #include <array>
 
 namespace espalier::sim {
@@ -17,6 +18,10 @@ Ball makeBall(double radius_vx) {
       ball.voxels += 2 * half + 1;
     }
   }
+  ball.outward = ball.rows;
+  std::stable_sort(ball.outward.begin(), ball.outward.end(), [](const Ball::Row& a, const Ball::Row& b) {
+    return a.dy * a.dy + a.dz * a.dz < b.dy * b.dy + b.dz * b.dz;
+  });
   return ball;
 }
 

@@ -22,7 +22,8 @@ struct Ball {
   struct Row {
     int dy, dz, half;  ///< it reaches from -half to half
   };
-  std::vector<Row> rows;  ///< from low to high in (y, z)
+  std::vector<Row> rows;     ///< from low to high in (y, z)
+  std::vector<Row> outward;  ///< the same, those nearest to the middle first
   std::int64_t voxels = 0;
 };
 /// It is remembered by each thread for the radii that it asked for last.
@@ -36,6 +37,16 @@ inline int bitCount(std::uint64_t word) {
   return static_cast<int>(word * 0x0101010101010101 >> 56);
 }
 
+/// The bits of a word that are so far from a place at most; the place may lie before the word or behind it.
+inline std::uint64_t bitsAbout(int place, int far) {
+  const int low = place - far, high = place + far;
+  if (low > 63 || high < 0) return 0;
+  std::uint64_t bits = ~std::uint64_t{0};
+  if (low > 0) bits &= ~std::uint64_t{0} << low;
+  if (high < 63) bits &= ~std::uint64_t{0} >> (63 - high);
+  return bits;
+}
+
 /// Calls visit(first, bits, dy, dz) for each word of voxels that are set within a radius of one: bit i is
 /// that i voxels from `first` along x, and dy and dz are how far off the row lies. Word by word along x, and
 /// from low to high in y and z.
@@ -45,18 +56,13 @@ void forEachWordOfBall(const BitVolume& set, Voxel about, double radius_vx, Visi
   const Ball& ball = ballOf(radius_vx);
   const int reach = static_cast<int>(radius_vx);
   const int low = std::max(0, about.x - reach), high = std::min(size.x - 1, about.x + reach);
-  for (int w = low >> 6; w <= high >> 6; ++w) {
-    const int first_x = 64 * w - about.x;  // of the word's voxels
+  for (int x = low; x <= high; x += BitVolume::kWordBits) {
     for (const auto& [dy, dz, half] : ball.rows) {
       const int y = about.y + dy, z = about.z + dz;
       if (y < 0 || y >= size.y || z < 0 || z >= size.z) continue;
-      std::uint64_t word = set.row(y, z)[w];
-      if (word == 0) continue;
-      const int first = -half - first_x, last = half - first_x;
-      if (first > 63 || last < 0) continue;
-      if (first > 0) word &= ~std::uint64_t{0} << first;
-      if (last < 63) word &= ~std::uint64_t{0} >> (63 - last);
-      if (word != 0) visit(Voxel(64 * w, y, z), word, dy, dz);
+      const Voxel first(x, y, z);
+      const std::uint64_t word = set.from(first) & bitsAbout(about.x - x, half);
+      if (word != 0) visit(first, word, dy, dz);
     }
   }
 }

@@ -18,7 +18,7 @@ std::uint64_t ofRegion(const World& world, const std::string& region, Voxel firs
   return those;
 }
 
-/// The bit nearest to a place of -63 to 126; of two the lower. The word is not 0.
+/// The bit nearest to a place, which may lie before the word or behind it; of two the lower. The word is not 0.
 int nearestBit(std::uint64_t word, int place) {
   const std::uint64_t up_to = place < 0 ? 0 : place >= 63 ? word : word & ((std::uint64_t{2} << place) - 1);
   const std::uint64_t beyond = word & ~up_to;
@@ -29,14 +29,11 @@ int nearestBit(std::uint64_t word, int place) {
   return place - before <= behind - place ? before : behind;
 }
 
-/// The bits that are so far from a place at most.
-std::uint64_t bitsAbout(int place, int far) {
-  const int low = place - far, high = place + far;
-  if (low > 63 || high < 0) return 0;
-  std::uint64_t bits = ~std::uint64_t{0};
-  if (low > 0) bits &= ~std::uint64_t{0} << low;
-  if (high < 63) bits &= ~std::uint64_t{0} >> (63 - high);
-  return bits;
+/// Where voxels of those asked for can be: what stands in no plant is passed over by whole words.
+const BitVolume& amongWhich(const World& world, const Whose& whose) {
+  using Kind = Whose::Kind;
+  const bool plants = whose.kind == Kind::plants || whose.kind == Kind::own || whose.kind == Kind::others;
+  return plants ? world.inPlants() : world.occupied();
 }
 
 }  // namespace
@@ -62,52 +59,49 @@ std::uint64_t thoseOf(const World& world, const Whose& whose, Voxel first, std::
 
 double densityAround(const World& world, const Whose& whose, Voxel about, double radius_vx) {
   std::int64_t count = 0;
-  forEachWordOfBall(world.occupied(), about, radius_vx, [&](Voxel first, std::uint64_t word, int, int) {
-    count += bitCount(thoseOf(world, whose, first, word));
-  });
+  forEachWordOfBall(amongWhich(world, whose), about, radius_vx,
+                    [&](Voxel first, std::uint64_t word, int, int) {
+                      count += bitCount(thoseOf(world, whose, first, word));
+                    });
   return static_cast<double>(count) / static_cast<double>(ballOf(radius_vx).voxels);
 }
 
 Crowd crowdAround(const World& world, const Whose& whose, Voxel about, double radius_vx) {
   MassOfBall mass(about);
-  forEachWordOfBall(world.occupied(), about, radius_vx, [&](Voxel first, std::uint64_t word, int dy, int dz) {
-    mass.add(first, thoseOf(world, whose, first, word), dy, dz);
-  });
+  forEachWordOfBall(amongWhich(world, whose), about, radius_vx,
+                    [&](Voxel first, std::uint64_t word, int dy, int dz) {
+                      mass.add(first, thoseOf(world, whose, first, word), dy, dz);
+                    });
   const auto all = static_cast<double>(ballOf(radius_vx).voxels);
   return {static_cast<double>(mass.count()) / all, mass.centre()};
 }
 
-namespace {
-
-std::optional<Voxel> nearestWithin(const World& world, const Whose& whose, Voxel about, double radius_vx) {
-  std::optional<Voxel> nearest;
-  auto least = static_cast<double>(std::numeric_limits<int>::max());
-  const auto before = [](Voxel a, Voxel b) { return std::tie(a.y, a.z, a.x) < std::tie(b.y, b.z, b.x); };
-  forEachWordOfBall(world.occupied(), about, radius_vx, [&](Voxel first, std::uint64_t word, int dy, int dz) {
-    const double off = static_cast<double>(dy * dy + dz * dz);
-    if (off > least) return;
-    const int place = about.x - first.x;
-    if (nearest) word &= bitsAbout(place, rootBelow(least - off));
-    const std::uint64_t those = thoseOf(world, whose, first, word);
-    if (those == 0) return;
-    Voxel v = first;
-    v.x += nearestBit(those, place);
-    const double dx = v.x - about.x, square = dx * dx + off;
-    if (square > least || (square == least && !before(v, *nearest))) return;
-    least = square;
-    nearest = v;
-  });
-  return nearest;
-}
-
-}  // namespace
-
 std::optional<Voxel> nearestOf(const World& world, const Whose& whose, Voxel about, double radius_vx) {
-  constexpr double kFirst = 5.0;  // a ball of the double radius has eight times the voxels
-  for (double radius = kFirst; radius < radius_vx; radius *= 2.0) {
-    if (const auto nearest = nearestWithin(world, whose, about, radius)) return nearest;
+  const BitVolume& set = amongWhich(world, whose);
+  const Voxel size = set.size();
+  std::optional<Voxel> nearest;
+  int least = std::numeric_limits<int>::max();  // the square of how far it is
+  const auto before = [](Voxel a, Voxel b) { return std::tie(a.y, a.z, a.x) < std::tie(b.y, b.z, b.x); };
+  for (const auto& [dy, dz, half] : ballOf(radius_vx).outward) {
+    const int off = dy * dy + dz * dz;
+    if (off > least) break;
+    const int y = about.y + dy, z = about.z + dz;
+    if (y < 0 || y >= size.y || z < 0 || z >= size.z) continue;
+    const int high = std::min(size.x - 1, about.x + half);
+    for (int x = std::max(0, about.x - half); x <= high; x += BitVolume::kWordBits) {
+      const Voxel first(x, y, z);
+      const int place = about.x - x;
+      const std::uint64_t word = set.from(first) & bitsAbout(place, half);
+      const std::uint64_t those = word == 0 ? 0 : thoseOf(world, whose, first, word);
+      if (those == 0) continue;
+      const Voxel v = first + Voxel(nearestBit(those, place), 0, 0);
+      const int square = (v.x - about.x) * (v.x - about.x) + off;
+      if (square > least || (square == least && !before(v, *nearest))) continue;
+      least = square;
+      nearest = v;
+    }
   }
-  return nearestWithin(world, whose, about, radius_vx);
+  return nearest;
 }
 
 double heightAbove(const World& world, const Whose& whose, Vec3 at_vx) {

@@ -198,13 +198,6 @@ HWY_EXPORT(Measure);
 }  // namespace feelers
 namespace {
 
-/// 64 voxels of a row from x on, of which some lie in it; what lies outside is 0.
-std::uint64_t bitsFrom(const std::uint64_t* row, int x) {
-  const std::uint64_t* const words = row + (x >> 6);  // from -1 on: zeros stand before and behind the row
-  const int shift = x & 63;
-  return words[0] >> shift | words[1] << 1 << (63 - shift);
-}
-
 /// Of 64 voxels from x on, those from `first` to before `last`.
 std::uint64_t bitsBetween(int x, int first, int last) {
   const auto below = [&](int end) {
@@ -263,8 +256,8 @@ void roomAround(const World& world, Voxel at, int reach, std::span<const Voxel> 
       for (int z = room.low.z; z < room.low.z + across; ++z, bit += std::size_t{1} << room.side_bits) {
         std::uint64_t hinders = cube, free = 0;
         if (in_y && z >= 0 && z < size.z) {
-          std::uint64_t stands = bitsFrom(occupied.row(y, z), x) & in_x;
-          const std::uint64_t elements = stands & ~bitsFrom(solid.row(y, z), x);
+          std::uint64_t stands = occupied.from({x, y, z}) & in_x;
+          const std::uint64_t elements = stands & ~solid.from({x, y, z});
           const std::uint64_t yields = passage == Passage::past_own ? stands : elements;
           if (yields != 0) stands &= ~world.ofPlant({x, y, z}, yields, plant);
           hinders = (cube & ~in_x) | (stands & hinders_too);

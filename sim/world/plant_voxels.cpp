@@ -9,6 +9,10 @@ PlantVoxels::Entry& PlantVoxels::entryAt(Voxel v) {
   return block.entries[numberIn(block, v)];
 }
 
+void PlantVoxels::note(Block& block, int plant) {
+  block.plant = block.plant == kNobody || block.plant == plant ? plant : kSeveral;
+}
+
 std::uint32_t PlantVoxels::lookOf(const Surface& surface) {
   const auto part = static_cast<std::size_t>(surface.part);
   if (part >= latest_.size()) latest_.resize(part + 1);
@@ -32,15 +36,16 @@ std::optional<Surface> PlantVoxels::surfaceAt(Voxel v) const {
   return surfaceOf(*entry);
 }
 
-void PlantVoxels::add(Voxel v, const Surface& surface) {
+void PlantVoxels::add(Voxel v, const Surface& surface, int plant) {
   assert(find(v) == nullptr);
   Block& block = blocks_.make(v);
+  note(block, plant);
   auto& entries = block.entries;
   if (entries.size() == entries.capacity()) entries.reserve(entries.size() + entries.size() / 4 + 4);
   entries.insert(entries.begin() + static_cast<std::ptrdiff_t>(numberIn(block, v)),
                  {surface.part, lookOf(surface), surface.coverage});
+  taken_.set(v);
   const std::size_t row = rowOf(v);
-  block.taken[row] = static_cast<std::uint8_t>(block.taken[row] | 1u << (v.x & 7));
   for (std::size_t r = 0; r < block.first.size(); ++r)  // of all of them: in lanes
     block.first[r] = static_cast<std::uint16_t>(block.first[r] + (r > row ? 1 : 0));
 }
@@ -49,7 +54,8 @@ float PlantVoxels::addCoverage(Voxel v, float coverage) {
   return entryAt(v).coverage += coverage;
 }
 
-void PlantVoxels::takeOver(Voxel v, const Surface& surface) {
+void PlantVoxels::takeOver(Voxel v, const Surface& surface, int plant) {
+  note(blocks_.make(v), plant);
   Entry& entry = entryAt(v);
   entry.part = surface.part;
   entry.look = lookOf(surface);

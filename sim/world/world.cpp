@@ -145,7 +145,7 @@ void World::keep(const TiledVoxel& tiled) {
   if (kind == PartKind::scene)
     put(voxel, surface);
   else
-    grids_->plants.add(voxel, surface);
+    grids_->plants.add(voxel, surface, part(surface.part).plant);
 }
 
 void World::put(Voxel voxel, const Surface& surface) {
@@ -172,7 +172,7 @@ void World::join(const TiledVoxel& tiled) {
   if (kind == PartKind::scene || plants.partAt(voxel) == kFree) return;
   const float coverage = plants.addCoverage(voxel, surface.coverage);
   if (kind == PartKind::stem && !solid_.at(voxel)) {
-    plants.takeOver(voxel, surface);
+    plants.takeOver(voxel, surface, part(surface.part).plant);
     solid_.set(voxel);
   }
   shade(voxel, part(plants.partAt(voxel)).kind, coverage);
@@ -277,23 +277,19 @@ PartId World::partAt(Voxel v) const {
 }
 
 std::uint64_t World::ofPlant(Voxel first, std::uint64_t among, int plant) const {
-  std::uint64_t own = 0;
-  grids_->plants.forEachAmong(first, among, [&](std::uint64_t bit, PartId id) {
-    if (part(id).plant == plant) own |= bit;
-  });
-  return own;
+  return grids_->plants.ofPlant(first, among, plant, [&](PartId id) { return part(id).plant; });
 }
 
 std::uint64_t World::ofOtherPlants(Voxel first, std::uint64_t among, int plant) const {
-  std::uint64_t others = 0;
-  grids_->plants.forEachAmong(first, among, [&](std::uint64_t bit, PartId id) {
-    if (part(id).plant != plant) others |= bit;
-  });
-  return others;
+  return ofPlants(first, among) & ~ofPlant(first, among, plant);
 }
 
 std::uint64_t World::ofPlants(Voxel first, std::uint64_t among) const {
   return grids_->plants.takenAmong(first, among);
+}
+
+const BitVolume& World::inPlants() const {
+  return grids_->plants.taken();
 }
 
 std::optional<Surface> World::surfaceAt(Voxel v) const {

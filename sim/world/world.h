@@ -155,6 +155,8 @@ class World {
   /// Of the voxels that bits of `among` name, as above, those that belong to plants. All must lie inside the
   /// world.
   std::uint64_t ofPlants(Voxel first, std::uint64_t among) const;
+  /// All of those.
+  const BitVolume& inPlants() const;
   /// The same, of all plants but the one with this number.
   std::uint64_t ofOtherPlants(Voxel first, std::uint64_t among, int plant) const;
   std::optional<Surface> surfaceAt(Voxel v) const;

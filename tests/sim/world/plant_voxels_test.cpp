@@ -9,6 +9,11 @@
 namespace espalier::sim {
 namespace {
 
+/// Parts 1 and 2 are plant 0's, 3 and 4 plant 1's, 5 plant 2's.
+int plantOf(PartId part) {
+  return (part - 1) / 2;
+}
+
 using Key = std::tuple<int, int, int>;
 
 Key keyOf(Voxel v) {
@@ -35,6 +40,23 @@ void expectHolds(const PlantVoxels& voxels, Voxel size, const std::map<Key, Surf
       }
     }
   }
+  const auto wordAt = [&](Voxel first, int plant) {  // -1: of any
+    std::uint64_t bits = 0;
+    for (int i = 0; i < 64; ++i) {
+      const auto at = wanted.find({first.y, first.z, first.x + i});
+      if (at != wanted.end() && (plant < 0 || plantOf(at->second.part) == plant))
+        bits |= std::uint64_t{1} << i;
+    }
+    return bits;
+  };
+  for (const auto& [key, surface] : wanted) {
+    const auto& [y, z, x] = key;
+    const Voxel first(x - x % 5, y, z);
+    const std::uint64_t among = 0x5af3'17c9'0b6d'e842u * static_cast<unsigned>(x + 1);
+    EXPECT_EQ(voxels.takenAmong(first, among), among & wordAt(first, -1));
+    for (int plant = 0; plant < 4; ++plant)
+      ASSERT_EQ(voxels.ofPlant(first, among, plant, plantOf), among & wordAt(first, plant));
+  }
   std::map<Key, Surface> visited;
   voxels.forEach(
       [&](Voxel v, const Surface& surface) { EXPECT_TRUE(visited.emplace(keyOf(v), surface).second); });
@@ -58,10 +80,10 @@ TEST(PlantVoxels, HoldWhatWasPutIntoThem) {
     surface.coverage = 0.125f * static_cast<float>(below(9));
     const auto [at, fresh] = wanted.try_emplace(keyOf(v), surface);
     if (fresh) {
-      voxels.add(v, surface);
+      voxels.add(v, surface, plantOf(surface.part));
     } else if (i % 3 == 0) {
       const float coverage = at->second.coverage;
-      voxels.takeOver(v, surface);
+      voxels.takeOver(v, surface, plantOf(surface.part));
       at->second = surface;
       at->second.coverage = coverage;
     } else {

@@ -300,7 +300,7 @@ std::int32_t nearestOfAll(const Attractors& attractors, sim::Vec3 to) {
 
 std::int32_t nearestOther(const Attractors& attractors, std::int32_t at) {
   Nearest best{kFar};
-  seek(attractors, 0, attractors.at(at), {.but = at}, best);
+  seek(attractors, 0, attractors.at(at), {.but = at, .all = true}, best);
   return best.at;
 }
 

@@ -92,7 +92,8 @@ std::int32_t nearestWaiting(const Attractors& attractors, sim::Vec3 to, double w
 /// The nearest attractor, whatever became of it; equally near ones as above. kNobody where there is none.
 std::int32_t nearestOfAll(const Attractors& attractors, sim::Vec3 to);
 
-/// The attractor that is nearest to one of them, of all that wait. Indices; kNobody where there is but one.
+/// The attractor that is nearest to one of them, whatever became of it. Indices; kNobody where there is but
+/// one.
 std::int32_t nearestOther(const Attractors& attractors, std::int32_t at);
 
 /// The attractors that wait for a node which stands at `at`, nearer to it than `within`, by their places: the

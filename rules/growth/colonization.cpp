@@ -128,14 +128,17 @@ Guidance ColonizationProcess::guidance(const sim::StandView& stand, const sim::C
 void ColonizationProcess::begin(const sim::StandView& stand, sim::Columns& memory,
                                 sim::Commons& commons) const {
   sim::Columns& columns = home(commons);
-  if (!holdsFront(columns)) {
-    const auto& places = sim::column<sim::Vec3>(columns, kAttractorPlace);
+  const auto& places = sim::column<sim::Vec3>(columns, kAttractorPlace);
+  const bool first = !holdsFront(columns);
+  if (first) {
     Front fresh = frontOf(places);
     fresh.moved = {stand.iteration};
     const LentFront kept(columns, std::move(fresh));
   }
   LentFront lent(columns);
-  const FrontLengths suitable = suitableLengths(spacingOf(lent.front.attractors));
+  // As if none were reached: what is suitable does not depend on who else begins.
+  const double spacing = first ? spacingOf(lent.front.attractors) : spacingOf(sortedAttractors(places));
+  const FrontLengths suitable = suitableLengths(spacing);
   auto& all = sim::column<double>(memory, kLengths);
   for (int order = 0; order <= kTwig; ++order) {
     const FrontLengths found = lengths(suitable, order);

@@ -1,7 +1,7 @@
 #include <algorithm>
 #include <bit>
-#include <cmath>
 
+#include "rules/growth/preference.h"
 #include "rules/growth/random_tree.h"
 #include "sim/sense/feelers.h"
 
@@ -19,6 +19,7 @@ struct GoodTrial {
 std::vector<GoodTrial> goodTrials(const sim::SiteView& view, const RuleSet& rules, const Surroundings& around,
                                   const Ways& ways, const sim::Room& room, sim::Proposal& proposal) {
   std::vector<GoodTrial> good;
+  Preference preference(view, rules, around.voxel, reachOf(ways));
   sim::Offsets ends;
   sim::Felt felt;
   for (int first = 0; first < rules.random_tree.trials_max;) {
@@ -37,7 +38,7 @@ std::vector<GoodTrial> goodTrials(const sim::SiteView& view, const RuleSet& rule
       if (outcome != Outcome::grown) continue;
       const double proximity_vx = felt.proximity_vx[n];
       good.push_back({sim::endOf(around.at_vx, ends, n), proximity_vx,
-                      scoreOf(view, rules, sim::endOf(around.at_vx, ends, n), proximity_vx)});
+                      preference.scoreOf(sim::endOf(around.at_vx, ends, n), proximity_vx)});
     }
     first += count;
   }

@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <bit>
-#include <cmath>
 #include <limits>
 
+#include "rules/growth/preference.h"
 #include "sim/sense/feelers.h"
 
 namespace espalier::rules {
@@ -50,15 +50,6 @@ Outcome judged(const RuleSet& rules, double proximity_vx) {
   return Outcome::grown;
 }
 
-double scoreOf(const sim::SiteView& view, const RuleSet& rules, sim::Vec3 to_vx, double proximity_vx) {
-  const Prefer& prefer = rules.prefer;
-  double score =
-      prefer.has_proximity ? prefer.weight * std::abs(proximity_vx - prefer.proximity.number) : 0.0;
-  for (const SensePreference& by : prefer.senses)
-    score += by.weight * std::abs(readingOf(view, senseNamed(rules, by.name), to_vx) - by.at);
-  return score;
-}
-
 std::optional<Candidate> bestTrial(const sim::SiteView& view, const RuleSet& rules,
                                    const Surroundings& around, const Ways& ways, const Trials& trials,
                                    sim::Proposal& proposal) {
@@ -66,6 +57,7 @@ std::optional<Candidate> bestTrial(const sim::SiteView& view, const RuleSet& rul
   const int plant = sim::numberOf(view.world, view.plant);
   thread_local sim::Room room;  // it keeps its memory
   sim::roomAround(view.world, around.voxel, reachOf(ways), around.attachment, passage, plant, room);
+  Preference preference(view, rules, around.voxel, reachOf(ways));
   std::optional<Candidate> best;
   double best_score = std::numeric_limits<double>::infinity();
   int best_trial = 0;
@@ -92,7 +84,7 @@ std::optional<Candidate> bestTrial(const sim::SiteView& view, const RuleSet& rul
       ++proposal.trials[static_cast<std::size_t>(outcome)];
       if (outcome != Outcome::grown) continue;
       if (!best) count = std::min(ahead, std::max(enough - first, i + 1));
-      const double score = scoreOf(view, rules, sim::endOf(around.at_vx, ends, n), proximity_vx);
+      const double score = preference.scoreOf(sim::endOf(around.at_vx, ends, n), proximity_vx);
       if (score < best_score) {
         best_score = score;
         best = Candidate{sim::endOf(around.at_vx, ends, n), {}, {}, passage, proximity_vx};

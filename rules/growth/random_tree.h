@@ -29,9 +29,6 @@ int reachOf(const Ways& ways);
 /// What the rules say to a segment that has room.
 sim::Outcome judged(const RuleSet& rules, double proximity_vx);
 
-/// How far such a segment is from what the rules prefer; the least wins.
-double scoreOf(const sim::SiteView& view, const RuleSet& rules, sim::Vec3 to_vx, double proximity_vx);
-
 /// How hard a site tries.
 struct Trials {
   int first = 0;  ///< the first trial's number

@@ -41,14 +41,6 @@ double vigourAt(const RuleSet& rules, double exposure) {
   return 1.0 + (rules.light.boost - 1.0) * std::clamp(above, 0.0, 1.0);
 }
 
-sim::Whose whoseOf(const sim::SiteView& view, const SenseSpec& sense) {
-  using Kind = sim::Whose::Kind;
-  const auto word = std::find(kWhose.begin(), kWhose.end(), sense.of);
-  const int plant = sim::numberOf(view.world, view.plant);
-  if (word == kWhose.end()) return {Kind::region, plant, sense.of};
-  return {static_cast<Kind>(word - kWhose.begin()), plant, {}};
-}
-
 /// What a sense finds in a place.
 struct Found {
   double value = 0.0;
@@ -58,7 +50,7 @@ struct Found {
 Found find(const sim::SiteView& view, const SenseSpec& sense, sim::Vec3 at_vx) {
   const sim::Whose whose = whoseOf(view, sense);
   const sim::Voxel about = sim::voxelAt(at_vx);
-  const double within_vx = sense.within.number, voxel_m = view.world.frame().voxel_m;
+  const double within_vx = sense.within.number;
   switch (sense.measure) {
     case SenseSpec::Measure::density: {
       const sim::Crowd crowd = sim::crowdAround(view.world, whose, about, within_vx);
@@ -66,13 +58,13 @@ Found find(const sim::SiteView& view, const SenseSpec& sense, sim::Vec3 at_vx) {
     }
     case SenseSpec::Measure::distance: {
       const auto nearest = sim::nearestOf(view.world, whose, about, within_vx);
-      if (!nearest) return {within_vx * voxel_m, sim::Vec3(0.0)};
-      return {glm::length(sim::Vec3(*nearest - about)) * voxel_m, unitOrZero(sim::Vec3(*nearest) - at_vx)};
+      const double read_m = distanceRead(nearest, about, sense, view.world.frame());
+      return {read_m, nearest ? unitOrZero(sim::Vec3(*nearest) - at_vx) : sim::Vec3(0.0)};
     }
     case SenseSpec::Measure::height:
       break;
   }
-  return {sim::heightAbove(view.world, whose, at_vx) * voxel_m, {0.0, -1.0, 0.0}};
+  return {sim::heightAbove(view.world, whose, at_vx) * view.world.frame().voxel_m, {0.0, -1.0, 0.0}};
 }
 
 }  // namespace
@@ -105,6 +97,18 @@ Exposure exposureOf(const sim::Light& light) {
 Vigour vigourOf(const Exposure& seen, const RuleSet& rules) {
   const double exposure = blended(rules.light, seen);
   return {exposure, vigourAt(rules, exposure)};
+}
+
+sim::Whose whoseOf(const sim::SiteView& view, const SenseSpec& sense) {
+  const auto word = std::find(kWhose.begin(), kWhose.end(), sense.of);
+  const int plant = sim::numberOf(view.world, view.plant);
+  if (word == kWhose.end()) return {sim::Whose::Kind::region, plant, sense.of};
+  return {static_cast<sim::Whose::Kind>(word - kWhose.begin()), plant, {}};
+}
+
+double distanceRead(std::optional<sim::Voxel> nearest, sim::Voxel at, const SenseSpec& sense,
+                    const sim::Frame& frame) {
+  return (nearest ? glm::length(sim::Vec3(*nearest - at)) : sense.within.number) * frame.voxel_m;
 }
 
 double readingOf(const sim::SiteView& view, const SenseSpec& sense, sim::Vec3 at_vx) {

@@ -1,9 +1,11 @@
 #pragma once
 #include <array>
+#include <optional>
 #include <vector>
 
 #include "rules/language/rule_set.h"
 #include "sim/grow/process.h"
+#include "sim/sense/company.h"
 
 namespace espalier::rules {
 
@@ -49,6 +51,11 @@ Exposure exposureOf(const sim::Light& light);
 /// What one rule set makes of the light. To be asked before all else, which is dearer: many sites end by it.
 Vigour vigourOf(const Exposure& seen, const RuleSet& rules);
 Surroundings lookAround(const sim::SiteView& view, const sim::Site& site);
+/// Whose voxels a sense asks for.
+sim::Whose whoseOf(const sim::SiteView& view, const SenseSpec& sense);
+/// What a sense of the distance reads in a place where this is the nearest voxel; metres.
+double distanceRead(std::optional<sim::Voxel> nearest, sim::Voxel at, const SenseSpec& sense,
+                    const sim::Frame& frame);
 /// What one of a rule set's senses reads in a place inside the world.
 double readingOf(const sim::SiteView& view, const SenseSpec& sense, sim::Vec3 at_vx);
 /// Whether what a tip reads is what its rule set requires.

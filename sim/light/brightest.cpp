@@ -148,16 +148,19 @@ Vec3 SkyFilter::brightest(std::span<const std::uint64_t> open) const {
   const std::vector<float> filtered = illumination(open);
   const auto best = std::max_element(filtered.begin(), filtered.end());
   if (best == filtered.end() || *best <= 0.0f) return Vec3(0.0);
-  std::vector<Source> sources;
+  thread_local std::vector<Source> sources;  // it keeps its memory
+  sources.resize(cells_.size());
+  std::size_t count = 0;  // written whether they are open or not: no branch is guessed wrong
   for (const SkyTable::Cell& cell : cells_) {
     const Vec3 centre(cell.centre);
-    if (isOpen(open, cell.ray)) sources.push_back({centre, static_cast<double>(cell.light) * centre});
+    sources[count] = {centre, static_cast<double>(cell.light) * centre};
+    count += isOpen(open, cell.ray) ? 1 : 0;
   }
   // What a surface receives is a convex function of its normal, and homogeneous: facing the light in front of
   // it never loses any.
   Vec3 way = glm::normalize(Vec3(cells_[static_cast<std::size_t>(best - filtered.begin())].centre));
   for (int step = 0; step < kMostSteps; ++step) {
-    const Vec3 next = glm::normalize(lightInFront(sources, way));
+    const Vec3 next = glm::normalize(lightInFront({sources.data(), count}, way));
     const bool arrived = glm::dot(next, way) > kArrived;
     way = next;
     if (arrived) break;

@@ -42,4 +42,11 @@ const Ball& ballOf(double radius_vx) {
   return one.ball;
 }
 
+std::span<const std::uint64_t> masksAbout(int place, int reach) {
+  thread_local std::vector<std::uint64_t> masks;
+  masks.resize(static_cast<std::size_t>(reach) + 1);
+  for (int far = 0; far <= reach; ++far) masks[static_cast<std::size_t>(far)] = bitsAbout(place, far);
+  return masks;
+}
+
 }  // namespace espalier::sim

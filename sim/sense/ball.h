@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "sim/base/bits.h"
@@ -47,6 +48,9 @@ inline std::uint64_t bitsAbout(int place, int far) {
   return bits;
 }
 
+/// bitsAbout a place by how far, from 0 to `reach`. Good until the thread asks again.
+std::span<const std::uint64_t> masksAbout(int place, int reach);
+
 /// Calls visit(first, bits, dy, dz) for each word of voxels that are set within a radius of one: bit i is
 /// that i voxels from `first` along x, and dy and dz are how far off the row lies. Word by word along x, and
 /// from low to high in y and z.
@@ -57,11 +61,12 @@ void forEachWordOfBall(const BitVolume& set, Voxel about, double radius_vx, Visi
   const int reach = static_cast<int>(radius_vx);
   const int low = std::max(0, about.x - reach), high = std::min(size.x - 1, about.x + reach);
   for (int x = low; x <= high; x += BitVolume::kWordBits) {
+    const std::span<const std::uint64_t> masks = masksAbout(about.x - x, reach);
     for (const auto& [dy, dz, half] : ball.rows) {
       const int y = about.y + dy, z = about.z + dz;
       if (y < 0 || y >= size.y || z < 0 || z >= size.z) continue;
       const Voxel first(x, y, z);
-      const std::uint64_t word = set.from(first) & bitsAbout(about.x - x, half);
+      const std::uint64_t word = set.from(first) & masks[static_cast<std::size_t>(half)];
       if (word != 0) visit(first, word, dy, dz);
     }
   }

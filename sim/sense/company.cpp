@@ -18,7 +18,8 @@ std::uint64_t ofRegion(const World& world, const std::string& region, Voxel firs
   return those;
 }
 
-/// The bit nearest to a place, which may lie before the word or behind it; of two the lower. The word is not 0.
+/// The bit nearest to a place, which may lie before the word or behind it; of two the lower. The word is not
+/// 0.
 int nearestBit(std::uint64_t word, int place) {
   const std::uint64_t up_to = place < 0 ? 0 : place >= 63 ? word : word & ((std::uint64_t{2} << place) - 1);
   const std::uint64_t beyond = word & ~up_to;
@@ -35,6 +36,46 @@ const BitVolume& amongWhich(const World& world, const Whose& whose) {
   const bool plants = whose.kind == Kind::plants || whose.kind == Kind::own || whose.kind == Kind::others;
   return plants ? world.inPlants() : world.occupied();
 }
+
+template <class Pick>
+double densityIn(const BitVolume& set, Voxel about, double radius_vx, Pick pick) {
+  std::int64_t count = 0;
+  forEachWordOfBall(set, about, radius_vx,
+                    [&](Voxel first, std::uint64_t word, int, int) { count += bitCount(pick(first, word)); });
+  return static_cast<double>(count) / static_cast<double>(ballOf(radius_vx).voxels);
+}
+
+/// Of the voxels of a set, those that `pick(first, word)` leaves.
+template <class Pick>
+std::optional<Voxel> nearestIn(const BitVolume& set, Voxel about, double radius_vx, Pick pick) {
+  const Voxel size = set.size();
+  std::optional<Voxel> nearest;
+  int least = std::numeric_limits<int>::max();  // the square of how far it is
+  const auto before = [](Voxel a, Voxel b) { return std::tie(a.y, a.z, a.x) < std::tie(b.y, b.z, b.x); };
+  for (const auto& [dy, dz, half] : ballOf(radius_vx).outward) {
+    const int off = dy * dy + dz * dz;
+    if (off > least) break;
+    const int y = about.y + dy, z = about.z + dz;
+    if (y < 0 || y >= size.y || z < 0 || z >= size.z) continue;
+    const int far = nearest ? std::min(half, rootBelow(least - off)) : half;
+    const int high = std::min(size.x - 1, about.x + far);
+    for (int x = std::max(0, about.x - far); x <= high; x += BitVolume::kWordBits) {
+      const Voxel first(x, y, z);
+      const int place = about.x - x;
+      const std::uint64_t word = set.from(first) & bitsAbout(place, far);
+      const std::uint64_t those = word == 0 ? 0 : pick(first, word);
+      if (those == 0) continue;
+      const Voxel v = first + Voxel(nearestBit(those, place), 0, 0);
+      const int square = (v.x - about.x) * (v.x - about.x) + off;
+      if (square > least || (square == least && !before(v, *nearest))) continue;
+      least = square;
+      nearest = v;
+    }
+  }
+  return nearest;
+}
+
+constexpr auto kAsTheyAre = [](Voxel, std::uint64_t word) { return word; };
 
 }  // namespace
 
@@ -58,12 +99,8 @@ std::uint64_t thoseOf(const World& world, const Whose& whose, Voxel first, std::
 }
 
 double densityAround(const World& world, const Whose& whose, Voxel about, double radius_vx) {
-  std::int64_t count = 0;
-  forEachWordOfBall(amongWhich(world, whose), about, radius_vx,
-                    [&](Voxel first, std::uint64_t word, int, int) {
-                      count += bitCount(thoseOf(world, whose, first, word));
-                    });
-  return static_cast<double>(count) / static_cast<double>(ballOf(radius_vx).voxels);
+  return densityIn(amongWhich(world, whose), about, radius_vx,
+                   [&](Voxel first, std::uint64_t word) { return thoseOf(world, whose, first, word); });
 }
 
 Crowd crowdAround(const World& world, const Whose& whose, Voxel about, double radius_vx) {
@@ -77,31 +114,33 @@ Crowd crowdAround(const World& world, const Whose& whose, Voxel about, double ra
 }
 
 std::optional<Voxel> nearestOf(const World& world, const Whose& whose, Voxel about, double radius_vx) {
+  return nearestIn(amongWhich(world, whose), about, radius_vx,
+                   [&](Voxel first, std::uint64_t word) { return thoseOf(world, whose, first, word); });
+}
+
+Company::Company(const World& world, const Whose& whose, Voxel about, int reach_vx)
+    : low_(glm::max(about - reach_vx, Voxel(0))),
+      those_(glm::min(about + reach_vx, world.frame().size - 1) - low_ + 1) {
   const BitVolume& set = amongWhich(world, whose);
-  const Voxel size = set.size();
-  std::optional<Voxel> nearest;
-  int least = std::numeric_limits<int>::max();  // the square of how far it is
-  const auto before = [](Voxel a, Voxel b) { return std::tie(a.y, a.z, a.x) < std::tie(b.y, b.z, b.x); };
-  for (const auto& [dy, dz, half] : ballOf(radius_vx).outward) {
-    const int off = dy * dy + dz * dz;
-    if (off > least) break;
-    const int y = about.y + dy, z = about.z + dz;
-    if (y < 0 || y >= size.y || z < 0 || z >= size.z) continue;
-    const int high = std::min(size.x - 1, about.x + half);
-    for (int x = std::max(0, about.x - half); x <= high; x += BitVolume::kWordBits) {
-      const Voxel first(x, y, z);
-      const int place = about.x - x;
-      const std::uint64_t word = set.from(first) & bitsAbout(place, half);
-      const std::uint64_t those = word == 0 ? 0 : thoseOf(world, whose, first, word);
-      if (those == 0) continue;
-      const Voxel v = first + Voxel(nearestBit(those, place), 0, 0);
-      const int square = (v.x - about.x) * (v.x - about.x) + off;
-      if (square > least || (square == least && !before(v, *nearest))) continue;
-      least = square;
-      nearest = v;
+  const Voxel size = those_.size();
+  for (int y = 0; y < size.y; ++y) {
+    for (int z = 0; z < size.z; ++z) {
+      for (int x = 0; x < size.x; x += BitVolume::kWordBits) {
+        const Voxel first = low_ + Voxel(x, y, z);
+        const std::uint64_t word = set.from(first) & bitsAbout(0, size.x - 1 - x);
+        if (word != 0) those_.row(y, z)[x >> 6] = thoseOf(world, whose, first, word);
+      }
     }
   }
-  return nearest;
+}
+
+double Company::density(Voxel about, double radius_vx) const {
+  return densityIn(those_, about - low_, radius_vx, kAsTheyAre);
+}
+
+std::optional<Voxel> Company::nearest(Voxel about, double radius_vx) const {
+  const auto found = nearestIn(those_, about - low_, radius_vx, kAsTheyAre);
+  return found ? std::optional(*found + low_) : std::nullopt;
 }
 
 double heightAbove(const World& world, const Whose& whose, Vec3 at_vx) {

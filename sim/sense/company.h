@@ -2,6 +2,7 @@
 #include <optional>
 #include <string>
 
+#include "sim/base/bits.h"
 #include "sim/world/world.h"
 
 /// What stands around a place, told apart by whose it is: Greene's statistics of the local environment, such
@@ -31,6 +32,21 @@ Crowd crowdAround(const World& world, const Whose& whose, Voxel about, double ra
 
 /// The nearest of them within a radius; of those that are equally near the first in (y, z, x) order.
 std::optional<Voxel> nearestOf(const World& world, const Whose& whose, Voxel about, double radius_vx);
+
+/// The voxels asked for about a place, gathered once to be asked about at many places near it.
+class Company {
+ public:
+  /// All that lie within `reach_vx` of the place along each axis.
+  Company(const World& world, const Whose& whose, Voxel about, int reach_vx);
+
+  /// As densityAround and nearestOf have them, for places whose ball lies within the reach.
+  double density(Voxel about, double radius_vx) const;
+  std::optional<Voxel> nearest(Voxel about, double radius_vx) const;
+
+ private:
+  Voxel low_;
+  BitVolume those_;
+};
 
 /// How far down it is from a place inside the world to the top of the first of their voxels straight below,
 /// or to the world's floor; voxel widths, 0 at least.

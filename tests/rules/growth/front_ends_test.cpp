@@ -1,5 +1,7 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "rules/growth/front_memory.h"
 #include "tests/support/colonies.h"
 #include "tests/support/plots.h"
@@ -101,6 +103,27 @@ TEST(Ending, IsToldInWords) {
             "no attractor is in reach any more; 2 of 6 wait");
   EXPECT_EQ(rules::endingOf({.waiting = 2, .reached = 3}, true),
             "the iterations ended while 2 of 5 attractors wait");
+}
+
+TEST(FrontBegins, ByLengthsThatDoNotDependOnWhoBeganFirst) {
+  rules::RuleSet derived = tests::tree();
+  derived.colonization.step = derived.colonization.influence = derived.colonization.kill = std::nullopt;
+  rules::RuleSet greedy = tests::tree();
+  const auto attractors = tests::crown(300);
+  const Vec3 least =
+      *std::min_element(attractors.begin(), attractors.end(), [](Vec3 a, Vec3 b) { return a.y < b.y; });
+  for (const double kill : {3.0, 12.0, 90.0}) {  // of none, of many, of all as soon as the first begins
+    greedy.colonization.kill = {kill};
+    sim::World world = open();
+    auto plantings = tests::planting(world, greedy, {least + Vec3(0, -4, 0)}, "first");
+    plantings.push_back(tests::planting(world, derived, {{32, 2, 12}}, "second").front());
+    const sim::Growth shared = sim::grow(world, plantings, tests::settings(attractors, 1));
+    sim::World other = open();
+    const sim::Growth alone = tests::grown(other, derived, {{32, 2, 12}}, attractors, 1);
+    const char* const lengths = "front_lengths_vx";
+    EXPECT_EQ(sim::column<double>(shared.stands[1].memory, lengths),
+              sim::column<double>(alone.stands[0].memory, lengths));
+  }
 }
 
 }  // namespace

@@ -120,6 +120,29 @@ TEST(Company, IsWhatEveryVoxelInTheBallSays) {
   }
 }
 
+TEST(Company, GatheredSaysTheSameAtEachPlaceNear) {
+  std::mt19937 random(7);
+  const auto below = [&](int n) { return static_cast<int>(random() % static_cast<unsigned>(n)); };
+  for (const Voxel size : {Voxel(140, 20, 24), Voxel(7, 7, 7), Voxel(200, 3, 2)}) {
+    const sim::World world = mixed(size, 11);
+    for (const double radius_vx : {0.5, 2.9, 6.0, 40.0}) {
+      for (int i = 0; i < 6; ++i) {
+        const Voxel about(below(size.x), below(size.y), below(size.z));
+        for (const Whose& whose : kAll) {
+          const int near_vx = 5;
+          const sim::Company company(world, whose, about, near_vx + static_cast<int>(radius_vx));
+          for (int k = 0; k < 6; ++k) {
+            const Voxel off(below(2 * near_vx + 1), below(2 * near_vx + 1), below(2 * near_vx + 1));
+            const Voxel place = glm::clamp(about + off - near_vx, Voxel(0), size - 1);
+            EXPECT_EQ(company.density(place, radius_vx), sim::densityAround(world, whose, place, radius_vx));
+            EXPECT_EQ(company.nearest(place, radius_vx), sim::nearestOf(world, whose, place, radius_vx));
+          }
+        }
+      }
+    }
+  }
+}
+
 TEST(Company, HeightIsDownToTheTopOfTheFirstBelow) {
   sim::World world({Vec3(0.0), 0.1, Voxel(9, 40, 9)});
   const auto add = [&](sim::Part part, int y) {

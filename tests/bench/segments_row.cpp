@@ -42,10 +42,22 @@ rules::RuleSet withEverything(rules::RuleSet rules) {
   return rules;
 }
 
+/// Figure 4's vine, turned to the brightest spot and away from what other plants are near.
+rules::RuleSet heliotropicAndShy(rules::RuleSet rules) {
+  rules.bias.light = 0.1;
+  rules.bias.brightest = rules::Brightest::table;
+  using Measure = rules::SenseSpec::Measure;
+  rules.senses = {{"crowd", Measure::density, "others", {6.0}}, {"gap", Measure::distance, "others", {12.0}}};
+  rules.bias.senses = {{"crowd", -0.05}, {"gap", -0.05}};
+  rules.require.senses = {{"crowd", -rules::kNoLimit, 0.9}};
+  return rules;
+}
+
 struct Grown {
   std::size_t segments = 0, elements = 0, inside = 0;
   std::uint64_t trials = 0, state = 0;
   double cpu_s = 0.0, wall_s = 0.0;
+  std::vector<sim::Voxel> nodes;  ///< of all plants
 };
 
 /// Segments that cross a voxel of the scene.
@@ -80,11 +92,35 @@ Grown growOn(sim::World& world, const rules::RuleSet& rules, double segments) {
   grown.wall_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
   grown.cpu_s = cpuSeconds() - cpu_s;
   const sim::Growth growth = growing.take();
-  for (const sim::Plant& plant : growth.plants) grown.elements += plant.elements.size();
+  for (const sim::Plant& plant : growth.plants) {
+    grown.elements += plant.elements.size();
+    for (const sim::Vec3 at : plant.skeleton.position_vx) grown.nodes.push_back(sim::voxelAt(at));
+  }
   for (const std::uint64_t count : sim::total(growth).trials) grown.trials += count;
   grown.inside = segmentsInside(scene, growth);
   grown.state = sim::stateHash(world, growth);
   return grown;
+}
+
+/// The brightest spots of a table of the sky, from nodes all over a grown wall.
+void addSkyTables(const rules::RuleSet& rules, double segments, Report& report, const char* row) {
+  constexpr std::size_t kTips = 600;
+  sim::World world = wallFor(segments);
+  const Grown grown = growOn(world, rules, segments);
+  std::vector<sim::Voxel> tips;
+  for (std::size_t i = 0; i < kTips; ++i) tips.push_back(grown.nodes[i * grown.nodes.size() / kTips]);
+  const sim::SkyTable table = settingsFor().sky_table();
+  const sim::SkySensor sensor(world.opaque(), table);
+  std::vector<sim::Vec3> ways(kTips);
+  const double seconds = medianSeconds([&] {
+    sim::ClearAhead clear;  // as if nothing were known of the iteration before
+    const sim::SkyInside sky(sensor, world.opaque(), clear, &world.opaqueBricks());
+    sim::parallelFor(kTips, 16, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t i = begin; i < end; ++i) ways[i] = sky.brightest(tips[i]);
+    });
+  });
+  report.add({row, fmt::format("tables of the sky of {} cells from {} tips, ms", table.cells.size(), kTips),
+              1e3 * seconds, "", grown.state, Target{10.0, false}});
 }
 
 }  // namespace
@@ -133,6 +169,10 @@ void benchSegments(double most_segments, Report& report) {
               everything.cpu_s / static_cast<double>(everything.trials) *
                   static_cast<double>(one_thread.trials) / one_thread.cpu_s,
               "times", everything.state, Target{2.0, false}});
+  const Grown turned = onOneThread(heliotropicAndShy(figure_four));
+  report.add({kRow, "  a segment's time with heliotropism and neighbourhood over figure 4's",
+              speed(one_thread) / speed(turned), "times", turned.state, Target{2.0, false}});
+  addSkyTables(figure_four, kSegments, report, kRow);
   const std::string best = sim::lanes::level();
   for (const std::string& level : sim::lanes::levels()) {
     sim::lanes::useLevel(level);

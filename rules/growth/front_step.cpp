@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "rules/growth/trial_judge.h"
 #include "sim/sense/proximity.h"
 #include "sim/tile/tiling.h"
 
@@ -23,7 +24,8 @@ std::optional<Candidate> oneWay(const sim::SiteView& view, const RuleSet& rules,
     if (fit == sim::Fit::outside) outcome = Outcome::out_of_world;
     if (fit == sim::Fit::clear) {
       candidate.proximity_vx = sim::meanProximity(view.world, candidate.passes);
-      outcome = judged(rules, candidate.proximity_vx);
+      TrialJudge judge(view, rules, around, static_cast<int>(glm::length(end_vx - around.at_vx)) + 1);
+      outcome = judge.judged(end_vx, candidate.proximity_vx);
     }
   }
   ++proposal.trials[static_cast<std::size_t>(outcome)];

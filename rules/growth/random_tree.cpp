@@ -4,7 +4,7 @@
 #include <bit>
 #include <limits>
 
-#include "rules/growth/preference.h"
+#include "rules/growth/trial_judge.h"
 #include "sim/sense/feelers.h"
 
 namespace espalier::rules {
@@ -26,15 +26,16 @@ void countFailed(const sim::Felt& felt, int count, sim::OutcomeCounts& trials) {
       static_cast<std::uint64_t>(std::popcount(~(felt.clear | felt.outside) & counted));
 }
 
-void record(const RuleSet& rules, const Surroundings& around, const sim::Offsets& ends, const sim::Felt& felt,
+void record(TrialJudge& judge, const Surroundings& around, const sim::Offsets& ends, const sim::Felt& felt,
             int count, std::vector<sim::Attempt>& attempts) {
   for (int i = 0; i < count; ++i) {
     const auto n = static_cast<std::size_t>(i);
     const auto is = [&](std::uint64_t bits) { return (bits >> n & 1u) != 0; };
-    const Outcome outcome = is(felt.clear)     ? judged(rules, felt.proximity_vx[n])
+    const sim::Vec3 to_vx = sim::endOf(around.at_vx, ends, n);
+    const Outcome outcome = is(felt.clear)     ? judge.judged(to_vx, felt.proximity_vx[n])
                             : is(felt.outside) ? Outcome::out_of_world
                                                : Outcome::blocked;
-    attempts.push_back({around.at_vx, sim::endOf(around.at_vx, ends, n), outcome, false});
+    attempts.push_back({around.at_vx, to_vx, outcome, false});
   }
 }
 
@@ -44,12 +45,6 @@ int reachOf(const Ways& ways) {
   return static_cast<int>(std::max(ways.length_vx.low, ways.length_vx.low + ways.length_vx.span)) + 1;
 }
 
-Outcome judged(const RuleSet& rules, double proximity_vx) {
-  if (proximity_vx > rules.require.proximity_max.number) return Outcome::too_far;
-  if (proximity_vx < rules.require.proximity_min.number) return Outcome::too_near;
-  return Outcome::grown;
-}
-
 std::optional<Candidate> bestTrial(const sim::SiteView& view, const RuleSet& rules,
                                    const Surroundings& around, const Ways& ways, const Trials& trials,
                                    sim::Proposal& proposal) {
@@ -57,7 +52,7 @@ std::optional<Candidate> bestTrial(const sim::SiteView& view, const RuleSet& rul
   const int plant = sim::numberOf(view.world, view.plant);
   thread_local sim::Room room;  // it keeps its memory
   sim::roomAround(view.world, around.voxel, reachOf(ways), around.attachment, passage, plant, room);
-  Preference preference(view, rules, around.voxel, reachOf(ways));
+  TrialJudge judge(view, rules, around, reachOf(ways));
   std::optional<Candidate> best;
   double best_score = std::numeric_limits<double>::infinity();
   int best_trial = 0;
@@ -80,19 +75,20 @@ std::optional<Candidate> bestTrial(const sim::SiteView& view, const RuleSet& rul
       if (i >= count) break;
       const auto n = static_cast<std::size_t>(i);
       const double proximity_vx = felt.proximity_vx[n];
-      const Outcome outcome = judged(rules, proximity_vx);
+      const sim::Vec3 to_vx = sim::endOf(around.at_vx, ends, n);
+      const Outcome outcome = judge.judged(to_vx, proximity_vx);
       ++proposal.trials[static_cast<std::size_t>(outcome)];
       if (outcome != Outcome::grown) continue;
       if (!best) count = std::min(ahead, std::max(enough - first, i + 1));
-      const double score = preference.scoreOf(sim::endOf(around.at_vx, ends, n), proximity_vx);
+      const double score = judge.scoreOf(to_vx, proximity_vx);
       if (score < best_score) {
         best_score = score;
-        best = Candidate{sim::endOf(around.at_vx, ends, n), {}, {}, passage, proximity_vx};
+        best = Candidate{to_vx, {}, {}, passage, proximity_vx};
         best_trial = first + i - trials.first;
       }
     }
     countFailed(felt, count, proposal.trials);
-    if (view.record_attempts) record(rules, around, ends, felt, count, proposal.attempts);
+    if (view.record_attempts) record(judge, around, ends, felt, count, proposal.attempts);
     first += count;
   }
   if (!best) return best;

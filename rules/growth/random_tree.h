@@ -26,9 +26,6 @@ struct Candidate {
 /// The voxels that segments of a set may reach along any axis.
 int reachOf(const Ways& ways);
 
-/// What the rules say to a segment that has room.
-sim::Outcome judged(const RuleSet& rules, double proximity_vx);
-
 /// How hard a site tries.
 struct Trials {
   int first = 0;  ///< the first trial's number

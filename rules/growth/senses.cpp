@@ -4,6 +4,7 @@
 #include <iterator>
 
 #include "rules/growth/apices.h"
+#include "rules/growth/scene_lines.h"
 #include "sim/grow/plant.h"
 #include "sim/sense/company.h"
 #include "sim/sense/mass.h"
@@ -47,24 +48,36 @@ struct Found {
   sim::Vec3 way{0.0};  ///< unit, or zero
 };
 
-Found find(const sim::SiteView& view, const SenseSpec& sense, sim::Vec3 at_vx) {
-  const sim::Whose whose = whoseOf(view, sense);
-  const sim::Voxel about = sim::voxelAt(at_vx);
+Found findLine(const sim::SiteView& view, const SenseSpec& sense, sim::Vec3 at_vx) {
   const double within_vx = sense.within.number;
+  const auto nearest = LinesNear(view.commons, at_vx, within_vx).nearest(at_vx, within_vx);
+  return {distanceRead(nearest, at_vx, sense, view.world.frame()),
+          nearest ? unitOrZero(*nearest - at_vx) : sim::Vec3(0.0)};
+}
+
+Found findVoxel(const sim::SiteView& view, const SenseSpec& sense, sim::Vec3 at_vx) {
+  const sim::Voxel about = sim::voxelAt(at_vx);
+  const auto found = sim::nearestOf(view.world, whoseOf(view, sense), about, sense.within.number);
+  const auto nearest = found ? std::optional(sim::Vec3(*found)) : std::nullopt;
+  return {distanceRead(nearest, sim::Vec3(about), sense, view.world.frame()),
+          nearest ? unitOrZero(*nearest - at_vx) : sim::Vec3(0.0)};
+}
+
+Found find(const sim::SiteView& view, const SenseSpec& sense, sim::Vec3 at_vx) {
   switch (sense.measure) {
     case SenseSpec::Measure::density: {
-      const sim::Crowd crowd = sim::crowdAround(view.world, whose, about, within_vx);
+      const sim::Crowd crowd =
+          sim::crowdAround(view.world, whoseOf(view, sense), sim::voxelAt(at_vx), sense.within.number);
       return {crowd.density, crowd.centre ? unitOrZero(*crowd.centre - at_vx) : sim::Vec3(0.0)};
     }
-    case SenseSpec::Measure::distance: {
-      const auto nearest = sim::nearestOf(view.world, whose, about, within_vx);
-      const double read_m = distanceRead(nearest, about, sense, view.world.frame());
-      return {read_m, nearest ? unitOrZero(sim::Vec3(*nearest) - at_vx) : sim::Vec3(0.0)};
-    }
+    case SenseSpec::Measure::distance:
+    case SenseSpec::Measure::nearness:
+      return sense.of == kOfLines ? findLine(view, sense, at_vx) : findVoxel(view, sense, at_vx);
     case SenseSpec::Measure::height:
       break;
   }
-  return {sim::heightAbove(view.world, whose, at_vx) * view.world.frame().voxel_m, {0.0, -1.0, 0.0}};
+  return {sim::heightAbove(view.world, whoseOf(view, sense), at_vx) * view.world.frame().voxel_m,
+          {0.0, -1.0, 0.0}};
 }
 
 }  // namespace
@@ -106,9 +119,11 @@ sim::Whose whoseOf(const sim::SiteView& view, const SenseSpec& sense) {
   return {static_cast<sim::Whose::Kind>(word - kWhose.begin()), plant, {}};
 }
 
-double distanceRead(std::optional<sim::Voxel> nearest, sim::Voxel at, const SenseSpec& sense,
+double distanceRead(std::optional<sim::Vec3> nearest_vx, sim::Vec3 at_vx, const SenseSpec& sense,
                     const sim::Frame& frame) {
-  return (nearest ? glm::length(sim::Vec3(*nearest - at)) : sense.within.number) * frame.voxel_m;
+  const double within_vx = sense.within.number;
+  const double far_vx = nearest_vx ? glm::length(*nearest_vx - at_vx) : within_vx;
+  return sense.measure == SenseSpec::Measure::nearness ? 1.0 - far_vx / within_vx : far_vx * frame.voxel_m;
 }
 
 double readingOf(const sim::SiteView& view, const SenseSpec& sense, sim::Vec3 at_vx) {

@@ -53,8 +53,8 @@ Vigour vigourOf(const Exposure& seen, const RuleSet& rules);
 Surroundings lookAround(const sim::SiteView& view, const sim::Site& site);
 /// Whose voxels a sense asks for.
 sim::Whose whoseOf(const sim::SiteView& view, const SenseSpec& sense);
-/// What a sense of the distance reads in a place where this is the nearest voxel; metres.
-double distanceRead(std::optional<sim::Voxel> nearest, sim::Voxel at, const SenseSpec& sense,
+/// What a sense of the distance or nearness reads in a place where this is the nearest.
+double distanceRead(std::optional<sim::Vec3> nearest_vx, sim::Vec3 at_vx, const SenseSpec& sense,
                     const sim::Frame& frame);
 /// What one of a rule set's senses reads in a place inside the world.
 double readingOf(const sim::SiteView& view, const SenseSpec& sense, sim::Vec3 at_vx);

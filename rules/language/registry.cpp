@@ -60,6 +60,10 @@ std::shared_ptr<const Table> randomTreeKeys() {
                               "branches at its side."})
       .number("fork_angle", &RandomTree::fork_angle_deg,
               {.unit = kDegrees, .limits = kAngle, .meaning = "Between any two of those, at least."})
+      .whole("fork_apart", &RandomTree::fork_apart,
+             {.unit = "segments",
+              .limits = {0.0, 100.0},
+              .meaning = "So many segments of a limb behind a fork lay one segment at a time, at most."})
       .shared();
 }
 
@@ -252,6 +256,9 @@ std::shared_ptr<const Table> requireKeys() {
                {.meaning = "How long a limb stays near one region of the scene."})
       .list<SenseBounds>("senses", Kind::named, &Require::senses, senseBoundsKeys(),
                          {.meaning = "What a tip must read by the rule set's senses.", .most = kMostSenses})
+      .list<SenseBounds>("along", Kind::named, &Require::along, senseBoundsKeys(),
+                         {.meaning = "What they must read along a segment: at its quarters and its end.",
+                          .most = kMostSenses})
       .shared();
 }
 

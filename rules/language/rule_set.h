@@ -69,6 +69,7 @@ struct RandomTree {
   /// have more than one anywhere, limbs leave each other in no other way.
   int fork_min = 1, fork_max = 1;
   double fork_angle_deg = 30.0;  ///< at least, between any two of them
+  int fork_apart = 0;            ///< segments of a limb behind a fork whose tips do not fork
 
   AngleDistribution distribution() const {
     return wander_distribution.value_or(wander_table.empty() ? AngleDistribution::cone
@@ -130,16 +131,21 @@ struct SenseSpec {
     density,   ///< share of the voxels within `within` that are filled, 0..1; its way is to their centre of
                ///< mass
     distance,  ///< to the nearest, metres; `within` where none is nearer; its way is there
+    nearness,  ///< of the nearest: 1 at it, 0 from `within` on; the same way
     height  ///< above the first that lies straight below, or else the world's floor, metres; its way is down
   };
   std::string name;
   Measure measure = Measure::density;
-  std::string of = "everything";  ///< whose voxels: everything, scene, plants, own, others, or a region
+  /// Whose voxels: everything, scene, plants, own, others, or a region; or kOfLines.
+  std::string of = "everything";
   Distance within{6.0};
 };
 inline constexpr std::size_t kMostSenses = 8;
 /// What `of` says beside the names of regions; in the order of sim::Whose::Kind.
 inline constexpr std::array kWhose{"everything", "scene", "plants", "own", "others"};
+
+/// Its lines, and not by voxels but exactly: of their distance and nearness alone.
+inline constexpr const char* kOfLines = "lines";
 
 /// What a rule set does by a sense.
 struct SenseBias {
@@ -148,7 +154,7 @@ struct SenseBias {
 };
 struct SenseBounds {
   std::string name;
-  double min = -kNoLimit, max = kNoLimit;  ///< of what a tip reads
+  double min = -kNoLimit, max = kNoLimit;  ///< of what it reads
 };
 struct SensePreference {
   std::string name;
@@ -180,7 +186,8 @@ struct Require {
   double exposure_max = 1.0;
   int age_min = 0, age_max = kNoAge;  ///< iterations since growth began
   int in_region_max = kNoAge;         ///< segments of a limb, one after another, near one region
-  std::vector<SenseBounds> senses;
+  std::vector<SenseBounds> senses;    ///< of what a tip reads
+  std::vector<SenseBounds> along;     ///< of what is read at the quarters of a trial and at its end
 };
 
 /// Ranks the trials that are left: the least sum wins of how far each is from what is preferred, by weight.

@@ -26,12 +26,18 @@ void checkSense(const SenseSpec& sense, const Check::Given& given, const Check::
   if (sense.measure == SenseSpec::Measure::height && given(at + ".within") > 0)
     complain(at + ".within",
              "within says nothing of a height, which goes all the way down; expected it gone");
+  const bool of_nearest =
+      sense.measure == SenseSpec::Measure::distance || sense.measure == SenseSpec::Measure::nearness;
+  if (sense.of == kOfLines && !of_nearest)
+    complain(at + ".of",
+             "lines are too thin for it; expected measure: distance or nearness, or the voxels of another");
   const bool holds_own = sense.of == "everything" || sense.of == "plants" || sense.of == "own";
-  if (sense.measure == SenseSpec::Measure::distance && holds_own)
-    complain(at + (given(at + ".of") > 0 ? ".of" : ".measure"),
-             fmt::format("the distance to {} is none, as a plant touches itself; expected others, scene or a "
-                         "region",
-                         sense.of));
+  if (of_nearest && holds_own)
+    complain(
+        at + (given(at + ".of") > 0 ? ".of" : ".measure"),
+        fmt::format("the distance to {} is none, as a plant touches itself; expected others, scene, lines "
+                    "or a region",
+                    sense.of));
 }
 
 }  // namespace
@@ -42,14 +48,16 @@ std::shared_ptr<const Table> senseKeys() {
           "measure", &SenseSpec::measure,
           {{"density", SenseSpec::Measure::density},
            {"distance", SenseSpec::Measure::distance},
+           {"nearness", SenseSpec::Measure::nearness},
            {"height", SenseSpec::Measure::height}},
           {.meaning =
-               "density: share of the voxels within, 0 to 1; distance: to the nearest, metres; height: "
-               "above the next below, metres."})
-      .text("of", &SenseSpec::of,
-            {.meaning =
-                 "Whose voxels: everything, scene, plants, own, others (other plants), or a region's name.",
-             .most = 100})
+               "Share of the voxels within, distance in metres, nearness (1 there, 0 from within on) or "
+               "metres above."})
+      .text(
+          "of", &SenseSpec::of,
+          {.meaning = "Whose: everything, scene, plants, own, others, a region by its name; or lines, which "
+                      "are exact.",
+           .most = 100})
       .distance("within", &SenseSpec::within,
                 {.unit = "voxel widths", .limits = {0.0, 64.0, true}, .meaning = "How far it is looked for."})
       .shared();
@@ -60,17 +68,17 @@ std::shared_ptr<const Table> senseBiasKeys() {
       .value("amount", &SenseBias::amount,
              {.unit = "weight",
               .limits = {-1.0, 1.0},
-              .meaning = "How far it bends to the centre of mass (density), to the nearest (distance) or "
-                         "down (height); below 0 away from there."})
+              .meaning = "How far it bends to the centre of mass (density), the nearest or down (height); "
+                         "below 0 away."})
       .shared();
 }
 
 std::shared_ptr<const Table> senseBoundsKeys() {
   return TableOf<SenseBounds>()
       .number("min", &SenseBounds::min,
-              {.unit = "reading", .limits = {-1e6, 1e6}, .meaning = "A tip that reads less does not grow."})
+              {.unit = "reading", .limits = {-1e6, 1e6}, .meaning = "What reads less is no place to grow."})
       .number("max", &SenseBounds::max,
-              {.unit = "reading", .limits = {-1e6, 1e6}, .meaning = "A tip that reads more does not grow."})
+              {.unit = "reading", .limits = {-1e6, 1e6}, .meaning = "What reads more is none."})
       .shared();
 }
 
@@ -104,14 +112,19 @@ void checkSenses(const RuleSet& rules, const Check::Given& given, const Check::C
   };
   require("bias.senses", rules.bias.senses);
   require("require.senses", rules.require.senses);
+  require("require.along", rules.require.along);
   require("prefer.senses", rules.prefer.senses);
   for (const SenseSpec& sense : rules.senses) checkSense(sense, given, complain);
-  for (const SenseBounds& bounds : rules.require.senses) {
-    if (bounds.min > bounds.max)
-      complain("require.senses." + bounds.name,
-               fmt::format("min is {} and max is {}; expected the first to be at most the second", bounds.min,
-                           bounds.max));
-  }
+  const auto in_order = [&](const std::string& path, const std::vector<SenseBounds>& all) {
+    for (const SenseBounds& bounds : all) {
+      if (bounds.min > bounds.max)
+        complain(path + "." + bounds.name,
+                 fmt::format("min is {} and max is {}; expected the first to be at most the second",
+                             bounds.min, bounds.max));
+    }
+  };
+  in_order("require.senses", rules.require.senses);
+  in_order("require.along", rules.require.along);
   forEachValue(rules, [&](const std::string& path, const Value& value) {
     if (value.kind != Value::Kind::curve || value.over != Over::sense || known(value.sense)) return;
     std::vector<std::string> over(kAxes.begin(), kAxes.end());

@@ -8,7 +8,7 @@
 namespace espalier::rules {
 
 std::shared_ptr<const Table> senseKeys();
-/// Of bias.senses, require.senses and prefer.senses.
+/// Of bias.senses, of require.senses and require.along, and of prefer.senses.
 std::shared_ptr<const Table> senseBiasKeys();
 std::shared_ptr<const Table> senseBoundsKeys();
 std::shared_ptr<const Table> sensePreferenceKeys();

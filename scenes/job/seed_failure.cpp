@@ -32,8 +32,8 @@ Outcome reasonOf(const sim::Tally& tally) {
   const Outcome often =
       mostly(tally.sites, std::array{Outcome::no_trial, Outcome::resting, Outcome::claimed});
   if (often != Outcome::no_trial) return often;
-  return mostly(tally.trials,
-                std::array{Outcome::blocked, Outcome::too_far, Outcome::too_near, Outcome::out_of_world});
+  return mostly(tally.trials, std::array{Outcome::blocked, Outcome::too_far, Outcome::too_near,
+                                         Outcome::out_of_world, Outcome::unmet});
 }
 
 /// The key that forbids growth near a region; empty where none does.

@@ -86,11 +86,12 @@ const SeedFailure::Set* triedOf(const SeedFailure& failure) {
   return failure.sets.empty() ? nullptr : &failure.sets.front();
 }
 
-constexpr std::array<std::pair<Outcome, const char*>, 4> kRejections{
+constexpr std::array<std::pair<Outcome, const char*>, 5> kRejections{
     {{Outcome::blocked, "blocked"},
      {Outcome::too_far, "too far from the scene"},
      {Outcome::too_near, "too near to it"},
-     {Outcome::out_of_world, "out of the world"}}};
+     {Outcome::out_of_world, "out of the world"},
+     {Outcome::unmet, "along which require.along is not met"}}};
 
 /// " (of 900 trials 700 too far from the scene, 200 blocked)" where there was more than one reason.
 std::string others(const sim::OutcomeCounts& trials) {
@@ -204,6 +205,8 @@ std::string whyItDidNotGrow(const SeedFailure& failure) {
       return fmt::format("the nearest region is '{}', and {} forbids growth there", failure.region,
                          inQuotes(failure.forbidden_by));
     case Outcome::unmet:
+      if (sim::timesOf(failure.tally.sites, Outcome::unmet) == 0)
+        return "no trial met require.along" + others(failure.tally.trials);
       return "where and when it stood, its rules' require.age, require.in_region or require.senses was not "
              "met";
     case Outcome::too_dark:

@@ -14,6 +14,7 @@
 #include "rules/growth/given_skeleton.h"
 #include "rules/growth/make_process.h"
 #include "rules/growth/rule_book.h"
+#include "rules/growth/scene_lines.h"
 #include "rules/growth/shared_guide.h"
 #include "scenes/lights.h"
 #include "scenes/prepare/in_scene.h"
@@ -197,6 +198,24 @@ void requireApices(const PlantSpec& spec, const Scene& scene, const sim::World& 
   });
 }
 
+/// All of a scene's lines, guides too.
+std::vector<rules::LineEnds> linesOf(const Site& site) {
+  std::vector<rules::LineEnds> lines_vx;
+  const sim::Frame& frame = site.world.frame();
+  for (const sim::TiledMesh& mesh : site.meshes) {
+    for (const sim::Line& line : mesh.lines)
+      lines_vx.emplace_back(sim::voxelFromWorld(frame, line.from_m), sim::voxelFromWorld(frame, line.to_m));
+  }
+  return lines_vx;
+}
+
+/// Complains where a rule set senses lines of a scene that has none.
+void requireLines(const PlantSpec& spec, const Scene& scene, const Site& site, Gathering& wrong) {
+  if (rules::asksForLines(*spec.rules) && linesOf(site).empty())
+    wrong.add(problemAt(spec.rules_place, scene.file,
+                        "a sense is of lines, and the scene has none; expected a mesh with lines"));
+}
+
 }  // namespace
 
 std::vector<sim::Planting> makePlantings(const Scene& scene, const Site& site) {
@@ -211,6 +230,7 @@ std::vector<sim::Planting> makePlantings(const Scene& scene, const Site& site) {
       continue;
     }
     requireApices(spec, scene, site.world, wrong);
+    requireLines(spec, scene, site, wrong);
     wrong.part(spec.rules_place, [&] {
       plantings.push_back(spec.skeleton
                               ? given(spec, site.skeletons.at(i), scene, site.world.frame())
@@ -253,6 +273,9 @@ sim::GrowthSettings growthSettings(const Scene& scene, const Site& site,
   if (std::any_of(scene.plants.begin(), scene.plants.end(),
                   [](const PlantSpec& plant) { return rules::asksForApices(*plant.rules); }))
     settings.commons[rules::kApices] = rules::columnsOf(apicesOf(site.world));
+  if (std::any_of(scene.plants.begin(), scene.plants.end(),
+                  [](const PlantSpec& plant) { return rules::asksForLines(*plant.rules); }))
+    settings.commons[rules::kSceneLines] = rules::columnsOf(linesOf(site));
   for (std::size_t i = 0; i < scene.fields.size(); ++i) {
     const rules::Guide guide = guideOf(scene.fields[i], site.fields.at(i), site.world.frame());
     settings.commons[rules::fieldNamed(scene.fields[i].name)] = rules::columnsOf(guide);

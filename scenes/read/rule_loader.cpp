@@ -347,7 +347,8 @@ void RuleLoader::mentionSensed(const Layers& layers) {
   if (!senses) return;
   for (const auto& sense : senses->entries) {
     const auto* of = sense.value.entry("of");
-    if (of && std::find(rules::kWhose.begin(), rules::kWhose.end(), of->value.text) == rules::kWhose.end())
+    if (of && of->value.text != rules::kOfLines &&
+        std::find(rules::kWhose.begin(), rules::kWhose.end(), of->value.text) == rules::kWhose.end())
       mention(of->value.text, of->value.place, true);
   }
 }

@@ -219,8 +219,10 @@ void agreeOnRules(Drawn& rules) {
     for (DrawnEntry& sense : senses->entries) {
       Drawn* const measure = find(sense.value, "measure");
       if (measure && measure->text == "height") takeOut(sense.value, {"within"});
-      if (!measure || measure->text != "distance") continue;
       Drawn* const of = find(sense.value, "of");
+      const bool of_nearest = measure && (measure->text == "distance" || measure->text == "nearness");
+      if (of != nullptr && of->text == "lines" && !of_nearest) of->text = "scene";
+      if (!of_nearest) continue;
       if (of == nullptr)
         measure->text = "density";
       else if (of->text == "everything" || of->text == "plants" || of->text == "own")

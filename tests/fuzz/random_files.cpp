@@ -158,6 +158,7 @@ void RandomFiles::knowSpecials() {
   special("rules:senses.<name>.of", [this] {
     std::vector<std::string> of(rules::kWhose.begin(), rules::kWhose.end());
     if (world_.meshes && numbers_.chance(0.1)) of = {"floor"};
+    if (numbers_.chance(0.02)) of = {rules::kOfLines};  // most scenes that are drawn have none
     return numbers_.pick(of);
   });
   // Most tips read what lies between, mostly.
@@ -165,8 +166,10 @@ void RandomFiles::knowSpecials() {
     return fmt::format("{}",
                        numbers_.chance(0.8) ? numbers_.uniform(low, high) : numbers_.uniform(-1e6, 1e6));
   };
-  special("rules:require.senses.<name>.min", [=] { return reading(-1.0, 0.05); });
-  special("rules:require.senses.<name>.max", [=] { return reading(0.5, 9.0); });
+  for (const std::string of : {"senses", "along"}) {
+    special("rules:require." + of + ".<name>.min", [=] { return reading(-1.0, 0.05); });
+    special("rules:require." + of + ".<name>.max", [=] { return reading(0.5, 9.0); });
+  }
   text("meshes[].scale", [this] { return fmt::format("{}", world_.longest_m()); });
   for (const std::string of : {"meshes[].", "plants[].skeleton."}) {
     text(of + "unit", [this] {

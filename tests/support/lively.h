@@ -35,6 +35,7 @@ inline rules::RuleSet lively() {
   rules.bias.twist_radius = {5.0};
   rules.bias.apex = 0.05;
   rules.bias.towards = {{std::nullopt, sim::Vec3(1, 0, 0), 0.05}};
+  rules.require.along = {{"crowd"}};
   rules.senses = {{"crowd", rules::SenseSpec::Measure::distance, "scene", {5.0}}};
   rules.bias.senses = {{"crowd", -0.05}};
   rules.require.senses = {{"crowd"}};

@@ -37,6 +37,7 @@ const std::map<std::string, Datum>& otherValues() {
       {"random_tree.wander.table", Pairs{{0.5, 0.0}, {1.5, 1.0}}},
       {"random_tree.fork", WholeRange{1, 3}},
       {"random_tree.fork_angle", 80.0},
+      {"random_tree.fork_apart", std::int64_t{3}},
       {"random_tree.trials.min", std::int64_t{3}},
       {"random_tree.trials.max", std::int64_t{4}},
       {"bias.up", Value(0.3)},
@@ -58,6 +59,8 @@ const std::map<std::string, Datum>& otherValues() {
       {"senses[].within", Distance{2.0}},
       {"require.senses[].min", 0.05},
       {"require.senses[].max", 0.1},
+      {"require.along[].min", 0.08},
+      {"require.along[].max", 0.09},
       {"prefer.weight", 5.0},
       {"prefer.senses[].at", 0.9},
       {"prefer.senses[].weight", 40.0},
@@ -268,7 +271,7 @@ TEST_P(EveryKey, ChangesWhatGrows) {
     RuleSet changed = lively();
     // Or that there is an order at all would be the difference.
     if (path.starts_with("elements[].phyllotaxis.")) changed.elements.at(0).phyllotaxis.emplace();
-    if (path == "random_tree.fork_angle") changed.random_tree.fork_max = 3;
+    if (path.starts_with("random_tree.fork_")) changed.random_tree.fork_max = 3;
     if (path == "bias.towards[].point") changed.bias.towards.at(0).direction.reset();
     ASSERT_TRUE(set(changed, path, other->second)) << path;
     const Result result = resultOf(book(changed));

@@ -4,6 +4,7 @@
 
 #include "rules/growth/apices.h"
 #include "rules/growth/make_process.h"
+#include "rules/growth/scene_lines.h"
 #include "sim/grow/grow.h"
 #include "sim/sense/peaks.h"
 #include "sim/tile/build_world.h"
@@ -28,7 +29,7 @@ sim::World sketch(const std::vector<std::pair<Vec3, Vec3>>& lines, int side = 64
   return sim::buildWorld({Vec3(0.0), 1.0, sim::Voxel(side)}, {tiled}, 4);
 }
 
-/// The library's line tracker (rules/library/line_tracker.yaml), without what it does at sharp bends.
+/// The gist of the library's line tracker (rules/library/line_tracker.yaml).
 RuleSet tracker() {
   RuleSet single;
   single.require.proximity_max = {0.3};
@@ -62,6 +63,11 @@ std::vector<int> limbsOf(const sim::Plant& plant) {
   return limbs;
 }
 
+Vec3 firstWay(const sim::Plant& plant) {
+  const auto& at = plant.skeleton.position_vx;
+  return at.size() < 2 ? Vec3(0.0) : glm::normalize(at[1] - at[0]);
+}
+
 TEST(Fork, BranchesWhereLinesForkAndNowhereElse) {
   for (const double angle : {-0.8, -0.5, 0.0, 0.4}) {
     sim::World world = sketch({{{32, 2, 32}, {32, 30, 32}},
@@ -85,6 +91,93 @@ TEST(Fork, NothingGrowsWhereFewerLimbsFindRoom) {
   RuleSet alone = tracker();
   alone.otherwise = nullptr;
   EXPECT_EQ(grown(world, alone, {32, 3, 32}).skeleton.size(), 1);
+}
+
+TEST(Fork, NoTipForksSoonBehindAFork) {
+  RuleSet star;
+  star.random_tree.fork_min = 2;
+  star.random_tree.fork_max = 3;
+  star.random_tree.fork_angle_deg = 50.0;
+  star.random_tree.wander_deg = 100.0;
+  star.random_tree.length = {3.0};
+  RuleSet single = star;
+  single.random_tree.fork_min = single.random_tree.fork_max = 1;
+  star.otherwise = std::make_shared<const RuleSet>(single);
+  const auto leastApart = [&](int apart) {
+    star.random_tree.fork_apart = apart;
+    sim::World world({Vec3(0.0), 1.0, sim::Voxel(64)});
+    const sim::Plant plant = grown(world, star, {32, 32, 32}, 7);
+    const std::vector<int> limbs = limbsOf(plant);
+    int least = 100;
+    for (std::size_t n = 1; n < limbs.size(); ++n) {
+      if (limbs[n] < 2) continue;
+      int segments = 1;
+      sim::NodeId at = plant.skeleton.parent[n];
+      while (at != sim::kNoNode && limbs[static_cast<std::size_t>(at)] < 2) {
+        at = plant.skeleton.parent[static_cast<std::size_t>(at)];
+        ++segments;
+      }
+      if (at != sim::kNoNode) least = std::min(least, segments);
+    }
+    return least;
+  };
+  EXPECT_EQ(leastApart(0), 1);
+  EXPECT_EQ(leastApart(2), 3);
+}
+
+TEST(Fork, LimbsOfOneForkWantNoVoxelOfEachOthers) {
+  // Ahead of where the lines part, so that limbs would run side by side at first.
+  sim::World world =
+      sketch({{{32, 2, 32}, {32, 30, 32}}, {{32, 30, 32}, {44, 44, 32}}, {{32, 30, 32}, {20, 44, 32}}});
+  RuleSet eager = tracker();
+  eager.random_tree.fork_angle_deg = 8.0;
+  eager.random_tree.fork_max = 8;
+  eager.require.proximity_max = {0.6};
+  const sim::Plant plant = grown(world, eager, {32, 3, 32}, 60);
+  const sim::Skeleton& s = plant.skeleton;
+  std::vector<std::vector<int>> born(s.parent.size());
+  for (std::size_t n = 1; n < s.parent.size(); ++n)
+    born[static_cast<std::size_t>(s.parent[n])].push_back(s.born[n]);
+  int forks = 0;
+  for (const std::vector<int>& limbs : born) {
+    if (limbs.size() < 2) continue;
+    ++forks;
+    EXPECT_EQ(limbs.front(), limbs.back()) << "none had to wait for another";
+  }
+  EXPECT_GE(forks, 3);
+}
+
+TEST(Lines, AreSensedExactly) {
+  sim::World world({Vec3(0.0), 0.5, sim::Voxel(64)});
+  const std::vector<LineEnds> lines{{{10.2, 20.0, 30.4}, {50.2, 20.0, 30.4}}, {{40, 40, 40}, {40, 40, 40}}};
+  const sim::Commons commons{{kSceneLines, columnsOf(lines)}};
+  const LinesNear near(commons, {30, 24, 30}, 6.0);
+  EXPECT_EQ(near.nearest({30, 23, 30.4}, 5.0), Vec3(30, 20, 30.4));
+  EXPECT_EQ(near.nearest({8.2, 20, 30.4}, 5.0), Vec3(10.2, 20, 30.4)) << "no farther than its end";
+  EXPECT_FALSE(near.nearest({30, 23, 30.4}, 3.0));
+  EXPECT_EQ(LinesNear(commons, {40, 41, 40}, 2.0).nearest({40, 41, 40}, 2.0), Vec3(40, 40, 40));
+  EXPECT_FALSE(LinesNear({}, {40, 41, 40}, 2.0).nearest({40, 41, 40}, 2.0));
+
+  // A limb that must end by the line keeps to it.
+  RuleSet rules;
+  rules.random_tree.branch_age_min = rules.random_tree.branch_age_max = 1000;
+  rules.random_tree.wander_deg = 180.0;
+  rules.random_tree.length = {2.0};
+  rules.senses = {{"line", SenseSpec::Measure::nearness, "lines", {1.0}}};
+  rules.require.along = {{"line", 0.6, kNoLimit}};
+  const sim::Plant plant = grown(world, rules, {11, 20, 30.4}, 12, commons);
+  ASSERT_GT(plant.skeleton.size(), 4);
+  for (const Vec3 at : plant.skeleton.position_vx)
+    EXPECT_LT(glm::length(Vec3(0.0, at.y - 20.0, at.z - 30.4)), 0.4 + 1e-6);
+  // And a bias by the distance leads there.
+  RuleSet to = rules;
+  to.require.along.clear();
+  to.random_tree.wander_deg = 0.0;
+  to.senses = {{"line", SenseSpec::Measure::distance, "lines", {12.0}}};
+  to.bias.senses = {{"line", 1.0}};
+  sim::World other({Vec3(0.0), 0.5, sim::Voxel(64)});
+  const Vec3 way = firstWay(grown(other, to, {30, 26, 30.4}, 1, commons));
+  EXPECT_NEAR(way.y, -1.0, 1e-3);
 }
 
 TEST(Fork, ManyLimbsLeaveOneNodeApart) {
@@ -116,11 +209,6 @@ RuleSet straight(Vec3 way, double amount = 1.0) {
   rules.random_tree.wander_deg = 0.0;
   rules.bias.towards = {{std::nullopt, way, amount}};
   return rules;
-}
-
-Vec3 firstWay(const sim::Plant& plant) {
-  const auto& at = plant.skeleton.position_vx;
-  return at.size() < 2 ? Vec3(0.0) : glm::normalize(at[1] - at[0]);
 }
 
 TEST(Towards, LeadsAlongWaysAndToPlaces) {

@@ -225,6 +225,15 @@ TEST_F(SeedFailures, UnmetIsNoForbiddenRegion) {
       << poorPlants(plants);
 }
 
+TEST_F(SeedFailures, NoTrialEndsWhereItIsRequired) {
+  rules_.senses = {{"rise", rules::SenseSpec::Measure::height, "scene", {6.0}}};
+  rules_.require.along = {{"rise", 30.0}};  // metres
+  const SeedFailure failure = failureAt({20, 2, 30});
+  EXPECT_EQ(failure.reason, Outcome::unmet);
+  EXPECT_NE(whyItDidNotGrow(failure).find("no trial met require.along"), std::string::npos)
+      << whyItDidNotGrow(failure);
+}
+
 TEST(PoorPlants, ThatSoonStoppedAreToldOfWhereTheOthersThrive) {
   std::vector<Report::Growth::Plant> plants = {plantOf("ivy", 1, 200), plantOf("ivy", 2, 3),
                                                plantOf("ivy", 3, 90)};

@@ -4,6 +4,7 @@
 #include <map>
 
 #include "rules/growth/make_process.h"
+#include "rules/growth/scene_lines.h"
 #include "scenes/read/read_rules.h"
 #include "sim/base/random.h"
 #include "sim/grow/grow.h"
@@ -24,6 +25,7 @@ struct Place {
   sim::World world;
   Vec3 seed_vx{0.0};
   Vec3 about_vx{0.0};  ///< how far the seed may stand from there
+  std::vector<rules::LineEnds> lines_vx = {};
 };
 
 sim::World floored(Voxel size) {
@@ -73,7 +75,9 @@ Place sketch() {
        {std::pair(Vec3(20, 0, 20), Vec3(20, 40, 20)), std::pair(Vec3(20, 40, 20), Vec3(36, 60, 20)),
         std::pair(Vec3(20, 40, 20), Vec3(4, 60, 20))})
     post.lines.push_back({0.04 * from, 0.04 * to, 0});
-  return {sim::buildWorld({Vec3(0.0), 0.04, {40, 64, 40}}, {post}, 8), {20, 8, 20}, {0.4, 6, 0.4}};
+  Place place{sim::buildWorld({Vec3(0.0), 0.04, {40, 64, 40}}, {post}, 8), {20, 8, 20}, {0.4, 6, 0.4}};
+  for (const sim::Line& line : post.lines) place.lines_vx.emplace_back(line.from_m / 0.04, line.to_m / 0.04);
+  return place;
 }
 
 const std::map<std::string, std::vector<std::pair<std::string, Place (*)()>>> kHomes = {
@@ -93,7 +97,9 @@ const std::map<std::string, std::vector<std::pair<std::string, Place (*)()>>> kH
 /// Segments after 50 iterations, or as soon as there are enough.
 int segmentsOf(const Place& place, const std::shared_ptr<const rules::RuleSet>& rules, Vec3 at_vx) {
   sim::World world = place.world;
-  sim::Growing growing(world, tests::planting(world, *rules, {at_vx}), tests::brightSettings(50));
+  sim::GrowthSettings settings = tests::brightSettings(50);
+  settings.commons[rules::kSceneLines] = rules::columnsOf(place.lines_vx);
+  sim::Growing growing(world, tests::planting(world, *rules, {at_vx}), settings);
   const auto segments = [&] { return growing.growth().plants[0].skeleton.size() - 1; };
   while (segments() < 20 && growing.step()) {
   }

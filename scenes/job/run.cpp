@@ -28,10 +28,12 @@
 #include "scenes/show/light_fields.h"
 #include "scenes/show/picture_memory.h"
 #include "scenes/show/pictures.h"
+#include "scenes/show/vines_picture.h"
 #include "scenes/write/output_folder.h"
 #include "sim/base/counted.h"
 #include "sim/base/parallel.h"
 #include "sim/light/lighting.h"
+#include "sim/light/sky_in_space.h"
 #include "sim/world/band.h"
 
 namespace espalier::scenes {
@@ -44,11 +46,6 @@ sim::VoxelSet openLayers(const sim::BitVolume& scene, const sim::World& grown) {
   return sim::VoxelSet(sim::freeBand(grown, scene, grown.layers()));
 }
 
-bool drawsVines(const std::vector<ImageSpec>& images) {
-  return std::any_of(images.begin(), images.end(),
-                     [](const ImageSpec& image) { return image.kind == ImageKind::vines; });
-}
-
 /// `layers`: free space where light is wanted too, beside all of it for images of vines, whose leaves are lit
 /// by what is around them.
 sim::Lighting lightFor(const Scene& scene, const Site& site, bool vines,
@@ -56,9 +53,27 @@ sim::Lighting lightFor(const Scene& scene, const Site& site, bool vines,
   sim::LightWanted wanted;
   wanted.space = std::move(layers);
   wanted.dense = vines;
-  if (vines) inScene(scene, [&] { sim::requireFits(site.world.frame(), {site.world.layers(), 2 * 2.0}); });
+  const bool bare = std::any_of(scene.images.begin(), scene.images.end(), showsNoPlant);
+  const double fields = bare ? 3.0 : 2.0;  // of 16 bits
+  if (vines) inScene(scene, [&] { sim::requireFits(site.world.frame(), {site.world.layers(), 2 * fields}); });
   wanted.random_sky = site.random_sky;
   return sim::lightOf(site.world, site.sky, site.sun, wanted);
+}
+
+/// For pictures of what has grown on a site. Borrows all but the textures.
+Finished finishedOn(const Scene& scene, const Site& site, const sim::BitVolume& bare,
+                    const sim::Growth& growth, const sim::Lighting& light,
+                    const std::vector<render::PlantModel>& models, render::KnownPictures textures) {
+  return {
+      site.meshes,
+      site.world,
+      bare,
+      growth,
+      light,
+      models,
+      std::move(textures),
+      growthSettings(scene, site, {}).sky_table,
+      [&site](const sim::BitVolume& opaque) { return sim::skyInSpace(opaque, site.sky, site.random_sky); }};
 }
 
 /// A scene's site, and what shall grow on it or has grown there.
@@ -259,14 +274,8 @@ Report runScene(const Scene& scene, const RunOptions& options, const Keeping& ke
     stages.run("drawing", [&] {
       ReadTextures textures = texturesFor(drawsVines(scene.images), scene, site.meshes, options, report);
       for (const Problem& unread : textures.unread) late_warnings.push_back(unread.text);
-      const Finished finished{site.meshes,
-                              world,
-                              bare,
-                              growth,
-                              light,
-                              models,
-                              std::move(textures.pictures),
-                              growthSettings(scene, site, {}).sky_table};
+      const Finished finished =
+          finishedOn(scene, site, bare, growth, light, models, std::move(textures.pictures));
       auto pictures =
           inScene(scene, [&] { return drawPictures(picturesOf(scene, report.made_by), finished); });
       for (OutputFile& file : pictures) files.push_back(std::move(file));
@@ -344,14 +353,8 @@ Report renderScene(Scene scene, const std::filesystem::path& from, const RunOpti
   std::vector<OutputFile> files = stages.run("drawing", [&] {
     ReadTextures textures = texturesFor(drawsVines(scene.images), scene, site.meshes, options, report);
     for (const Problem& one : textures.unread) unread.push_back(one.text);
-    const Finished finished{site.meshes,
-                            site.world,
-                            bare,
-                            growth,
-                            light,
-                            models,
-                            std::move(textures.pictures),
-                            growthSettings(scene, site, {}).sky_table};
+    const Finished finished =
+        finishedOn(scene, site, bare, growth, light, models, std::move(textures.pictures));
     return inScene(scene, [&] { return drawPictures(picturesOf(scene, report.made_by), finished); });
   });
   stages.run("writing", [&] { output.write(files); });

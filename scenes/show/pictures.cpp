@@ -20,6 +20,7 @@
 #include "scenes/show/model_parts.h"
 #include "scenes/show/picture_memory.h"
 #include "scenes/show/sky_table_pictures.h"
+#include "scenes/show/vines_picture.h"
 #include "sim/base/error.h"
 #include "sim/base/parallel.h"
 #include "sim/base/stop.h"
@@ -211,25 +212,8 @@ void Studio::drawLegend(Image& picture, const ImageSpec& image, Panel panel) con
 }
 
 Image Studio::vines(const ImageSpec& image) const {
-  const auto shows = [&](const char* part) {
-    return std::find(image.show.begin(), image.show.end(), part) != image.show.end();
-  };
-  render::FinishedScene scene;
-  for (const auto& tiled : finished_.meshes) {
-    if (shows(tiled.guide ? "guides" : "scene")) scene.model.meshes.push_back(&tiled.mesh);
-  }
-  const bool stems = shows("stems"), elements = shows("elements");
-  const bool all = stems && elements;
-  const std::vector<render::PlantModel> parts =
-      all ? std::vector<render::PlantModel>() : partsOf(finished_.models, stems, elements);
-  for (const auto& model : all ? finished_.models : parts) scene.model.plants.push_back(&model);
-  scene.pictures = finished_.textures;
-  scene.frame = finished_.world.frame();
-  scene.occupied = &finished_.world.occupied();
-  scene.sky = finished_.light.space_sky.get();
-  scene.to_sun = look_.to_sun;
-  Image picture =
-      render::finishedPicture(scene, cameraOf(wanted_, image), wanted_.width_px, wanted_.height_px);
+  Image picture = vinesPicture(image, finished_, look_.to_sun, cameraOf(wanted_, image),
+                               {wanted_.width_px, wanted_.height_px});
   sim::parallelForEach(static_cast<std::size_t>(picture.height), [&](std::size_t row) {
     float* pixel = picture.at(0, static_cast<int>(row));
     for (int x = 0; x < picture.width; ++x, pixel += 3) {

@@ -9,6 +9,7 @@
 #include "sim/base/parallel.h"
 #include "sim/light/evened.h"
 #include "sim/light/lit_faces.h"
+#include "sim/light/sky_in_space.h"
 #include "sim/light/sky_shares.h"
 #include "sim/light/surface.h"
 #include "sim/sweep/sweep.h"
@@ -99,11 +100,8 @@ void findInSpace(Lighting& light, const World& world, const Sky& sky, const Sun&
         wanted.dense ? sweepExposure(world.opaque(), directions)
                      : sweepExposure(world.opaque(), directions, wanted.space));
   };
-  light.space_sky =
-      wanted.random_sky
-          ? std::make_shared<const ExposureField>(randomExposure(
-                world.opaque(), *wanted.random_sky, sky.weighting, wanted.dense ? nullptr : wanted.space))
-          : field(receivedBy(sky));
+  light.space_sky = std::make_shared<const ExposureField>(
+      skyInSpace(world.opaque(), sky, wanted.random_sky, wanted.dense ? nullptr : wanted.space));
   light.space_sun = field(sun.directions);
   if (!wanted.space_hours) return;
   const DirectionSet hours = byHours(sun);

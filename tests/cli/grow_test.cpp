@@ -6,8 +6,10 @@
 #include <map>
 #include <nlohmann/json.hpp>
 #include <set>
+#include <stdexcept>
 #include <string>
 #include <tuple>
+#include <vector>
 
 #include "scenes/import/mesh_import.h"
 #include "sim/base/hasher.h"
@@ -42,6 +44,39 @@ TEST_F(Plot, WritesTheModelTheWorldThePicturesAndTheReport) {
   EXPECT_EQ(r["world"]["size"], json({44, 32, 44}));
   EXPECT_EQ(r["files"].size(), names.size());
   EXPECT_GT(r["run"]["peak_memory_bytes"].get<double>(), 1e6);
+}
+
+std::vector<float> pixelsOf(const fs::path& picture) {
+  const auto input = OIIO::ImageInput::open(picture.string());
+  if (!input) throw std::runtime_error("cannot read " + picture.string());
+  std::vector<float> pixels(static_cast<std::size_t>(input->spec().image_pixels()) *
+                            static_cast<std::size_t>(input->spec().nchannels));
+  if (!input->read_image(0, 0, 0, input->spec().nchannels, OIIO::TypeDesc::FLOAT, pixels.data()))
+    throw std::runtime_error(input->geterror());
+  return pixels;
+}
+
+TEST_F(Plot, APictureOfTheSceneAloneIsLitAsIfNothingGrew) {
+  std::string scene = tests::kPlotScene;
+  scene =
+      scene.substr(0, scene.find("images:")) +
+      "images: [vines, {kind: vines, name: bare, show: [scene]}, {kind: vines, name: limbs, show: [scene, "
+      "stems]}]\n";
+  const auto grown = [&](const std::string& iterations, const std::string& folder) {
+    std::string text = scene;
+    text.replace(text.find("iterations: 14"), 14, "iterations: " + iterations);
+    scratch_.write("scene.yaml", text);
+    const auto ran = grow("", folder);
+    EXPECT_EQ(ran.status, 0) << ran.output;
+  };
+  grown("14", "many");
+  grown("1", "few");
+  const auto same = [&](const std::string& picture) {
+    return pixelsOf(scratch_.path("many") / picture) == pixelsOf(scratch_.path("few") / picture);
+  };
+  EXPECT_TRUE(same("bare.png"));
+  EXPECT_FALSE(same("limbs.png"));
+  EXPECT_FALSE(same("vines.png"));
 }
 
 TEST_F(Plot, SaysWhatBecameOfAttractorsAndWhyGrowthEnded) {

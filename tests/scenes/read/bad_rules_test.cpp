@@ -16,7 +16,7 @@ const std::vector<BadFile> kBadRules = {
     {"misspelt key",
      "random_tree:\n  lenght: 2\n",
      {"3:3: unknown key 'lenght'; expected one of length, branch_age_range, branch_angle, wander, trials, "
-      "fork, fork_angle; "
+      "fork, fork_angle, fork_apart; "
       "did you mean 'length'?"}},
     {"unknown section",
      "requires: {}\n",

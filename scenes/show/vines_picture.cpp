@@ -1,0 +1,61 @@
+#include "scenes/show/vines_picture.h"
+
+#include <algorithm>
+
+#include "render/finish/finished_picture.h"
+#include "scenes/show/model_parts.h"
+
+namespace espalier::scenes {
+namespace {
+
+/// What is set in both of two volumes of one size.
+sim::BitVolume both(sim::BitVolume set, const sim::BitVolume& other) {
+  const sim::Voxel size = set.size();
+  for (int y = 0; y < size.y; ++y) {
+    for (int z = 0; z < size.z; ++z) {
+      for (int w = 0; w < set.rowWords(); ++w) set.row(y, z)[w] &= other.row(y, z)[w];
+    }
+  }
+  return set;
+}
+
+bool shows(const ImageSpec& image, const char* part) {
+  return std::find(image.show.begin(), image.show.end(), part) != image.show.end();
+}
+
+}  // namespace
+
+bool drawsVines(const std::vector<ImageSpec>& images) {
+  return std::any_of(images.begin(), images.end(),
+                     [](const ImageSpec& image) { return image.kind == ImageKind::vines; });
+}
+
+bool showsNoPlant(const ImageSpec& image) {
+  return image.kind == ImageKind::vines && !shows(image, "stems") && !shows(image, "elements");
+}
+
+render::Image vinesPicture(const ImageSpec& image, const Finished& finished, sim::Vec3 to_sun,
+                           const render::Camera& camera, glm::ivec2 size_px) {
+  render::FinishedScene scene;
+  for (const auto& tiled : finished.meshes) {
+    if (shows(image, tiled.guide ? "guides" : "scene")) scene.model.meshes.push_back(&tiled.mesh);
+  }
+  const bool stems = shows(image, "stems"), elements = shows(image, "elements");
+  const bool all = stems && elements;
+  const std::vector<render::PlantModel> parts =
+      all ? std::vector<render::PlantModel>() : partsOf(finished.models, stems, elements);
+  for (const auto& model : all ? finished.models : parts) scene.model.plants.push_back(&model);
+  scene.pictures = finished.textures;
+  scene.frame = finished.world.frame();
+  scene.occupied = &finished.world.occupied();
+  scene.sky = finished.light.space_sky.get();
+  std::optional<sim::ExposureField> bare_sky;
+  if (showsNoPlant(image) && finished.sky_in_space) {
+    scene.occupied = &finished.bare;
+    scene.sky = &bare_sky.emplace(finished.sky_in_space(both(finished.world.opaque(), finished.bare)));
+  }
+  scene.to_sun = to_sun;
+  return render::finishedPicture(scene, camera, size_px.x, size_px.y);
+}
+
+}  // namespace espalier::scenes

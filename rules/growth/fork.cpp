@@ -94,7 +94,9 @@ std::optional<Candidate> forkStep(const sim::SiteView& view, const RuleSet& rule
                                   const Senses& senses, const sim::RandomKey& key, unsigned set,
                                   sim::Proposal& proposal) {
   const RandomTree& tree = rules.random_tree;
-  if (forkedLately(view, static_cast<sim::NodeId>(key.node), tree.fork_apart)) return std::nullopt;
+  const bool alone = forkedLately(view, static_cast<sim::NodeId>(key.node), tree.fork_apart);
+  if (alone && tree.fork_min > 1) return std::nullopt;
+  const std::size_t most = alone ? 1 : static_cast<std::size_t>(tree.fork_max);
   const sim::Passage passage = rules.require.clear ? sim::Passage::around : sim::Passage::through;
   const int plant = sim::numberOf(view.world, view.plant);
   sim::RandomKey tip = key;
@@ -114,7 +116,7 @@ std::optional<Candidate> forkStep(const sim::SiteView& view, const RuleSet& rule
   std::vector<const GoodTrial*> taken;
   Shared room_left(view, around, passage);
   for (const GoodTrial& trial : good) {
-    if (taken_ways.size() == static_cast<std::size_t>(tree.fork_max)) break;
+    if (taken_ways.size() >= most) break;
     const sim::Vec3 way = glm::normalize(trial.to_vx - around.at_vx);
     if (std::any_of(taken_ways.begin(), taken_ways.end(),
                     [&](sim::Vec3 other) { return glm::dot(way, other) > closest; }))

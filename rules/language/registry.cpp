@@ -63,7 +63,7 @@ std::shared_ptr<const Table> randomTreeKeys() {
       .whole("fork_apart", &RandomTree::fork_apart,
              {.unit = "segments",
               .limits = {0.0, 100.0},
-              .meaning = "So many segments of a limb behind a fork lay one segment at a time, at most."})
+              .meaning = "Tips of so many segments behind a fork lay one segment at most."})
       .shared();
 }
 

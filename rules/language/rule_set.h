@@ -69,7 +69,7 @@ struct RandomTree {
   /// have more than one anywhere, limbs leave each other in no other way.
   int fork_min = 1, fork_max = 1;
   double fork_angle_deg = 30.0;  ///< at least, between any two of them
-  int fork_apart = 0;            ///< segments of a limb behind a fork whose tips do not fork
+  int fork_apart = 0;            ///< tips of so many segments behind a fork lay one at most
 
   AngleDistribution distribution() const {
     return wander_distribution.value_or(wander_table.empty() ? AngleDistribution::cone

@@ -78,7 +78,7 @@ std::shared_ptr<const Table> senseBoundsKeys() {
       .number("min", &SenseBounds::min,
               {.unit = "reading", .limits = {-1e6, 1e6}, .meaning = "What reads less is no place to grow."})
       .number("max", &SenseBounds::max,
-              {.unit = "reading", .limits = {-1e6, 1e6}, .meaning = "What reads more is none."})
+              {.unit = "reading", .limits = {-1e6, 1e6}, .meaning = "What reads more is no place to grow."})
       .shared();
 }
 

@@ -162,5 +162,20 @@ TEST(Sensed, AreAskedForByNamesThatThereAre) {
   EXPECT_THROW(grown(posts(), rules, {{32, 4, 16}}), sim::InputError);
 }
 
+TEST(Sensed, HoldAlongTheSegmentsOfFrontsToo) {
+  const auto highest = [](const RuleSet& rules) {
+    sim::World world = tests::open();
+    const sim::Growth growth = tests::grown(world, rules, {{32, 2, 32}}, tests::crown(300));
+    const auto& places = growth.plants[0].skeleton.position_vx;
+    EXPECT_GT(places.size(), 20u);
+    return std::max_element(places.begin(), places.end(), [](Vec3 a, Vec3 b) { return a.y < b.y; })->y;
+  };
+  RuleSet rules = tests::tree();
+  EXPECT_GT(highest(rules), 45.0);
+  rules.senses = {{"rise", Measure::height, "scene", {6.0}}};
+  rules.require.along = {{"rise", -kNoLimit, 1.7}};  // metres: 34 voxel widths
+  EXPECT_LT(highest(rules), 33.5 + 1e-6);
+}
+
 }  // namespace
 }  // namespace espalier::rules

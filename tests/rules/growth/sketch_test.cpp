@@ -123,6 +123,11 @@ TEST(Fork, NoTipForksSoonBehindAFork) {
   };
   EXPECT_EQ(leastApart(0), 1);
   EXPECT_EQ(leastApart(2), 3);
+  // What may lay one alone goes on by itself.
+  star.random_tree.fork_min = 1;
+  star.otherwise = nullptr;
+  EXPECT_EQ(leastApart(0), 1);
+  EXPECT_EQ(leastApart(2), 3);
 }
 
 TEST(Fork, LimbsOfOneForkWantNoVoxelOfEachOthers) {

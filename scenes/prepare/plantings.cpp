@@ -211,9 +211,9 @@ std::vector<rules::LineEnds> linesOf(const Site& site) {
 
 /// Complains where a rule set senses lines of a scene that has none.
 void requireLines(const PlantSpec& spec, const Scene& scene, const Site& site, Gathering& wrong) {
-  if (rules::asksForLines(*spec.rules) && linesOf(site).empty())
-    wrong.add(problemAt(spec.rules_place, scene.file,
-                        "a sense is of lines, and the scene has none; expected a mesh with lines"));
+  if (!rules::asksForLines(*spec.rules) || !linesOf(site).empty()) return;
+  wrong.add(problemAt(spec.rules_place, scene.file,
+                      "senses are of: lines, and the scene has none; expected a mesh with lines"));
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include "scenes/prepare/plantings.h"
+#include "scenes/problem.h"
 #include "scenes/read/read_scene.h"
 #include "sim/grow/grow.h"
 #include "tests/support/scratch.h"
@@ -162,6 +163,26 @@ TEST(LineTracker, SeldomMissesOneOfThreeWays) {
   EXPECT_GE(three.equal, 17);
   EXPECT_LE(three.branchings, three.forks);
   EXPECT_GT(three.forks, 80u);
+}
+
+TEST(LineTracker, SaysWhereThereAreNoLines) {
+  const tests::Scratch scratch;
+  std::string text = sceneOf(Drawing(0).graph(false, 0.0));
+  const std::size_t meshes = text.find("meshes:"), plants = text.find("plants:");
+  text.erase(meshes, plants - meshes);
+  auto scene = readScene(scratch.write("bare.yaml", text));
+  ASSERT_TRUE(scene) << format(scene.problems());
+  const Site site = makeSite(*scene);
+  try {
+    makePlantings(*scene, site);
+    FAIL() << "it grew on no lines";
+  } catch (const PlacedError& error) {
+    const std::string said = scratch.shown(error.problems());
+    EXPECT_EQ(said.find("bare.yaml:5:13: "), 0u) << said;
+    EXPECT_NE(said.find("senses are of: lines, and the scene has none; expected a mesh with lines"),
+              said.npos)
+        << said;
+  }
 }
 
 }  // namespace

@@ -33,7 +33,6 @@
 #include "sim/base/counted.h"
 #include "sim/base/parallel.h"
 #include "sim/light/lighting.h"
-#include "sim/light/sky_in_space.h"
 #include "sim/world/band.h"
 
 namespace espalier::scenes {
@@ -47,14 +46,14 @@ sim::VoxelSet openLayers(const sim::BitVolume& scene, const sim::World& grown) {
 }
 
 /// `layers`: free space where light is wanted too, beside all of it for images of vines, whose leaves are lit
-/// by what is around them.
-sim::Lighting lightFor(const Scene& scene, const Site& site, bool vines,
+/// by what is around them. `bare`: what the scene alone occupies, for those that show no plant.
+sim::Lighting lightFor(const Scene& scene, const Site& site, bool vines, const sim::BitVolume& bare,
                        std::shared_ptr<const sim::VoxelSet> layers) {
   sim::LightWanted wanted;
   wanted.space = std::move(layers);
   wanted.dense = vines;
-  const bool bare = std::any_of(scene.images.begin(), scene.images.end(), showsNoPlant);
-  const double fields = bare ? 3.0 : 2.0;  // of 16 bits
+  if (vines && std::any_of(scene.images.begin(), scene.images.end(), showsNoPlant)) wanted.bare = &bare;
+  const double fields = wanted.bare ? 3.0 : 2.0;  // of 16 bits
   if (vines) inScene(scene, [&] { sim::requireFits(site.world.frame(), {site.world.layers(), 2 * fields}); });
   wanted.random_sky = site.random_sky;
   return sim::lightOf(site.world, site.sky, site.sun, wanted);
@@ -64,16 +63,14 @@ sim::Lighting lightFor(const Scene& scene, const Site& site, bool vines,
 Finished finishedOn(const Scene& scene, const Site& site, const sim::BitVolume& bare,
                     const sim::Growth& growth, const sim::Lighting& light,
                     const std::vector<render::PlantModel>& models, render::KnownPictures textures) {
-  return {
-      site.meshes,
-      site.world,
-      bare,
-      growth,
-      light,
-      models,
-      std::move(textures),
-      growthSettings(scene, site, {}).sky_table,
-      [&site](const sim::BitVolume& opaque) { return sim::skyInSpace(opaque, site.sky, site.random_sky); }};
+  return {site.meshes,
+          site.world,
+          bare,
+          growth,
+          light,
+          models,
+          std::move(textures),
+          growthSettings(scene, site, {}).sky_table};
 }
 
 /// A scene's site, and what shall grow on it or has grown there.
@@ -242,7 +239,7 @@ Report runScene(const Scene& scene, const RunOptions& options, const Keeping& ke
   std::shared_ptr<const sim::VoxelSet> layers;
   const sim::Lighting light = stages.run("lighting", [&] {
     layers = std::make_shared<const sim::VoxelSet>(openLayers(bare, world));
-    return lightFor(scene, site, options.pictures && drawsVines(scene.images), layers);
+    return lightFor(scene, site, options.pictures && drawsVines(scene.images), bare, layers);
   });
   report.light = light.about;
   std::vector<render::PlantModel> models;  // for pictures; else they are made while they are written
@@ -344,7 +341,7 @@ Report renderScene(Scene scene, const std::filesystem::path& from, const RunOpti
                                              picturesOf(scene), stages.began());
       options.on_foretold(*report.run.foretold);
     }
-    return lightFor(scene, site, drawsVines(scene.images), nullptr);
+    return lightFor(scene, site, drawsVines(scene.images), bare, nullptr);
   });
   report.light = light.about;
   const auto models =

@@ -52,8 +52,6 @@ struct Finished {
   const std::vector<render::PlantModel>& models;  ///< one a plant
   render::KnownPictures textures = {};            ///< of the meshes' materials, for images of vines
   std::function<sim::SkyTable()> sky_table = {};  ///< as growth has it, for images of sky tables
-  /// The sky's light in space where this takes light, for images of vines that show none of what grew.
-  std::function<sim::ExposureField(const sim::BitVolume& opaque)> sky_in_space = {};
 };
 
 /// Whether it is one of the panels of render/voxels/panels.h.

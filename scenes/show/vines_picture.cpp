@@ -8,17 +8,6 @@
 namespace espalier::scenes {
 namespace {
 
-/// What is set in both of two volumes of one size.
-sim::BitVolume both(sim::BitVolume set, const sim::BitVolume& other) {
-  const sim::Voxel size = set.size();
-  for (int y = 0; y < size.y; ++y) {
-    for (int z = 0; z < size.z; ++z) {
-      for (int w = 0; w < set.rowWords(); ++w) set.row(y, z)[w] &= other.row(y, z)[w];
-    }
-  }
-  return set;
-}
-
 bool shows(const ImageSpec& image, const char* part) {
   return std::find(image.show.begin(), image.show.end(), part) != image.show.end();
 }
@@ -47,13 +36,9 @@ render::Image vinesPicture(const ImageSpec& image, const Finished& finished, sim
   for (const auto& model : all ? finished.models : parts) scene.model.plants.push_back(&model);
   scene.pictures = finished.textures;
   scene.frame = finished.world.frame();
-  scene.occupied = &finished.world.occupied();
-  scene.sky = finished.light.space_sky.get();
-  std::optional<sim::ExposureField> bare_sky;
-  if (showsNoPlant(image) && finished.sky_in_space) {
-    scene.occupied = &finished.bare;
-    scene.sky = &bare_sky.emplace(finished.sky_in_space(both(finished.world.opaque(), finished.bare)));
-  }
+  const bool bare = showsNoPlant(image);
+  scene.occupied = bare ? &finished.bare : &finished.world.occupied();
+  scene.sky = (bare ? finished.light.bare_sky : finished.light.space_sky).get();
   scene.to_sun = to_sun;
   return render::finishedPicture(scene, camera, size_px.x, size_px.y);
 }

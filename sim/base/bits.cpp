@@ -20,4 +20,11 @@ void BitVolume::add(const BitVolume& more) {
   });
 }
 
+void BitVolume::keep(const BitVolume& only) {
+  assert(only.size_ == size_);
+  parallelFor(words_.size(), [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) words_[i] &= only.words_[i];
+  });
+}
+
 }  // namespace espalier::sim

@@ -9,7 +9,6 @@
 #include "sim/base/parallel.h"
 #include "sim/light/evened.h"
 #include "sim/light/lit_faces.h"
-#include "sim/light/sky_in_space.h"
 #include "sim/light/sky_shares.h"
 #include "sim/light/surface.h"
 #include "sim/sweep/sweep.h"
@@ -95,17 +94,26 @@ bool sameWeights(const DirectionSet& a, const DirectionSet& b) {
 
 void findInSpace(Lighting& light, const World& world, const Sky& sky, const Sun& sun,
                  const LightWanted& wanted) {
-  const auto field = [&](const DirectionSet& directions) {
-    return std::make_shared<const ExposureField>(
-        wanted.dense ? sweepExposure(world.opaque(), directions)
-                     : sweepExposure(world.opaque(), directions, wanted.space));
+  const auto where = wanted.dense ? nullptr : wanted.space;
+  const auto field = [&](const BitVolume& opaque, const DirectionSet& directions) {
+    return std::make_shared<const ExposureField>(where ? sweepExposure(opaque, directions, where)
+                                                       : sweepExposure(opaque, directions));
   };
-  light.space_sky = std::make_shared<const ExposureField>(
-      skyInSpace(world.opaque(), sky, wanted.random_sky, wanted.dense ? nullptr : wanted.space));
-  light.space_sun = field(sun.directions);
+  const auto skyField = [&](const BitVolume& opaque) {
+    if (!wanted.random_sky) return field(opaque, receivedBy(sky));
+    return std::make_shared<const ExposureField>(
+        randomExposure(opaque, *wanted.random_sky, sky.weighting, where));
+  };
+  light.space_sky = skyField(world.opaque());
+  if (wanted.bare) {
+    BitVolume bare = world.opaque();
+    bare.keep(*wanted.bare);
+    light.bare_sky = skyField(bare);
+  }
+  light.space_sun = field(world.opaque(), sun.directions);
   if (!wanted.space_hours) return;
   const DirectionSet hours = byHours(sun);
-  light.space_hours = sameWeights(hours, sun.directions) ? light.space_sun : field(hours);
+  light.space_hours = sameWeights(hours, sun.directions) ? light.space_sun : field(world.opaque(), hours);
 }
 
 LightAbout aboutLight(const Frame& frame, const Sky& sky, const Sun& sun,

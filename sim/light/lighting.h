@@ -19,8 +19,9 @@ struct LightWanted {
   bool brightest = false;  ///< the brightest way from each surface
   /// Voxels where light is wanted beside the surfaces, such as freeBand's; null: none.
   std::shared_ptr<const VoxelSet> space = nullptr;
-  bool dense = false;        ///< in every voxel of the world, whatever `space` says
-  bool space_hours = false;  ///< hours of sun too, there
+  bool dense = false;               ///< in every voxel of the world, whatever `space` says
+  bool space_hours = false;         ///< hours of sun too, there
+  const BitVolume* bare = nullptr;  ///< and the sky's as if this alone took light, there; null: no
   /// Greene's rays for sky_exposure instead of the sky's directions. They know no normals: surfaces then
   /// receive what level ground would in front of them.
   std::optional<RandomSky> random_sky = std::nullopt;
@@ -64,6 +65,8 @@ struct Lighting {
   /// In free space, as level ground receives it; null where not wanted. Hours are fractions of
   /// about.sun_hours.
   std::shared_ptr<const ExposureField> space_sky, space_sun, space_hours;
+  /// As space_sky, with nothing in the way but what LightWanted::bare holds.
+  std::shared_ptr<const ExposureField> bare_sky;
 
   LightAbout about;
 

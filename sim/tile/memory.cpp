@@ -14,17 +14,17 @@ namespace {
 
 constexpr double kLongestAxis = 16000;  // what tiling's fixed point can hold, less a rim
 
-/// Bit volumes: what is occupied, what is solid, what takes light, and four more while what is closed is
-/// found or places are looked at. Then one marks the places for a sweep, and the light's rays and those of
-/// the table of the sky go by one each at most: half a volume of horizons, and for each of the four octants
-/// above a byte a brick, which is half a volume where the world is one voxel thick, and a sixteenth where it
-/// is thick. Surfaces as large as the world's own sides: their grids, taps and places with the directions
-/// that are open there; 35 bytes for each layer before them. Fields of every voxel.
+/// Bit volumes: what is occupied, by plants too, what is solid, what takes light, and four more while what is
+/// closed is found or places are looked at. Then one marks the places for a sweep, and the light's rays and
+/// those of the table of the sky go by one each at most: half a volume of horizons, and for each of the four
+/// octants above a byte a brick, which is half a volume where the world is one voxel thick, and a sixteenth
+/// where it is thick. Surfaces as large as the world's own sides: their grids, taps and places with the
+/// directions that are open there; 35 bytes for each layer before them. Fields of every voxel.
 double worldBytes(Vec3 size, const WorldUse& use) {
   const double voxels = size.x * size.y * size.z;
   const double padded = (size.x + 2 * 64) / size.x;
   const double sides = 2 * (size.x * size.y + size.y * size.z + size.z * size.x);
-  return (7.0 / 8 * padded + use.bytes_per_voxel) * voxels + (250.0 + 35.0 * use.layers) * sides;
+  return (8.0 / 8 * padded + use.bytes_per_voxel) * voxels + (250.0 + 35.0 * use.layers) * sides;
 }
 
 bool fits(Vec3 size, const WorldUse& use) {

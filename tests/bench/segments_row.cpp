@@ -39,6 +39,7 @@ rules::RuleSet withEverything(rules::RuleSet rules) {
                   {"rise", Measure::height, "scene", {6.0}}};
   rules.bias.senses = {{"crowd", -0.02}, {"gap", -0.02}};
   rules.require.senses = {{"crowd", -rules::kNoLimit, 0.9}, {"rise", 0.0, rules::kNoLimit}};
+  rules.require.along = {{"crowd", -rules::kNoLimit, 0.95}};
   return rules;
 }
 
@@ -103,10 +104,8 @@ Grown growOn(sim::World& world, const rules::RuleSet& rules, double segments) {
 }
 
 /// The brightest spots of a table of the sky, from nodes all over a grown wall.
-void addSkyTables(const rules::RuleSet& rules, double segments, Report& report, const char* row) {
+void addSkyTables(const sim::World& world, const Grown& grown, Report& report, const char* row) {
   constexpr std::size_t kTips = 600;
-  sim::World world = wallFor(segments);
-  const Grown grown = growOn(world, rules, segments);
   std::vector<sim::Voxel> tips;
   for (std::size_t i = 0; i < kTips; ++i) tips.push_back(grown.nodes[i * grown.nodes.size() / kTips]);
   const sim::SkyTable table = settingsFor().sky_table();
@@ -153,10 +152,8 @@ void benchSegments(double most_segments, Report& report) {
     return grown;
   };
   report.title("   The same wall of 30,000 segments in other ways");
-  const Grown all_threads = [&] {
-    sim::World world = wallFor(kSegments);
-    return growOn(world, figure_four, kSegments);
-  }();
+  sim::World wall = wallFor(kSegments);
+  const Grown all_threads = growOn(wall, figure_four, kSegments);
   const Grown one_thread = onOneThread(figure_four);
   const auto speed = [](const Grown& g) { return static_cast<double>(g.segments) / g.cpu_s; };
   report.add({kRow, fmt::format("{} threads: a second of one thread over theirs", sim::threadCount()),
@@ -172,7 +169,7 @@ void benchSegments(double most_segments, Report& report) {
   const Grown turned = onOneThread(heliotropicAndShy(figure_four));
   report.add({kRow, "  a segment's time with heliotropism and neighbourhood over figure 4's",
               speed(one_thread) / speed(turned), "times", turned.state, Target{2.0, false}});
-  addSkyTables(figure_four, kSegments, report, kRow);
+  addSkyTables(wall, all_threads, report, kRow);
   const std::string best = sim::lanes::level();
   for (const std::string& level : sim::lanes::levels()) {
     sim::lanes::useLevel(level);

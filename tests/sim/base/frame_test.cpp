@@ -79,7 +79,7 @@ TEST(RequireFits, SaysWhatIsNeeded) {
   const std::string message = tests::messageOf([] {
     requireFits({.origin_m = Vec3(0.0), .voxel_m = 0.01, .size = {16000, 16000, 16000}});
   });
-  EXPECT_TRUE(message.starts_with("a world of 16000 x 16000 x 16000 voxels of 0.01 m needs 3")) << message;
+  EXPECT_TRUE(message.starts_with("a world of 16000 x 16000 x 16000 voxels of 0.01 m needs 4")) << message;
   EXPECT_NE(message.find(" GB of memory, and "), std::string::npos) << message;
 }
 

@@ -194,6 +194,11 @@ struct PlantSpec {
   std::optional<SkeletonSpec> skeleton;  ///< instead of all these: its roots are the seeds
 };
 
+/// Whether a planting's rules have it lay elements on surfaces.
+inline bool lays(const PlantSpec& plant) {
+  return !plant.skeleton && plant.rules->propagate == rules::Propagate::diffusion;
+}
+
 /// What the attractors of a planting's own crown are called.
 inline std::string crownOf(const std::string& planting) {
   return "crown of " + planting;

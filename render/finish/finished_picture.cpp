@@ -159,6 +159,10 @@ void Painter::meet(const SurfaceHit& hit, Vec3f direction, Fragment& f) const {
     f.look = sceneLook(noise_, surface, hit, f.p_m, pixel_ * hit.distance_m);
     return;
   }
+  if (surface.kind == SurfaceKind::body) {
+    f.look = bodyLook(noise_, surface, hit, f.p_m, pixel_ * hit.distance_m);
+    return;
+  }
   const ModelMesh& mesh = *surface.model;
   const auto& t = mesh.triangles[hit.triangle];
   f.blade = surface.kind == SurfaceKind::blade;

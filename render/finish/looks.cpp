@@ -78,6 +78,16 @@ Look barkLook(const Noise& noise, const Surface& stem, const SurfaceHit& hit, Ve
   return {glm::mix(bark, shoot, 0.55f * youth * youth) * streak, Colour(0.0f), 0.15f};
 }
 
+Look bodyLook(const Noise& noise, const Surface& body, const SurfaceHit& hit, Vec3f p_m, float pixel_m) {
+  const ModelMesh& mesh = *body.model;
+  const auto& t = mesh.triangles[hit.triangle];
+  const Colour tint = mesh.tints.empty() ? Colour(1.0f) : mesh.tints[t[0]];
+  if (body.texture == nullptr) return stoneLook(noise, tint * mesh.base_colour, p_m);
+  const float span = pixel_m * picturePerMetre(mesh.positions_m, mesh.uvs, t);
+  return {glm::clamp(tint * body.texture->colour(atHit(mesh.uvs, t, hit), span), 0.0f, 1.0f), Colour(0.0f),
+          0.0f};
+}
+
 Look bladeLook(const Surface& blade, const SurfaceHit& hit, float pixel_m) {
   const ModelMesh& mesh = *blade.model;
   const auto& t = mesh.triangles[hit.triangle];

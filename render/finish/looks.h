@@ -21,6 +21,9 @@ Look groundLook(const Noise& noise, sim::Colour base, sim::Vec3f p_m);
 /// Bark by its picture, else in its colour with a few streaks; greener towards young ends. p in metres.
 /// `pixel_m`: how much of it a pixel spans.
 Look barkLook(const Noise& noise, const Surface& stem, const SurfaceHit& hit, sim::Vec3f p_m, float pixel_m);
+/// Bodies that were laid or placed, such as stones: by their pictures, else in their colour, weathered as a
+/// scene's surfaces are; each in its own tint. p in metres.
+Look bodyLook(const Noise& noise, const Surface& body, const SurfaceHit& hit, sim::Vec3f p_m, float pixel_m);
 /// Leaves by their pictures, and else in their colour with a pale midrib; each in its own tint. `pixel_m`:
 /// how much of it a pixel spans.
 Look bladeLook(const Surface& blade, const SurfaceHit& hit, float pixel_m);

@@ -95,7 +95,8 @@ RayScene::RayScene(const ModelScene& scene, const KnownPictures& pictures)
   for (const PlantModel* plant : scene.plants) {
     add(plant->stems, SurfaceKind::stem);
     add(plant->stalks, SurfaceKind::stem);
-    for (const ModelMesh& element : plant->elements) add(element, SurfaceKind::blade);
+    for (const ModelMesh& element : plant->elements)
+      add(element, element.body ? SurfaceKind::body : SurfaceKind::blade);
   }
   for (const Surface& surface : *surfaces_) {
     const bool solid = surface.texture == nullptr || surface.model->picture->tiles;

@@ -26,14 +26,14 @@ struct SurfaceHit {
   bool any() const { return surface != kNothing; }
 };
 
-enum class SurfaceKind { scene, stem, blade };
+enum class SurfaceKind { scene, stem, blade, body };
 
 /// What a hit's `surface` stands for: one of the two meshes.
 struct Surface {
   SurfaceKind kind = SurfaceKind::scene;
   const sim::Mesh* mesh = nullptr;          ///< of a scene surface
-  const ModelMesh* model = nullptr;         ///< of stems and blades
-  const PictureTexture* texture = nullptr;  ///< of stems and blades with a picture
+  const ModelMesh* model = nullptr;         ///< of stems, blades and bodies
+  const PictureTexture* texture = nullptr;  ///< of those with a picture
   /// Of each of a scene surface's materials; null: it has none, or its picture is not known. Empty without
   /// UVs.
   std::vector<const PictureTexture*> textures = {};

@@ -19,6 +19,7 @@ struct ModelMesh {
   sim::Colour base_colour{0.5f};  ///< linear RGB
   /// Laid on it by its UVs in place of the base colour; null: none.
   std::shared_ptr<const LeafPicture> picture;
+  bool body = false;  ///< closed, as stones are: neither veined nor seen through
   std::vector<sim::Vec3f> positions_m;
   std::vector<sim::Vec3f> normals;  ///< unit
   std::vector<glm::vec2> uvs;

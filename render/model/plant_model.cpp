@@ -140,6 +140,7 @@ PlantModel modelPlant(const sim::Plant& plant, const sim::Frame& frame, const Mo
     model.elements.back().name = plant.name + " " + shape.name;
     model.elements.back().base_colour = shape.colour;
     model.elements.back().picture = shape.picture;
+    model.elements.back().body = shape.body;
     if (!shape.drawn.empty()) model.elements.back().picture = drawnLeaf(shape.drawn, shape.colour);
   }
   const LeafFeet feet(plant, curves, limbs, frame, blocked);

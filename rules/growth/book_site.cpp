@@ -35,12 +35,10 @@ bool stayedTooLong(const sim::SiteView& view, const sim::Site& site, const RuleS
 
 /// Why a set does not grow here; grown if it does, and then the proposal says what.
 Outcome tryToGrow(const sim::SiteView& view, const RuleSet& rules, const sim::Site& site,
-                  const sim::RandomKey& key, unsigned set, const RuleBook& book, int order, const Step& step,
-                  sim::Proposal& proposal) {
+                  const sim::RandomKey& key, unsigned set, const Try& attempt, sim::Proposal& proposal) {
   if (view.iteration < rules.require.age_min) return Outcome::resting;
   if (view.iteration > rules.require.age_max || stayedTooLong(view, site, rules)) return Outcome::unmet;
-  const Exposure seen = seenAt(view);
-  const Vigour light = vigourOf(seen, rules);
+  const Vigour light = vigourOf(seenAt(view), rules);
   if (light.exposure < rules.require.exposure_min) return Outcome::too_dark;
   if (light.exposure > rules.require.exposure_max) return Outcome::too_bright;
   const double chance = sim::Slots(key, sim::Purpose::rate, set).uniform(0);
@@ -49,14 +47,7 @@ Outcome tryToGrow(const sim::SiteView& view, const RuleSet& rules, const sim::Si
   const Surroundings around = lookAround(view, site);
   const Senses senses = sense(view, around, light, rules);
   if (!readsAsRequired(rules, senses)) return Outcome::unmet;
-  std::optional<Candidate> best = step(rules, around, senses, set, proposal);
-  if (!best) return Outcome::no_trial;
-  proposal.elements = proposeElements(view, site, rules, around, senses, best->to_vx, best->passes,
-                                      book.firstShape(rules), key);
-  proposal.segment = {
-      best->to_vx, std::move(best->takes), best->passage,
-      quantitiesOf(view, book, site, best->to_vx, seen, senses.exposure, order, best->proximity_vx)};
-  return Outcome::grown;
+  return attempt(rules, around, senses, set, proposal) ? Outcome::grown : Outcome::no_trial;
 }
 
 }  // namespace
@@ -88,14 +79,14 @@ std::vector<float> quantitiesOf(const sim::SiteView& view, const RuleBook& book,
   return quantities;
 }
 
-sim::Proposal proposeByBook(const sim::SiteView& view, const sim::Site& site, const sim::RandomKey& key,
-                            const RuleBook& book, int order, const Step& step) {
+sim::Proposal proposeBySets(const sim::SiteView& view, const sim::Site& site, const sim::RandomKey& key,
+                            const RuleBook& book, const RuleSet* first, const Try& attempt) {
   sim::Proposal proposal;
   const sim::Voxel at = sim::voxelAt(site.at_vx);
-  const RuleSet* rules = book.first(view.world, at, order);
   proposal.outcome = Outcome::forbidden;
+  const RuleSet* rules = first;
   for (unsigned set = 0; rules != nullptr; ++set, rules = book.next(*rules, view.world, at)) {
-    const Outcome outcome = tryToGrow(view, *rules, site, key, set, book, order, step, proposal);
+    const Outcome outcome = tryToGrow(view, *rules, site, key, set, attempt, proposal);
     // What is told of a site that did not grow is why its first set failed, unless a later one got as far as
     // trials.
     if (set == 0 || outcome == Outcome::no_trial || outcome == Outcome::grown || outcome == Outcome::resting)
@@ -105,15 +96,34 @@ sim::Proposal proposeByBook(const sim::SiteView& view, const sim::Site& site, co
   return proposal;
 }
 
+sim::Proposal proposeByBook(const sim::SiteView& view, const sim::Site& site, const sim::RandomKey& key,
+                            const RuleBook& book, int order, const Step& step) {
+  const auto grow = [&](const RuleSet& rules, const Surroundings& around, const Senses& senses, unsigned set,
+                        sim::Proposal& proposal) {
+    std::optional<Candidate> best = step(rules, around, senses, set, proposal);
+    if (!best) return false;
+    proposal.elements = proposeElements(view, site, rules, around, senses, best->to_vx, best->passes,
+                                        book.firstShape(rules), key);
+    proposal.segment = {best->to_vx, std::move(best->takes), best->passage,
+                        quantitiesOf(view, book, site, best->to_vx, seenAt(view), senses.exposure, order,
+                                     best->proximity_vx)};
+    return true;
+  };
+  return proposeBySets(view, site, key, book, book.first(view.world, sim::voxelAt(site.at_vx), order), grow);
+}
+
 namespace {
 
-/// Whether anything that a set says depends on light.
+/// Whether anything that a set says depends on light. Leaves turn to it; what diffusion lays does not, unless
+/// its pose says so.
 bool asksForLight(const RuleSet& set) {
+  const bool leaves = set.propagate != Propagate::diffusion;
   bool asks = set.require.exposure_min > 0.0 || set.require.exposure_max < 1.0 || set.light.boost != 1.0 ||
-              !(set.bias.light == Value(0.0)) || !set.elements.empty();
+              !(set.bias.light == Value(0.0));
+  for (const Element& element : set.elements) asks = asks || leaves || element.pose == Pose::light;
   forEachValue(set, [&](const std::string& path, const Value& value) {
     const bool follows = value.kind == Value::Kind::curve && value.over == Over::exposure;
-    asks = asks || (follows && path.starts_with("bias."));
+    asks = asks || (follows && (!leaves || path.starts_with("bias.")));
   });
   return asks;
 }

@@ -14,6 +14,15 @@ using Step =
     std::function<std::optional<Candidate>(const RuleSet& rules, const Surroundings& around,
                                            const Senses& senses, unsigned set, sim::Proposal& proposal)>;
 
+/// Whether a site grows by one rule set: then the proposal holds what it would place.
+using Try = std::function<bool(const RuleSet& rules, const Surroundings& around, const Senses& senses,
+                               unsigned set, sim::Proposal& proposal)>;
+
+/// The site tries rule sets from the first on, null for none, each with its own senses and light, and those
+/// that stand by for it; the first that succeeds ends it, and one that would rather rest.
+sim::Proposal proposeBySets(const sim::SiteView& view, const sim::Site& site, const sim::RandomKey& key,
+                            const RuleBook& book, const RuleSet* first, const Try& attempt);
+
 /// The site tries the rule set that holds where it is, then those that stand by for it, each with its own
 /// senses, regions and light, and grows by the first that succeeds; where that one would rather rest, it
 /// rests. The segment carries elements, and the

@@ -7,6 +7,7 @@
 #include "rules/growth/book_site.h"
 #include "rules/growth/buds.h"
 #include "rules/growth/colonization.h"
+#include "rules/growth/diffusion.h"
 #include "rules/growth/random_tree.h"
 #include "rules/growth/rule_book.h"
 #include "rules/growth/voxel_widths.h"
@@ -100,8 +101,17 @@ class WalkProcess final : public sim::Process {
   std::uint32_t most_limbs_ = 1;
 };
 
-std::shared_ptr<const sim::Process> made(RuleBook book) {
+std::shared_ptr<const sim::Process> made(RuleBook book,
+                                         std::shared_ptr<const sim::SceneSurface> surface = nullptr,
+                                         sim::Voxel world_size = sim::Voxel(0)) {
   requireOneWayOfGrowing(book);
+  if (book.top().propagate == Propagate::diffusion) {
+    if (!surface)
+      throw sim::InputError(
+          fmt::format("rule set '{}' lays elements on a scene's surfaces; expected them with its world",
+                      book.top().name));
+    return makeDiffusion(std::move(book), std::move(surface), world_size);
+  }
   if (book.top().propagate == Propagate::colonization) return makeColonization(std::move(book));
   return std::make_shared<WalkProcess>(std::move(book));
 }
@@ -112,11 +122,11 @@ std::shared_ptr<const sim::Process> makeProcess(std::shared_ptr<const RuleSet> r
   return made(RuleBook(inVoxelWidths(rules, voxel_m)));
 }
 
-std::shared_ptr<const sim::Process> makeProcess(std::shared_ptr<const RuleSet> rules,
-                                                const sim::Frame& frame) {
+std::shared_ptr<const sim::Process> makeProcess(std::shared_ptr<const RuleSet> rules, const sim::Frame& frame,
+                                                std::shared_ptr<const sim::SceneSurface> surface) {
   const auto in_widths = inVoxelWidths(rules, frame.voxel_m);
   requireElementsFit(*in_widths, frame);
-  return made(RuleBook(in_widths));
+  return made(RuleBook(in_widths), std::move(surface), frame.size);
 }
 
 }  // namespace espalier::rules

@@ -3,6 +3,7 @@
 
 #include "rules/language/rule_set.h"
 #include "sim/grow/process.h"
+#include "sim/sense/scene_surface.h"
 
 namespace espalier::rules {
 
@@ -21,8 +22,9 @@ namespace espalier::rules {
 /// `voxel_m` turns lengths given in metres into voxel widths. Throws sim::InputError for a rule set that
 /// cannot work with such voxels, wherever the book leads to it (rules/growth/voxel_widths.h).
 std::shared_ptr<const sim::Process> makeProcess(std::shared_ptr<const RuleSet> rules, double voxel_m);
-/// The same for a world; throws too where an element has no room in it.
-std::shared_ptr<const sim::Process> makeProcess(std::shared_ptr<const RuleSet> rules,
-                                                const sim::Frame& frame);
+/// The same for a world; throws too where an element has no room in it. Diffusion wants the surfaces of the
+/// scene, and throws without them; nobody else does.
+std::shared_ptr<const sim::Process> makeProcess(std::shared_ptr<const RuleSet> rules, const sim::Frame& frame,
+                                                std::shared_ptr<const sim::SceneSurface> surface = nullptr);
 
 }  // namespace espalier::rules

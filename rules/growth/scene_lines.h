@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "rules/language/rule_set.h"
-#include "sim/grow/plant.h"
+#include "sim/grow/process.h"
 
 /// The scene's lines as senses of `lines` find them: exactly, where voxels tell places apart by a width at
 /// best. They belong to the scene and to no plant, so they lie in the commons.

@@ -37,6 +37,31 @@ void convert(Value& value, double voxel_m) {
   for (Value::Point& point : value.curve) point.y /= voxel_m;
 }
 
+/// Makes closed bodies of an element's polygons.
+void thicken(Element& element) {
+  if (!(element.thick.number > 0.0)) return;
+  const sim::Vec3 up(0.0, 0.0, element.thick.number);
+  std::vector<std::vector<sim::Vec3>> bodies;
+  for (std::vector<sim::Vec3> lower : element.polygons) {
+    sim::Vec3 twice(0.0);
+    for (std::size_t i = 2; i < lower.size(); ++i)
+      twice += glm::cross(lower[i - 1] - lower[0], lower[i] - lower[0]);
+    if (twice.z < 0.0) std::reverse(lower.begin(), lower.end());
+    std::vector<sim::Vec3> upper;
+    for (const sim::Vec3 corner : lower) upper.push_back(corner + up);
+    bodies.push_back(upper);
+    for (std::size_t i = 0; i < lower.size(); ++i) {
+      const std::size_t next = (i + 1) % lower.size();
+      bodies.push_back({lower[i], lower[next], upper[next], upper[i]});
+    }
+    std::reverse(lower.begin(), lower.end());
+    bodies.push_back(std::move(lower));
+  }
+  element.polygons = std::move(bodies);
+  element.thick = {};
+  element.body = true;
+}
+
 void convert(RuleSet& rules, double voxel_m) {
   Length& length = rules.random_tree.length;
   if (length.metres) convert(length.value, voxel_m);
@@ -49,6 +74,14 @@ void convert(RuleSet& rules, double voxel_m) {
        {&rules.colonization.step, &rules.colonization.influence, &rules.colonization.kill}) {
     if (*distance) convert(**distance, voxel_m);
   }
+  Diffusion& diffusion = rules.diffusion;
+  for (Distance* distance : {&diffusion.gap_min, &diffusion.gap_max, &diffusion.off})
+    convert(*distance, voxel_m);
+  if (diffusion.distance && diffusion.distance->metres) {
+    convert(diffusion.distance->value, voxel_m);
+    diffusion.distance->metres = false;
+  }
+  for (glm::dvec2& step : diffusion.steps) step /= voxel_m;
   for (SenseSpec& sense : rules.senses) convert(sense.within, voxel_m);
   for (Element& element : rules.elements) {
     if (element.size_metres) convert(element.size, voxel_m);
@@ -56,11 +89,14 @@ void convert(RuleSet& rules, double voxel_m) {
     if (element.petiole.metres) convert(element.petiole.value, voxel_m);
     element.petiole.metres = false;
     if (element.phyllotaxis) convert(element.phyllotaxis->spacing, voxel_m);
-    if (!element.polygons_metres) continue;
-    for (auto& polygon : element.polygons) {
-      for (sim::Vec3& corner : polygon) corner /= voxel_m;
+    if (element.polygons_metres) {
+      for (auto& polygon : element.polygons) {
+        for (sim::Vec3& corner : polygon) corner /= voxel_m;
+      }
     }
     element.polygons_metres = false;
+    convert(element.thick, voxel_m);
+    thicken(element);
   }
 }
 
@@ -96,6 +132,7 @@ double longestSegment(const RuleSet& rules) {
 
 /// Not counting what light adds.
 double mostOnASegment(const RuleSet& rules, const Element& element) {
+  if (rules.propagate == Propagate::diffusion) return 1.0;
   if (!element.phyllotaxis) return std::ceil(highest(element.per_segment));
   return std::ceil(longestSegment(rules) / element.phyllotaxis->spacing.number) * element.phyllotaxis->whorl;
 }
@@ -151,6 +188,12 @@ std::string wrongWith(const RuleSet& rules, const std::string& at) {
         "require.proximity.min is {:.3g} and require.proximity.max is {:.3g} voxel widths {}; expected the "
         "first to be less than the second",
         min, max, at);
+  }
+  if (const Diffusion& d = rules.diffusion; d.gap_min.number > d.gap_max.number) {
+    return fmt::format(
+        "diffusion.gap.min is {:.3g} and diffusion.gap.max is {:.3g} voxel widths {}; expected the first to "
+        "be at most the second",
+        d.gap_min.number, d.gap_max.number, at);
   }
   for (std::size_t i = 0; i < rules.elements.size(); ++i) {
     const double number = mostOnASegment(rules, rules.elements[i]);

@@ -133,6 +133,14 @@ std::shared_ptr<const Table> elementKeys() {
            .meaning = "Flat polygons by their corners; attached at [0, 0, 0], growing along +y, facing +z.",
            .greene = "model, polygon",
            .most = 256})
+      .distance("thick", &Element::thick,
+                {.unit = kWidths,
+                 .limits = {0.0, 1000.0},
+                 .meaning = "How far up along +z its polygons are made a body; in their own unit."})
+      .value("share", &Element::share,
+             {.unit = "weight",
+              .limits = {0.0, 1000.0},
+              .meaning = "In diffusion: how often it is tried before the others."})
       .custom(
           "petiole", Kind::length, [](Element& e, const Datum& d) { e.petiole = std::get<Length>(d); },
           [](const Element& e) { return Datum{e.petiole}; },

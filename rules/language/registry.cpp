@@ -1,5 +1,6 @@
 #include "rules/language/registry.h"
 
+#include "rules/language/diffusion_keys.h"
 #include "rules/language/element_keys.h"
 #include "rules/language/envelope_keys.h"
 #include "rules/language/key_builder.h"
@@ -321,12 +322,16 @@ Table makeTable() {
       .base({.meaning = "A rule file to build on, or one of the library by its name: what it says holds "
                         "wherever this file is silent."})
       .choice<Propagate>("propagate", &RuleSet::propagate,
-                         {{"random_tree", Propagate::random_tree}, {"colonization", Propagate::colonization}},
+                         {{"random_tree", Propagate::random_tree},
+                          {"colonization", Propagate::colonization},
+                          {"diffusion", Propagate::diffusion}},
                          {.meaning = "The process that grows the plant."})
       .section("random_tree", &RuleSet::random_tree, randomTreeKeys(),
                {.meaning = "Each tip walks at random, and nodes branch when they come of age."})
       .section("colonization", &RuleSet::colonization, colonizationKeys(),
                {.meaning = "Space colonization: attractors pull nodes, and end where one comes near."})
+      .section("diffusion", &RuleSet::diffusion, diffusionKeys(),
+               {.meaning = "Elements are laid on surfaces, each beside one that lies there already."})
       .section("bias", &RuleSet::bias, biasKeys(),
                {.meaning = "Bends every trial: 0 not at all, 1 all the way."})
       .section("require", &RuleSet::require, requireKeys(),

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "rules/language/diffusion_keys.h"
 #include "rules/language/envelope_keys.h"
 #include "rules/language/registry.h"
 #include "rules/language/sense_keys.h"
@@ -94,6 +95,12 @@ void checkElements(const RuleSet& rules, const Check::Given& given, const Check:
         break;
       }
     }
+    if (element.thick.number > 0.0 && element.thick.metres != element.polygons_metres) {
+      complain(path + ".thick",
+               element.polygons_metres
+                   ? "a number beside polygons of lengths; expected a length too, such as 3 cm"
+                   : "a length beside polygons of plain numbers; expected a number, as they are");
+    }
     if (element.size_metres && element.polygons_metres) {
       complain(
           path + ".size",
@@ -157,6 +164,9 @@ const std::vector<Check>& ruleChecks() {
           "colonization.branching.angle.min", "colonization.branching.angle.max",
           [](auto& r) { return Distance{r.colonization.branching.angle_min_deg}; },
           [](auto& r) { return Distance{r.colonization.branching.angle_max_deg}; }, true),
+      ordered(
+          "diffusion.gap.min", "diffusion.gap.max", [](auto& r) { return r.diffusion.gap_min; },
+          [](auto& r) { return r.diffusion.gap_max; }, true),
       check({"light.blend"},
             [](auto& rules, auto&, auto& complain) {
               if (rules.light.sun + rules.light.sky <= 0.0) {
@@ -171,6 +181,7 @@ const std::vector<Check>& ruleChecks() {
       check({}, checkSenses),
       check({}, checkElements),
       check({}, checkColonization),
+      check({}, checkDiffusion),
   };
   return checks;
 }

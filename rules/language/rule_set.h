@@ -110,6 +110,42 @@ struct Colonization {
   std::vector<std::string> fields;  ///< guide fields of the scene that bend it
 };
 
+/// Where a new element is tried, seen from one that lies there already.
+enum class Around {
+  ring,      ///< at a distance that is drawn, on any side
+  gaussian,  ///< the distance is the standard deviation to each of two sides; never more than three of them
+  edges,     ///< flush with an edge of it, a gap away, pushed along until it meets a corner or a neighbour
+  steps      ///< by one of some steps
+};
+
+/// Which way the +y of a new element goes along the surface, before it is turned.
+enum class Ahead {
+  parent,  ///< as that of the element beside which it is laid
+  up       ///< up the slope
+};
+
+inline constexpr std::size_t kMostSteps = 64;
+
+/// Diffusion: elements are laid on surfaces, each beside one that lies there already.
+struct Diffusion {
+  Around around = Around::ring;
+  /// Between the two; of steps: how far off they land, as for gaussian. Without it 1 voxel width, of steps 0.
+  std::optional<Length> distance;
+  std::vector<glm::dvec2> steps;  ///< metres, along the +x and +y of the one that lies there
+  Distance gap_min{0.0};          ///< between outlines of what lies flat, and the feet of what does not
+  Distance gap_max{kNoLimit};     ///< to the nearest neighbour
+  Ahead ahead = Ahead::parent;
+  Value turn_deg = 0.0;        ///< about the surface's normal, at most, to either side by chance
+  double turn_step_deg = 0.0;  ///< in whole steps of this; 0: as it comes
+  Value tilt_deg = 0.0;        ///< from what its pose says, at most, to any side by chance
+  double bend_deg = 60.0;      ///< between the surface's normals at the two, at most
+  Distance off{0.5};           ///< corners of what lies flat are no farther off the surface
+  double fill = 1.0;           ///< share of the surface that is covered when it ends
+  int rounds = 1;              ///< in which all that lies there is asked, in one iteration
+
+  Value far() const { return distance ? distance->value : Value(around == Around::steps ? 0.0 : 1.0); }
+};
+
 /// How the brightest part of the sky is found.
 enum class Brightest {
   table,  ///< Greene's table of the sky, filtered with the cosine lobe
@@ -239,6 +275,10 @@ struct Element {
   /// What is painted on the polygons, as it is written: a kind that the program draws, or a file.
   std::string texture;
   std::shared_ptr<const sim::Picture> picture;  ///< of a file; who reads it puts it here
+  /// The polygons are a body's lower side, and this is how far up it goes.
+  Distance thick{0.0};
+  bool body = false;     ///< the polygons are all of its sides: that was done (rules/growth/voxel_widths.h)
+  Value share = 1.0;     ///< diffusion: how often it is tried before the others, as a weight
   double opacity = 1.0;  ///< share of the polygons' area that the texture leaves; who reads it puts it here
   sim::ColourVariation varies;
 };
@@ -263,13 +303,14 @@ struct RegionRule {
   std::shared_ptr<const RuleSet> rules;  ///< null: the enclosing rule set
 };
 
-enum class Propagate { random_tree, colonization };
+enum class Propagate { random_tree, colonization, diffusion };
 
 struct RuleSet {
   std::string name = "unnamed";
   Propagate propagate = Propagate::random_tree;
   RandomTree random_tree;
   Colonization colonization;
+  Diffusion diffusion;
   Bias bias;
   Require require;
   Prefer prefer;

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "rules/growth/front_memory.h"
+#include "rules/growth/laying_front.h"
 #include "scenes/problem.h"
 #include "sim/base/provenance.h"
 
@@ -41,6 +42,19 @@ std::vector<Report::Growth::Attractors> attractorReports(const Scene& scene, con
   return reports;
 }
 
+Report::Growth::Laid laidReport(const PlantSpec& spec, std::span<const sim::Plant> plants,
+                                const sim::Columns& memory,
+                                const std::shared_ptr<const sim::SceneSurface>& surface,
+                                const sim::World& world) {
+  Report::Growth::Laid laid;
+  laid.planting = spec.name;
+  for (const sim::Plant& plant : plants) laid.elements += plant.elements.size();
+  laid.asked_fill = spec.rules->diffusion.fill;
+  laid.measure = rules::measureLaid(spec.rules, plants, surface, world);
+  laid.waiting = rules::countLaying(memory);
+  return laid;
+}
+
 /// How much of a planting whose skeletons were given lies in what stands in the scene; empty where nothing
 /// does.
 std::string inTheWay(const std::string& planting, std::span<const sim::Plant> plants,
@@ -60,8 +74,9 @@ std::string inTheWay(const std::string& planting, std::span<const sim::Plant> pl
 
 }  // namespace
 
-Report::Growth growthReport(const Scene& scene, const sim::World& grown, const sim::BitVolume& scene_voxels,
+Report::Growth growthReport(const Scene& scene, const Site& site, const sim::BitVolume& scene_voxels,
                             const sim::Growth& growth, const std::vector<rules::Exposure>& lights) {
+  const sim::World& grown = site.world;
   const sim::Tally tally = sim::total(growth);
   Report::Growth report;
   report.iterations = growth.iterations;
@@ -70,6 +85,7 @@ Report::Growth growthReport(const Scene& scene, const sim::World& grown, const s
   report.attractors = attractorReports(scene, growth);
   report.state_hash = sim::stateHash(grown, growth);
   report.cut_short = growth.cut_short;
+  std::shared_ptr<const sim::SceneSurface> surface;  // where it is asked for
   for (std::size_t i = 0; i < growth.stands.size(); ++i) {
     const PlantSpec& spec = scene.plants[i];
     const auto [first, count] = std::pair(growth.stands[i].first, growth.stands[i].count);
@@ -80,6 +96,11 @@ Report::Growth growthReport(const Scene& scene, const sim::World& grown, const s
       report.plants.push_back(
           plantReport(spec, grown.frame(), growth.plants[first + k], k, growth.tallies[first + k]));
       report.plants.back().failure = std::move(failures[k]);
+    }
+    if (lays(spec)) {
+      if (!surface) surface = sim::surfaceOf(site.world.frame(), site.meshes);
+      report.laid.push_back(laidReport(spec, std::span(growth.plants).subspan(first, count),
+                                       growth.stands[i].memory, surface, grown));
     }
     if (!spec.skeleton) continue;
     std::string met = inTheWay(spec.name, std::span(growth.plants).subspan(first, count),

@@ -49,7 +49,24 @@ Json plant(const Report::Growth::Plant& plant) {
   return json;
 }
 
-Json growth(const Report::Growth& growth) {
+Json laid(const Report::Growth::Laid& laid, double voxel_m) {
+  const rules::LaidMeasure& measure = laid.measure;
+  const double square_m2 = voxel_m * voxel_m;
+  Json json = {{"planting", laid.planting},
+               {"elements", laid.elements},
+               {"surface_m2", measure.surface_vx2 * square_m2},
+               {"covered_m2", measure.covered_vx2 * square_m2},
+               {"fill", measure.surface_vx2 > 0.0 ? measure.covered_vx2 / measure.surface_vx2 : 0.0}};
+  if (const rules::Joints& joints = measure.joints; joints.length_vx > 0.0) {
+    json["joints"] = {{"asked_m", joints.asked_vx * voxel_m},
+                      {"mean_m", joints.mean_vx * voxel_m},
+                      {"deviation_m", joints.deviation_vx * voxel_m},
+                      {"along_rims", joints.length_vx / joints.rims_vx}};
+  }
+  return json;
+}
+
+Json growth(const Report::Growth& growth, double voxel_m) {
   Json plants = Json::array();
   for (const Report::Growth::Plant& one : growth.plants) plants.push_back(plant(one));
   Json json = {{"iterations", growth.iterations},
@@ -64,6 +81,7 @@ Json growth(const Report::Growth& growth) {
                                   {"taken", one.fates.taken},
                                   {"ending", one.ending}});
   }
+  for (const Report::Growth::Laid& one : growth.laid) json["laid"].push_back(laid(one, voxel_m));
   for (const Report::Growth::Field& field : growth.fields)
     json["fields"].push_back({{"grid", field.grid}, {"voxels", field.voxels}});
   json["plants"] = plants;
@@ -130,7 +148,7 @@ std::string toJson(const Report& report) {
   }
   json["world"]["turned"] = facings;
   json["light"] = lightJson(report.light);
-  if (report.growth) json["growth"] = growth(*report.growth);
+  if (report.growth) json["growth"] = growth(*report.growth, report.frame.voxel_m);
   if (report.exposure) {
     json["exposure"] = {{"surface_voxels", report.exposure->surfaces},
                         {"gap_voxels", report.exposure->gaps},

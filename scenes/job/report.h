@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "rules/front/front.h"
+#include "rules/growth/laid_measure.h"
 #include "scenes/accuracy/certificate.h"
 #include "scenes/foretell/foretell.h"
 #include "scenes/job/seed_failure.h"
@@ -58,6 +59,15 @@ struct Report {
       std::string ending;  ///< why those that grew to them ended, in words
     };
     std::vector<Attractors> attractors;  ///< the scene's, by their names
+    /// Of a planting that grows by diffusion.
+    struct Laid {
+      std::string planting;
+      std::size_t elements = 0;
+      double asked_fill = 1.0;
+      rules::LaidMeasure measure;
+      std::size_t waiting = 0;  ///< sites that could still lay something
+    };
+    std::vector<Laid> laid;
     std::uint64_t state_hash = 0;
     std::string cut_short;                     ///< sim::Growth::cut_short; among the warnings too
     std::vector<std::string> in_the_way = {};  ///< of given skeletons that walls meet, likewise

@@ -15,7 +15,6 @@
 #include "scenes/job/plant_models.h"
 #include "scenes/job/plant_reports.h"
 #include "scenes/job/saved_growth.h"
-#include "scenes/job/seed_failure_words.h"
 #include "scenes/job/stages.h"
 #include "scenes/job/warnings.h"
 #include "scenes/prepare/front_warnings.h"
@@ -231,7 +230,7 @@ Report runScene(const Scene& scene, const RunOptions& options, const Keeping& ke
   const sim::Growth growth = stages.run("growing", [&] {
     return growOn(scene, prepared, std::move(kept), bare, options, output, keeping, stages.began(), report);
   });
-  report.growth = growthReport(scene, world, bare, growth, prepared.seed_lights);
+  report.growth = growthReport(scene, site, bare, growth, prepared.seed_lights);
   if (!growth.cut_short.empty()) report.warnings.push_back(growth.cut_short);
   for (const std::string& met : report.growth->in_the_way) report.warnings.push_back(met);
   report.occupied_voxels = world.occupied().count();
@@ -333,7 +332,7 @@ Report renderScene(Scene scene, const std::filesystem::path& from, const RunOpti
   Site& site = prepared.site;
   const sim::BitVolume bare = site.world.occupied();
   const sim::Growth growth = takeUp(std::move(*state), from, scene, site, prepared.plantings, Same::plants);
-  report.growth = growthReport(scene, site.world, bare, growth, prepared.seed_lights);
+  report.growth = growthReport(scene, site, bare, growth, prepared.seed_lights);
   report.occupied_voxels = site.world.occupied().count();
   const sim::Lighting light = stages.run("lighting", [&] {
     if (options.on_foretold) {
@@ -358,39 +357,6 @@ Report renderScene(Scene scene, const std::filesystem::path& from, const RunOpti
   finishReport(files, report);
   requireNone(unread, scene.file, options);
   return report;
-}
-
-namespace {
-
-/// Why buds ended, and which seeds never grew: what somebody who wonders about a thin plant wants to know.
-std::string fates(const Report::Growth& report) {
-  const auto of = [&](sim::Outcome outcome) { return report.buds[static_cast<std::size_t>(outcome)]; };
-  std::string text =
-      fmt::format("buds that ended: {} found no way, {} too dark, {} too bright, {} in forbidden regions{}\n",
-                  of(sim::Outcome::no_trial), of(sim::Outcome::too_dark), of(sim::Outcome::too_bright),
-                  of(sim::Outcome::forbidden), unmetAmong(report.buds));
-  for (const Report::Growth::Attractors& one : report.attractors)
-    text += fmt::format("attractors {}: {}\n", inQuotes(one.name), one.ending);
-  for (const std::string& met : report.in_the_way) text += "note: " + met + "\n";
-  return text + poorPlants(report.plants);
-}
-
-}  // namespace
-
-std::string summary(const Report& report, const std::filesystem::path& folder) {
-  const Report::Growth& growth = *report.growth;
-  std::size_t segments = 0, elements = 0;
-  for (const Report::Growth::Plant& plant : growth.plants) {
-    segments += plant.segments;
-    elements += plant.elements;
-  }
-  const auto& size = report.frame.size;
-  return fmt::format("{}: {} x {} x {} voxels of {:.4g} m; {}, {}, {} in {}\n", report.scene, size.x, size.y,
-                     size.z, report.frame.voxel_m, sim::counted(growth.plants.size(), "plant"),
-                     sim::counted(segments, "segment"), sim::counted(elements, "leaf", "leaves"),
-                     sim::counted(static_cast<std::uint64_t>(growth.iterations), "iteration")) +
-         (growth.cut_short.empty() ? "" : "note: " + growth.cut_short + "\n") + fates(growth) +
-         endOfSummary(report, folder);
 }
 
 }  // namespace espalier::scenes

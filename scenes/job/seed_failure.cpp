@@ -26,7 +26,8 @@ Outcome mostly(const sim::OutcomeCounts& counts, const std::array<Outcome, N>& a
 
 /// What ended a site, or else what it met most often.
 Outcome reasonOf(const sim::Tally& tally) {
-  for (const Outcome end : {Outcome::forbidden, Outcome::too_dark, Outcome::too_bright, Outcome::unmet}) {
+  for (const Outcome end :
+       {Outcome::forbidden, Outcome::too_dark, Outcome::too_bright, Outcome::unmet, Outcome::too_far}) {
     if (sim::timesOf(tally.sites, end) > 0) return end;
   }
   const Outcome often =
@@ -113,12 +114,13 @@ std::vector<std::optional<SeedFailure>> seedFailures(const std::shared_ptr<const
   sim::parallelForEach(plants.size(), [&](std::size_t i) {
     const bool asked = std::any_of(tallies[i].sites.begin(), tallies[i].sites.end(),
                                    [](std::uint64_t times) { return times > 0; });
-    if (plants[i].skeleton.size() > 1 || !asked) return;
+    if (plants[i].skeleton.size() > 1 || !plants[i].elements.empty() || !asked) return;
     const sim::Voxel at = sim::voxelAt(plants[i].skeleton.position_vx.front());
     SeedFailure failure;
     failure.tally = tallies[i];
     failure.reason = reasonOf(tallies[i]);
     failure.voxel_m = grown.frame().voxel_m;
+    failure.lays = rules->propagate == rules::Propagate::diffusion;
     failure.rim_vx = voxelsToTheRim(grown.frame().size, at);
     failure.taken = takenAround(grown.occupied(), at);
     failure.wall_vx = sim::distanceToNearest(scene, at, kFarthestWall);

@@ -46,6 +46,7 @@ struct SeedFailure {
   int rim_vx = 0;                 ///< voxels between the seed's and the world's rim
   int taken = 0;  ///< of the 26 voxels around the seed's, in the end: occupied, or no part of the world
   double voxel_m = 1.0;
+  bool lays = false;  ///< it would have laid an element on a surface
 };
 
 /// How far a wall is looked for, voxel widths.

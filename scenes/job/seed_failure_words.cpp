@@ -9,6 +9,7 @@
 #include <map>
 #include <utility>
 
+#include "rules/growth/diffusion.h"
 #include "scenes/problem.h"
 #include "sim/base/counted.h"
 
@@ -110,7 +111,22 @@ std::string others(const sim::OutcomeCounts& trials) {
   return text + ")";
 }
 
+std::string ofLaying(const SeedFailure& failure) {
+  if (failure.reason == Outcome::too_far && sim::timesOf(failure.tally.sites, Outcome::too_far) > 0) {
+    return fmt::format(
+        "no surface on which it may lay something lies within {} of the seed; expected a seed nearer to one, "
+        "or other regions",
+        limitOf({rules::kSeedReach_vx, true}, failure.voxel_m));
+  }
+  return fmt::format(
+      "no element had room there: {} trials stood in the way of something, {} hung over an edge or left the "
+      "surface; expected smaller elements, a wider diffusion.off, or a seed with more room about it",
+      sim::timesOf(failure.tally.trials, Outcome::blocked),
+      sim::timesOf(failure.tally.trials, Outcome::too_far));
+}
+
 std::string ofTrials(const SeedFailure& failure) {
+  if (failure.lays) return ofLaying(failure);
   const SeedFailure::Set* const set = triedOf(failure);
   const SeedFailure::Set tried = set != nullptr ? *set : SeedFailure::Set();
   const std::string more = others(failure.tally.trials);

@@ -138,8 +138,8 @@ sim::Planting given(const PlantSpec& spec, const std::vector<FileTree>& trees, c
 }
 
 sim::Planting plant(const PlantSpec& spec, const std::vector<sim::Vec3>& listed_m, const Site& site,
-                    const Scene& scene) {
-  return {spec.name, rules::makeProcess(rulesOf(spec), site.world.frame()),
+                    const Scene& scene, const std::shared_ptr<const sim::SceneSurface>& surface) {
+  return {spec.name, rules::makeProcess(rulesOf(spec), site.world.frame(), lays(spec) ? surface : nullptr),
           seedsOf(spec, listed_m, site, scene)};
 }
 
@@ -223,6 +223,8 @@ std::vector<sim::Planting> makePlantings(const Scene& scene, const Site& site) {
   std::vector<std::size_t> of;
   Gathering wrong(scene.file);
   const auto unknown = unknownToScatterOver(scene, site.world);
+  std::shared_ptr<const sim::SceneSurface> surface;
+  if (std::any_of(scene.plants.begin(), scene.plants.end(), lays)) surface = sim::surfaceOf(site.world.frame(), site.meshes);
   for (std::size_t i = 0; i < scene.plants.size(); ++i) {
     const PlantSpec& spec = scene.plants[i];
     if (unknown[i]) {
@@ -232,9 +234,9 @@ std::vector<sim::Planting> makePlantings(const Scene& scene, const Site& site) {
     requireApices(spec, scene, site.world, wrong);
     requireLines(spec, scene, site, wrong);
     wrong.part(spec.rules_place, [&] {
-      plantings.push_back(spec.skeleton
-                              ? given(spec, site.skeletons.at(i), scene, site.world.frame())
-                              : plant(spec, site.listed_m.at(scene.attractors.size() + i), site, scene));
+      plantings.push_back(
+          spec.skeleton ? given(spec, site.skeletons.at(i), scene, site.world.frame())
+                        : plant(spec, site.listed_m.at(scene.attractors.size() + i), site, scene, surface));
       of.push_back(i);
     });
   }

@@ -147,8 +147,17 @@ Due Growing::due() const {
 Proposal Growing::proposeAt(std::size_t planting, const Site& site, const Light* light, const SkyInside* sky,
                             const Columns& memory, const Commons& commons, bool record) const {
   const std::size_t plant = growth_.stands[planting].first + static_cast<std::size_t>(site.plant);
-  const SiteView view{world_, growth_.plants[plant], kin_[plant], memory, commons, *pieces_, light,
-                      sky,    growth_.iterations,    record};
+  const SiteView view{world_,
+                      growth_.plants[plant],
+                      kin_[plant],
+                      memory,
+                      commons,
+                      *pieces_,
+                      light,
+                      sky,
+                      growth_.iterations,
+                      record,
+                      this->view(planting).plants};
   const RandomKey key{streams_[plant], static_cast<std::uint32_t>(site.node), site.number,
                       static_cast<std::uint32_t>(growth_.iterations)};
   return plantings_[planting].process->propose(view, site, key);
@@ -254,7 +263,7 @@ void Growing::place(Asked& asked, std::uint32_t before, std::vector<TiledVoxel>&
       pieces_->gather(facets_->box, before, -1, *nearby_);
       if (nearby_->clash(*facets_, attachmentOf(plant, proposed.element))) continue;
     }
-    pieces_->add(part, *facets_);
+    pieces_->add(part, static_cast<std::uint32_t>(plant.elements.size()), *facets_);
     for (const Voxel v : proposed.takes) {
       if (!contains(world_.frame().size, v)) broken(planting, "proposed a voxel outside the world");
     }
@@ -344,6 +353,8 @@ bool Growing::step() {
     std::erase_if(turn, [&](std::size_t i) {
       return !plantings_[i].process->goesOn(view(i), growth_.stands[i].memory);
     });
+    // What goes on may do so many times: what does not fit is found by the next step.
+    if (!turn.empty() && !nextFits()) break;
   }
   ++growth_.iterations;
   if (settings_.progress) {

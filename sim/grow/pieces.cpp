@@ -46,10 +46,11 @@ void addPlant(const Plant& plant, int number, const std::vector<std::shared_ptr<
     pieces.addPart(plant.element_parts[i], number, shapes[i]);
   for (NodeId node = 1; node < plant.skeleton.size(); ++node) pieces.add(limbTo(plant, node));
   Facets facets;
-  for (const PlacedElement& element : plant.elements) {
+  for (std::size_t i = 0; i < plant.elements.size(); ++i) {
+    const PlacedElement& element = plant.elements[i];
     const auto shape = static_cast<std::size_t>(element.shape);
     if (!place(element, *shapes[shape], facets)) throw BrokenContract("an element stands beyond all worlds");
-    pieces.add(plant.element_parts[shape], facets);
+    pieces.add(plant.element_parts[shape], static_cast<std::uint32_t>(i), facets);
   }
 }
 

@@ -131,6 +131,7 @@ struct SiteView {
   const SkyInside* sky = nullptr;  ///< who knows the sky's brightest spot, if the process wants its table
   int iteration = 0;
   bool record_attempts = false;
+  std::span<const Plant> stand = {};  ///< all plants of its planting
 };
 
 /// What must be sensed for a process: nobody pays for what nobody asks for.

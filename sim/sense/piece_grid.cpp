@@ -169,8 +169,8 @@ void PieceGrid::add(const Limb& limb) {
   listLimb(size(), limb.from, limb.to);
 }
 
-void PieceGrid::add(PartId part, const Facets& element) {
-  pieces_.emplace_back() = {element.box.low, element.box.high, keep(element), part};
+void PieceGrid::add(PartId part, std::uint32_t number, const Facets& element) {
+  pieces_.emplace_back() = {element.box.low, element.box.high, keep(element), part, number};
   if (cellsOf(element.box).count() <= kFewCells) return list(size(), element.box);
   pieces_.back().data |= kByParts;
   for (const auto& t : element.shape->triangles)
@@ -194,12 +194,13 @@ void PieceGrid::unpack(std::uint32_t number, std::vector<Nearby::Facet>& facets)
   }
 }
 
-void PieceGrid::gather(const LatticeBox& box, std::uint32_t from, int but, Nearby& nearby) const {
-  nearby.clear();
-  nearby.grid_ = this;
+/// visit(number, piece, bounds) for each piece whose bounds meet a box, but those with numbers up to `from`;
+/// of one cell the youngest first. `listed` is room to work in.
+template <typename Visit>
+void PieceGrid::forEachIn(const LatticeBox& box, std::uint32_t from, std::vector<Nearby::Listed>& listed,
+                          Visit visit) const {
   const CellBox wanted = cellsOf(box);
   // All of the cells first: pieces lie anywhere in memory, and are waited for together.
-  auto& listed = nearby.listed_;
   listed.clear();
   forEachCell(wanted.low, wanted.high, [&](Voxel cell) {
     const std::uint32_t block = block_of_[indexIn(blocks_, cell / 2)];
@@ -219,7 +220,6 @@ void PieceGrid::gather(const LatticeBox& box, std::uint32_t from, int but, Nearb
     const Piece& piece = pieces_[number - 1];
     const LatticeBox bounds = boxOf(piece.a, piece.b);
     if (!meet(bounds, box)) continue;
-    if (piece.part > 0 && but >= 0 && kinds_[static_cast<std::size_t>(piece.part)].plant == but) continue;
     // Each once: in the first cell that it shares with the box.
     if ((piece.data & kByParts) == 0) {
       if (cell != glm::max(cellAt(bounds.low), wanted.low)) continue;
@@ -228,14 +228,37 @@ void PieceGrid::gather(const LatticeBox& box, std::uint32_t from, int but, Nearb
         continue;
       listed_by_parts.push_back(number);
     }
-    if (piece.part < 0) {
-      nearby.limb_bounds_.emplace_back(bounds);
-      nearby.limbs_.push_back(
-          {piece.a, piece.b, -piece.part, static_cast<std::int32_t>(piece.data & ~kByParts)});
-    } else {
-      nearby.body_bounds_.emplace_back(bounds);
-      nearby.bodies_.push_back({{}, number});
-    }
+    visit(number, piece, bounds);
+  }
+}
+
+void PieceGrid::gather(const LatticeBox& box, std::uint32_t from, int but, Nearby& nearby) const {
+  nearby.clear();
+  nearby.grid_ = this;
+  forEachIn(box, from, nearby.listed_,
+            [&](std::uint32_t number, const Piece& piece, const LatticeBox& bounds) {
+              if (piece.part < 0) {
+                nearby.limb_bounds_.emplace_back(bounds);
+                nearby.limbs_.push_back(
+                    {piece.a, piece.b, -piece.part, static_cast<std::int32_t>(piece.data & ~kByParts)});
+              } else if (but < 0 || kinds_[static_cast<std::size_t>(piece.part)].plant != but) {
+                nearby.body_bounds_.emplace_back(bounds);
+                nearby.bodies_.push_back({{}, number});
+              }
+            });
+}
+
+void PieceGrid::elementsIn(const LatticeBox& box, std::vector<NumberedElement>& found) const {
+  thread_local std::vector<Nearby::Listed> listed;
+  std::vector<std::uint32_t> numbers;
+  forEachIn(box, 0, listed, [&](std::uint32_t number, const Piece& piece, const LatticeBox&) {
+    if (piece.part > 0) numbers.push_back(number);
+  });
+  std::sort(numbers.begin(), numbers.end());
+  found.clear();
+  for (const std::uint32_t number : numbers) {
+    const Piece& piece = pieces_[number - 1];
+    found.push_back({kinds_[static_cast<std::size_t>(piece.part)].plant, piece.number});
   }
 }
 

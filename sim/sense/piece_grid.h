@@ -45,6 +45,14 @@ struct Attachment {
 
 class PieceGrid;
 
+/// Which element of which plant.
+struct NumberedElement {
+  int plant = 0;             ///< as addPart was told
+  std::uint32_t number = 0;  ///< among all of its plant
+
+  friend bool operator==(const NumberedElement&, const NumberedElement&) = default;
+};
+
 /// Pieces that lie near each other, ready for many questions. Keeps its memory from one to the next.
 class Nearby {
  public:
@@ -56,6 +64,8 @@ class Nearby {
   bool clash(const Facets& element, const Attachment& attachment);
   /// Whether a limb pierces one of the elements.
   bool clash(const Limb& limb);
+  /// The limbs among them, in no order.
+  std::span<const Limb> limbs() const { return limbs_; }
 
  private:
   friend class PieceGrid;
@@ -120,21 +130,25 @@ class PieceGrid {
   const FacetShape& shapeOf(PartId part) const;
 
   void add(const Limb& limb);
-  void add(PartId part, const Facets& element);
+  /// `number`: of its plant's elements.
+  void add(PartId part, std::uint32_t number, const Facets& element);
   /// Pieces so far: what is added from now on has numbers from here on.
   std::uint32_t size() const { return static_cast<std::uint32_t>(pieces_.size()); }
 
   /// Finds the pieces whose bounds meet a box, but those with numbers below `from`, and the elements of plant
   /// `but` (-1: none). `nearby` holds them instead of what it held, until something is added to the grid.
   void gather(const LatticeBox& box, std::uint32_t from, int but, Nearby& nearby) const;
+  /// Those of them that are elements, in the order in which they were added. Replaces what `found` held.
+  void elementsIn(const LatticeBox& box, std::vector<NumberedElement>& found) const;
 
  private:
   friend class Nearby;
   // A limb from `a` to `b`, or an element with the bounds `a` and `b`. Numbers count from 1.
   struct Piece {
     LatticePoint a{0}, b{0};
-    std::uint32_t data = 0;  // a limb's node; where an element's corners stand; bit 31: listed part by part
-    PartId part = kFree;     // of an element; of a limb's stem, negative
+    std::uint32_t data = 0;    // a limb's node; where an element's corners stand; bit 31: listed part by part
+    PartId part = kFree;       // of an element; of a limb's stem, negative
+    std::uint32_t number = 0;  // of an element
   };
   // Numbers of pieces that touch a cell, in order, 0 where there is room; the youngest chunk is the first.
   struct Chunk {
@@ -157,6 +171,9 @@ class PieceGrid {
   void listLimb(std::uint32_t number, LatticePoint from, LatticePoint to);
   void listTriangle(std::uint32_t number, const LatticeTriangle& triangle);
   std::uint32_t keep(const Facets& element);
+  template <typename Visit>
+  void forEachIn(const LatticeBox& box, std::uint32_t from, std::vector<Nearby::Listed>& listed,
+                 Visit visit) const;
   void unpack(std::uint32_t number, std::vector<Nearby::Facet>& facets) const;
 
   Voxel cells_, blocks_;

@@ -178,6 +178,17 @@ void agreeOnMeshes(Drawn& meshes, tests::Numbers& numbers) {
   }
 }
 
+/// Steps belong to one way around; edges to what lies flat, which elements here seldom do.
+void agreeOnDiffusion(Drawn& diffusion) {
+  Drawn* const around = find(diffusion, "around");
+  if (around && find(diffusion, "steps"))
+    around->text = "steps";
+  else if (around)
+    around->text = around->text == "gaussian" ? "gaussian" : "ring";
+  else
+    takeOut(diffusion, {"steps"});
+}
+
 /// Keys of a background belong to one kind each.
 void agreeOnBackground(Drawn& background) {
   Drawn* kind = find(background, "kind");
@@ -229,9 +240,12 @@ void agreeOnRules(Drawn& rules) {
         of->text = "others";
     }
   }
+  Drawn* const diffusion = find(rules, "diffusion");
+  if (diffusion != nullptr) agreeOnDiffusion(*diffusion);
   Drawn* const require = find(rules, "require");
-  for (const char* const key : {"proximity", "age"}) {
-    Drawn* const bounds = require ? find(*require, key) : nullptr;
+  for (const char* const key : {"proximity", "age", "gap"}) {
+    Drawn* const of = std::string(key) == "gap" ? diffusion : require;
+    Drawn* const bounds = of ? find(*of, key) : nullptr;
     Drawn* const least = bounds ? find(*bounds, "min") : nullptr;
     Drawn* const most = bounds ? find(*bounds, "max") : nullptr;
     if (!least || !most) continue;

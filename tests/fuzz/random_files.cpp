@@ -81,6 +81,9 @@ const std::set<std::string> kOfFronts = {"scene:attractors",
                                          "rules:colonization.attractors",
                                          "rules:colonization.crown"};
 
+/// And where they are laid.
+const std::set<std::string> kOfLayers = {"rules:propagate", "rules:diffusion", "rules:elements"};
+
 }  // namespace
 
 RandomFiles::RandomFiles(std::uint64_t seed, std::filesystem::path folder)
@@ -90,6 +93,7 @@ RandomFiles::RandomFiles(std::uint64_t seed, std::filesystem::path folder)
       colonizes_(numbers_.chance(0.35)),
       odd_numbers_(~seed),
       odd_(odd_numbers_.chance(0.25)),
+      lays_(!colonizes_ && odd_numbers_.chance(0.15)),
       values_(numbers_, world_.voxel_m, world_.longest_m() / world_.voxel_m) {
   std::filesystem::create_directories(folder_);
   knowSpecials();
@@ -243,7 +247,12 @@ void RandomFiles::knowSpecials() {
   const auto rule = [&](const std::string& path, std::function<std::string()> draw) {
     special("rules:" + path, std::move(draw));
   };
-  rule("propagate", [=] { return std::string(colonizes ? "colonization" : "random_tree"); });
+  const bool lays = lays_;
+  rule("propagate", [=] {
+    return std::string(colonizes ? "colonization" : lays ? "diffusion" : "random_tree");
+  });
+  // Nobody waits for more.
+  rule("diffusion.rounds", [this] { return fmt::format("{}", numbers_.whole(1, 12)); });
   const bool crowned = numbers_.chance(0.3);
   rule("colonization.attractors", [=] { return std::string(crowned ? "" : "main"); });
   rule("colonization.crown.trunk",
@@ -272,6 +281,7 @@ bool RandomFiles::wanted(const rules::Key& key, const std::string& path) {
   // A world of lines and guides alone has no surface to be lit.
   if (path == "scene:meshes[].lines" || path == "scene:meshes[].guide") return numbers_.chance(0.1);
   if (colonizes_ && kOfFronts.contains(path)) return true;
+  if (lays_ && kOfLayers.contains(path)) return true;
   if (path == "scene:plants[].skeleton") return numbers_.chance(0.15);
   if (path == "scene:plants[].scatter" || path == "scene:meshes[].rotate")
     return world_.meshes && numbers_.chance(0.2);

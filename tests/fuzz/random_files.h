@@ -76,6 +76,7 @@ class RandomFiles {
   bool colonizes_;              // its plants
   tests::Numbers odd_numbers_;  ///< of strangers' files, so that all others stay as they are
   bool odd_;                    ///< in another unit, lying, on rules of the library
+  bool lays_;                   ///< its plants lay elements on surfaces
   ValueDrawer values_;
   std::map<std::string, Special>
       specials_;             ///< keys that must agree with the world or with each other, by path

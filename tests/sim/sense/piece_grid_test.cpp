@@ -33,7 +33,8 @@ class Heap {
         grid.add(limbs.back());
       } else {
         elements.emplace_back(plant, element(i % 50 == 1 ? sail_ : leaf_));
-        grid.add((i % 50 == 1 ? kSail : kLeaf) + plant, elements.back().second);
+        grid.add((i % 50 == 1 ? kSail : kLeaf) + plant, static_cast<std::uint32_t>(elements.size() - 1),
+                 elements.back().second);
       }
       order.push_back(i % 4 == 0);
     }
@@ -132,6 +133,32 @@ TEST(PieceGrid, AnswersAsAllPiecesWould) {
       EXPECT_LT(clashing, 1300);
     }
   }
+}
+
+TEST(PieceGrid, NumbersTheElementsInABox) {
+  Heap heap(3000, 5);
+  std::vector<NumberedElement> found, expected;
+  std::size_t most = 0;
+  for (int i = 0; i < 300; ++i) {
+    const Vec3 low = heap.place();
+    const LatticeBox box{latticePoint(low), latticePoint(low + (i % 10 == 0 ? 20.0 : 3.0))};
+    heap.grid.elementsIn(box, found);
+    expected.clear();
+    for (std::size_t k = 0; k < heap.elements.size(); ++k) {
+      if (meet(heap.elements[k].second.box, box))
+        expected.push_back({heap.elements[k].first, static_cast<std::uint32_t>(k)});
+    }
+    // What is listed part by part is found where its parts are.
+    EXPECT_TRUE(std::includes(expected.begin(), expected.end(), found.begin(), found.end(),
+                              [](const auto& a, const auto& b) { return a.number < b.number; }));
+    for (const NumberedElement& one : expected) {
+      const Facets& facets = heap.elements[one.number].second;
+      const bool small = facets.shape == heap.leaf_.get();
+      EXPECT_TRUE(!small || std::count(found.begin(), found.end(), one) == 1);
+    }
+    most = std::max(most, found.size());
+  }
+  EXPECT_GT(most, 30u);
 }
 
 TEST(PieceGrid, ALimbIsHinderedByElementsButThoseOfOnePlant) {

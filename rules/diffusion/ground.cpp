@@ -1,0 +1,227 @@
+#include "rules/diffusion/ground.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <numbers>
+
+#include "sim/base/random.h"
+#include "sim/tile/clip.h"
+
+namespace espalier::rules {
+namespace {
+
+using Triangle = sim::SceneSurface::Triangle;
+
+constexpr double kFlat = 1e-6;  // how far unit normals of one plane may differ
+constexpr double kInPlane_vx = 1e-4;
+
+sim::Vec3 placeOf(sim::LatticePoint p) {
+  return sim::Vec3(p) / static_cast<double>(sim::kFixedOne);
+}
+
+/// A place in (x, y, height) about a stance.
+sim::Vec3 aboutStance(const Stance& stance, sim::Vec3 p_vx) {
+  const glm::dvec2 flat = stance.seen(p_vx);
+  return {flat.x, flat.y, glm::dot(p_vx - stance.at_vx, stance.normal)};
+}
+
+}  // namespace
+
+sim::LatticeBox boxAbout(const Stance& stance, double reach_vx, double high_vx) {
+  const sim::Vec3 n = stance.normal;
+  const sim::Vec3 reach =
+      reach_vx * glm::sqrt(glm::max(sim::Vec3(0.0), 1.0 - n * n)) + high_vx * glm::abs(n) + 1e-3;
+  return {sim::latticePoint(stance.at_vx - reach), sim::latticePoint(stance.at_vx + reach)};
+}
+
+sim::Vec3 openPlace(sim::Vec3 at_vx, sim::Vec3 normal) {
+  // A plane passes voxels whose centres are up to half of this away from it, and a voxel holds places as far
+  // from its centre again.
+  const sim::Vec3 size = glm::abs(normal);
+  return at_vx + (size.x + size.y + size.z + 0.02) * normal;
+}
+
+Stance facing(Stance stance, sim::Vec3 way) {
+  const sim::Vec3 flat = way - glm::dot(way, stance.normal) * stance.normal;
+  if (glm::length(flat) > 1e-6) {
+    stance.y = glm::normalize(flat);
+    stance.x = glm::cross(stance.y, stance.normal);
+  }
+  return stance;
+}
+
+Stance turned(const Stance& stance, glm::dvec2 turn) {
+  return facing(stance, turn.x * stance.y - turn.y * stance.x);
+}
+
+Ground::Ground(std::shared_ptr<const sim::SceneSurface> surface,
+               const std::function<bool(const std::string& region)>& bears, double bend_deg, sim::Voxel size)
+    : surface_(std::move(surface)), cos_bend_(sim::unitCircle(bend_deg / 360.0).x), borders_(size) {
+  for (const std::string& region : surface_->regions()) bears_.push_back(bears(region));
+  findBorders();
+}
+
+/// A surface may be wound either way.
+bool Ground::goesOn(const Triangle& triangle, const Stance& from) const {
+  return bears_[triangle.region] && std::abs(glm::dot(triangle.normal, from.normal)) >= cos_bend_ - kFlat;
+}
+
+/// Edges of what bears beyond which it does not go on.
+void Ground::findBorders() {
+  using Corner = std::array<double, 3>;
+  std::map<std::array<Corner, 2>, std::vector<std::pair<std::uint32_t, std::size_t>>> edges;
+  const auto& triangles = surface_->triangles();
+  const auto corner = [](sim::Vec3 p) { return Corner{p.x, p.y, p.z}; };
+  for (std::uint32_t t = 0; t < triangles.size(); ++t) {
+    if (!bears_[triangles[t].region]) continue;
+    for (std::size_t i = 0; i < 3; ++i) {
+      std::array<Corner, 2> ends{corner(triangles[t].corners_vx[i]),
+                                 corner(triangles[t].corners_vx[(i + 1) % 3])};
+      std::sort(ends.begin(), ends.end());
+      edges[ends].emplace_back(t, i);
+    }
+  }
+  for (const auto& [ends, sides] : edges) {
+    for (const auto& [t, i] : sides) {
+      const bool joined = std::any_of(sides.begin(), sides.end(), [&](const auto& other) {
+        return other.first != t &&
+               std::abs(glm::dot(triangles[other.first].normal, triangles[t].normal)) >= cos_bend_ - kFlat;
+      });
+      if (!joined) addBorder(triangles[t], i);
+    }
+  }
+}
+
+/// Where another triangle's edges meet this one elsewhere than at its ends, parts of it may be no border.
+void Ground::addBorder(const Triangle& triangle, std::size_t edge) {
+  const sim::Vec3 from = triangle.corners_vx[edge], to = triangle.corners_vx[(edge + 1) % 3];
+  const double length = glm::distance(from, to);
+  constexpr double kPart_vx = 1.0;
+  constexpr double kBeside_vx = 0.05;
+  constexpr double kMostParts = 10'000.0;
+  const auto parts = static_cast<int>(std::clamp(std::ceil(length / kPart_vx), 1.0, kMostParts));
+  const sim::Vec3 out = kBeside_vx * glm::normalize(glm::cross(to - from, triangle.normal));
+  Stance here;
+  here.normal = triangle.normal;
+  sim::Vec3 begins(0.0);
+  bool begun = false;
+  for (int i = 0; i <= parts; ++i) {
+    const sim::Vec3 at = glm::mix(from, to, i / static_cast<double>(parts));
+    const sim::Vec3 middle = glm::mix(from, to, std::min(1.0, (i + 0.5) / parts));
+    const bool ends = i == parts || offFrom(here, middle + out, 0.5 * kBeside_vx);
+    if (!ends && !begun) begins = at;
+    begun = begun || !ends;
+    if (!ends || !begun) continue;
+    constexpr double kReach_vx = 16'383.0;
+    if (glm::all(glm::lessThan(glm::abs(begins), sim::Vec3(kReach_vx))) &&
+        glm::all(glm::lessThan(glm::abs(at), sim::Vec3(kReach_vx))))
+      borders_.add(sim::Limb{sim::latticePoint(begins), sim::latticePoint(at), 1, 0});
+    begun = false;
+  }
+}
+
+std::optional<Stance> Ground::nearest(sim::Vec3 from_vx, double within_vx) const {
+  const auto place =
+      surface_->nearest(from_vx, within_vx, [&](const Triangle& t) { return bears_[t.region]; });
+  if (!place) return std::nullopt;
+  Stance stance;
+  stance.at_vx = place->at_vx;
+  stance.normal = surface_->triangles()[place->triangle].normal;
+  const double side = glm::dot(from_vx - place->at_vx, stance.normal);
+  if (side < 0.0) stance.normal = -stance.normal;
+  stance.x = sim::perpendicular(stance.normal);
+  stance.y = glm::cross(stance.normal, stance.x);
+  stance = facing(stance, {0, 0, -1});
+  // The steepest way, where there is a slope to speak of.
+  constexpr double kSlope = 0.02;
+  const sim::Vec3 up = sim::Vec3(0, 1, 0) - stance.normal.y * stance.normal;
+  return glm::length(up) > kSlope ? facing(stance, up) : stance;
+}
+
+std::optional<Stance> Ground::goingOn(const Stance& from, sim::Vec3 at_vx, double within_vx) const {
+  const auto place = surface_->nearest(at_vx, within_vx, [&](const Triangle& t) { return goesOn(t, from); });
+  if (!place) return std::nullopt;
+  // Beyond an edge the nearest place lies aside, not below.
+  constexpr double kBelow = 0.17;
+  const sim::Vec3 aside = at_vx - place->at_vx;
+  const double below = std::abs(glm::dot(aside, surface_->triangles()[place->triangle].normal));
+  if (glm::length(aside) > kInPlane_vx && below < kBelow * glm::length(aside)) return std::nullopt;
+  const auto towards = [&](sim::Vec3 normal) {
+    return glm::dot(normal, from.normal) < 0.0 ? -normal : normal;
+  };
+  Stance stance = from;
+  stance.at_vx = place->at_vx;
+  const sim::Vec3 normal = towards(surface_->triangles()[place->triangle].normal);
+  if (glm::length(normal - from.normal) < kFlat &&
+      std::abs(glm::dot(place->at_vx - from.at_vx, from.normal)) < kInPlane_vx &&
+      glm::distance(place->at_vx, at_vx) < kInPlane_vx) {
+    stance.at_vx = at_vx;  // the same plane, to the last bit
+    return stance;
+  }
+  stance.normal = normal;
+  return facing(stance, from.y);
+}
+
+std::optional<double> Ground::offFrom(const Stance& from, sim::Vec3 at_vx, double within_vx) const {
+  const auto place = surface_->nearest(at_vx, within_vx, [&](const Triangle& t) { return goesOn(t, from); });
+  if (!place) return std::nullopt;
+  return glm::distance(place->at_vx, at_vx);
+}
+
+const std::string* Ground::regionAt(sim::Vec3 at_vx, double within_vx) const {
+  const auto place = surface_->nearest(at_vx, within_vx, [&](const Triangle& t) { return bears_[t.region]; });
+  return place ? &surface_->regions()[surface_->triangles()[place->triangle].region] : nullptr;
+}
+
+void Ground::obstaclesAbout(const Stance& stance, double reach_vx, double low_vx, double high_vx,
+                            std::vector<Outline>& outlines) const {
+  const sim::LatticeBox box = boxAbout(stance, reach_vx, std::max(high_vx, -low_vx));
+  thread_local std::vector<std::uint32_t> found;
+  surface_->trianglesIn(box, found);
+  for (const std::uint32_t number : found) {
+    const Triangle& triangle = surface_->triangles()[number];
+    if (goesOn(triangle, stance)) continue;
+    sim::CutPolygon polygon;
+    for (const sim::Vec3 corner : triangle.corners_vx) polygon.add(aboutStance(stance, corner));
+    polygon = sim::cutToSlab(polygon, 2, low_vx, high_vx);
+    for (const int axis : {0, 1}) polygon = sim::cutToSlab(polygon, axis, -reach_vx, reach_vx);
+    if (polygon.count == 0) continue;
+    std::vector<glm::dvec2> points;
+    for (std::size_t i = 0; i < polygon.count; ++i) points.emplace_back(polygon.corner[i]);
+    outlines.push_back(hullOf(std::move(points)));
+  }
+  thread_local sim::Nearby nearby;
+  borders_.gather(box, 0, -1, nearby);
+  for (const sim::Limb& border : nearby.limbs()) {
+    const sim::Vec3 from = aboutStance(stance, placeOf(border.from)),
+                    to = aboutStance(stance, placeOf(border.to));
+    if (std::max(from.z, to.z) < low_vx || std::min(from.z, to.z) > high_vx) continue;
+    outlines.push_back({glm::dvec2(from), glm::dvec2(to)});
+  }
+}
+
+bool Ground::clash(const Stance& stance, const sim::Facets& facets) const {
+  thread_local std::vector<std::uint32_t> found;
+  surface_->trianglesIn(facets.box, found);
+  for (const std::uint32_t number : found) {
+    const Triangle& triangle = surface_->triangles()[number];
+    if (goesOn(triangle, stance)) continue;
+    // The part within the element's box alone, or its corners might lie beyond the lattice.
+    constexpr double kReach_vx = 16'000.0;
+    const auto& c = triangle.corners_vx;
+    bool on_lattice = true;
+    for (const sim::Vec3 corner : c)
+      on_lattice = on_lattice && glm::all(glm::lessThan(glm::abs(corner), sim::Vec3(kReach_vx)));
+    if (!on_lattice) continue;
+    const sim::LatticeTriangle wall{sim::latticePoint(c[0]), sim::latticePoint(c[1]),
+                                    sim::latticePoint(c[2])};
+    for (const sim::CornerNumbers& t : facets.shape->triangles) {
+      if (sim::cross(wall, {facets.corners[t[0]], facets.corners[t[1]], facets.corners[t[2]]})) return true;
+    }
+  }
+  return false;
+}
+
+}  // namespace espalier::rules

@@ -1,0 +1,17 @@
+#pragma once
+#include "rules/diffusion/ground.h"
+#include "rules/language/rule_set.h"
+#include "sim/grow/plant.h"
+
+namespace espalier::rules {
+
+/// How far something leans, and to which side, in full turns.
+struct Tilt {
+  double degrees = 0.0, side = 0.0;
+};
+
+/// Turns an element's axes as its pose says, on a surface, its own way about that pose as the stance's +y
+/// goes; then all of it leans. `light`: unit, towards the brightest part of the sky; zero where none is seen.
+void poseOn(const Stance& stance, Pose pose, sim::Vec3 light, Tilt tilt, sim::PlacedElement& element);
+
+}  // namespace espalier::rules

@@ -1,14 +1,8 @@
-#!/usr/bin/env python3
-"""Builds courtyard.obj, column.obj and maze_walls.obj (with their .mtl files) beside this script.
+"""What the walls, beds and floors of the scripts beside this file are built of: bricks, stones, earth.
 
-    python3 scenes/meshes/make_courtyard.py
-
-Standard library only; the same bytes on every run. Metres, y up, the ground's top at y = 0.
-The courtyard: a brick garden wall along x with an arched window, swept down to a pier on the right; a lower wall
-returns towards +z on the left. Groups: wall, coping, window, paving, bed, kerb.
+Standard library only; the same bytes on every run. Metres, y up.
 """
 import math
-import pathlib
 import random
 
 # Display values (sRGB, 0..255), warm and a little desaturated.
@@ -78,7 +72,7 @@ class Model:
         (x0, y0, z0), (x1, y1, z1) = low, high
         self.prism(group, material, [(x0, y0, z1), (x1, y0, z1), (x1, y1, z1), (x0, y1, z1)], (0, 0, z0 - z1))
 
-    def write(self, path, about, maker="make_courtyard.py", unit="metres, y up"):
+    def write(self, path, about, maker, unit="metres, y up"):
         materials = sorted({m for group in self.faces.values() for m in group})
         out = [f"# {about}", f"# Made by {maker}; {unit}.", f"mtllib {path.with_suffix('.mtl').name}"]
         out += ["v " + " ".join(f"{c:.4f}".rstrip("0").rstrip(".") for c in p) for p in self.points]
@@ -267,129 +261,79 @@ def turned(model, group, material, x, z, sides, profile):
             model.face(group, material, [low[i], low[j], high[j], high[i]])
 
 
-# The main wall, along x. Its front looks to +z.
-LEFT, RIGHT, MIDDLE, HALF = -3.0, 2.52, -0.6, 0.16
-WALL_TOP = swept(3.44, 2.24, 1.18, 2.14)
-WINDOW, SILL, SPRING, REACH = -0.74, 1.04, 2.08, 0.52  # the opening: middle, sill, spring of the arch, half width
-# The lower wall, along z, on the left.
-RETURN_X, RETURN_END = LEFT + HALF, 2.56
-RETURN_TOP = swept(2.64, 1.28, -0.1, 1.06)
+class Window:
+    """An arched opening in a wall along x: its middle, sill, spring of the arch, half width."""
 
+    def __init__(self, middle, sill, spring, reach):
+        self.middle, self.sill, self.spring, self.reach = middle, sill, spring, reach
+        self.hidden = reach + 0.06  # the stones of the surround cover the core's edge
 
-def arch(reach, u):
-    """The height of a round arch's edge at u from its middle, or None beside it."""
-    return SPRING + math.sqrt(max(0.0, reach * reach - u * u)) if abs(u) <= reach + 1e-9 else None
+    def head(self, reach, u):
+        """The height of a round arch's edge at u from the middle, or None beside it."""
+        return self.spring + math.sqrt(max(0.0, reach * reach - u * u)) if abs(u) <= reach + 1e-9 else None
 
+    def hole(self, u):
+        """For wall_body."""
+        head = self.head(self.hidden, u - self.middle)
+        return (self.sill - 0.06, head) if head else None
 
-def main_wall(model, rng):
-    core = HALF - PROUD
-    hidden = REACH + 0.06  # the stones of the surround cover the core's edge
+    def stations(self):
+        return [self.middle - self.hidden * math.cos(math.pi * i / 20) for i in range(1, 20)]
 
-    def hole(u):
-        head = arch(hidden, u - WINDOW)
-        return (SILL - 0.06, head) if head else None
-
-    us = [LEFT + PROUD]
-    us += spaced(LEFT + PROUD, WINDOW - hidden, 0.5)[1:]
-    us += [WINDOW - hidden * math.cos(math.pi * i / 20) for i in range(1, 20)]
-    us += spaced(WINDOW + hidden, 1.18, 0.4) + spaced(1.18, 2.14, 0.06)[1:] + [RIGHT]
-
-    def place(u, v, side):
-        return (u, v, MIDDLE + (core if side == 0 else -core))
-    wall_body(model, place, us, WALL_TOP, hole)
-
-    def gaps_from(mirror):
+    def gaps(self, mirror):
+        """For lay_bricks; `mirror` gives u for an x."""
         def gaps(v0, v1):
-            if v1 < SILL - 0.12 or v0 > SPRING + hidden:
+            if v1 < self.sill - 0.12 or v0 > self.spring + self.hidden:
                 return []
-            if v1 < SILL:
-                reach = REACH + 0.16
+            wide = self.hidden + 0.04
+            if v1 < self.sill:
+                reach = self.reach + 0.16
             else:
-                reach = hidden + 0.04 if v0 < SPRING else math.sqrt(max(0.0, (hidden + 0.04) ** 2 - (v0 - SPRING) ** 2))
-            middle = mirror(WINDOW)
+                reach = wide if v0 < self.spring else math.sqrt(max(0.0, wide ** 2 - (v0 - self.spring) ** 2))
+            middle = mirror(self.middle)
             return [(middle - reach, middle + reach)]
         return gaps
-    width = RIGHT - LEFT - PROUD
-    front = Face((LEFT + PROUD, 0, MIDDLE + core), (1, 0), (0, 1))
-    back = Face((RIGHT, 0, MIDDLE - core), (-1, 0), (0, -1))
-    lay_bricks(model, rng, front, width, lambda u: WALL_TOP(LEFT + PROUD + u), gaps_from(lambda x: x - LEFT - PROUD))
-    lay_bricks(model, rng, back, width, lambda u: WALL_TOP(RIGHT - u), gaps_from(lambda x: RIGHT - x), edge=0.0)
-    end = Face((LEFT + PROUD, 0, MIDDLE - core), (0, 1), (-1, 0))
-    lay_bricks(model, rng, end, 2 * core, lambda u: WALL_TOP(LEFT), phase=0.25, edge=0.0)
-    # A plinth of four courses that stands out, with a sloping course of stone on it.
-    for face, start in ((front, 0.0), (back, 0.0)):
-        lay_bricks(model, rng, face, width, lambda u: 0.30, proud=0.045, last=4, phase=0.25, edge=0.0)
-        stones = spaced(start, width, 0.7)
-        for a, b in zip(stones, stones[1:]):
-            outline = [face.at(a + 0.003, 0.31, 0.055), face.at(a + 0.003, 0.35, 0.045), face.at(a + 0.003, 0.40, 0.0),
-                       face.at(a + 0.003, 0.31, 0.0)]
-            along = (b - a - 0.006) * face.along[0]
-            model.prism("wall", pick(rng, STONES), outline, (along, 0, 0))
-    coping(model, rng, lambda u, v, w: (u, v, MIDDLE + w), LEFT - 0.055, RIGHT, WALL_TOP, HALF)
+
+    def surround(self, model, rng, z, half, group="window"):
+        """Long and short stones, voussoirs with a keystone, and a sill; they line the whole depth of the wall."""
+        depth = half + 0.035
+        lo, hi, middle = z - depth, z + depth, self.middle
+
+        def slab(stone, outline, out=0.0):
+            model.prism(group, stone, [(x, y, hi + out) for x, y in outline], (0, 0, lo - hi - 2 * out))
+        heights = spaced(self.sill, self.spring, 0.26)
+        for i, (y0, y1) in enumerate(zip(heights, heights[1:])):
+            for side in (-1, 1):
+                long = 0.34 if i % 2 == 0 else 0.20
+                x0, x1 = sorted((middle + side * self.reach, middle + side * (self.reach + long)))
+                slab(pick(rng, STONES), [(x0, y0 + 0.003), (x1, y0 + 0.003), (x1, y1 - 0.003), (x0, y1 - 0.003)],
+                     0.004 * (i % 2))
+        count = 13
+        for i in range(count):
+            key = i == count // 2
+            a0, a1 = math.pi * i / count + 0.004, math.pi * (i + 1) / count - 0.004
+            outer = self.reach + (0.36 if key else 0.24 + 0.02 * (i % 2))
+            inner = self.reach - (0.03 if key else 0.0)
+            turn = [a0 + (a1 - a0) * k / 4 for k in range(5)]
+            ring = [(middle + outer * math.cos(a), self.spring + outer * math.sin(a)) for a in turn]
+            ring += [(middle + inner * math.cos(a), self.spring + inner * math.sin(a)) for a in turn[::-1]]
+            slab("limestone_pale" if key else pick(rng, STONES), ring, 0.03 if key else 0.004 * (i % 2))
+        x0, x1, out = middle - self.reach - 0.24, middle + self.reach + 0.24, 0.09
+        sill = self.sill
+        profile = [(-depth - out, sill - 0.13), (depth + out, sill - 0.13), (depth + out, sill - 0.05),
+                   (depth - 0.05, sill), (-depth + 0.05, sill), (-depth - out, sill - 0.05)]
+        model.prism(group, "limestone_pale", [(x1, y, z - w) for w, y in profile], (x0 - x1, 0, 0))
 
 
-def return_wall(model, rng):
-    core, start, end = HALF - PROUD, MIDDLE + HALF - 0.02, RETURN_END
-    us = spaced(start, -0.1, 0.2) + spaced(-0.1, 1.06, 0.06)[1:] + [end]
-    # Seen from the court (+x), u runs towards -z: stations are given by -z.
-    wall_body(model, lambda u, v, side: (RETURN_X + (core if side == 0 else -core), v, -u), [-z for z in us[::-1]],
-              lambda u: RETURN_TOP(-u), lambda u: None)
-    inner = Face((RETURN_X + core, 0, end), (0, -1), (1, 0))
-    outer = Face((RETURN_X - core, 0, start), (0, 1), (-1, 0))
-    lay_bricks(model, rng, inner, end - start, lambda u: RETURN_TOP(end - u), edge=0.0)
-    lay_bricks(model, rng, outer, end - start, lambda u: RETURN_TOP(start + u), edge=0.0)
-    coping(model, rng, lambda u, v, w: (RETURN_X + w, v, -u), -end, -start, lambda u: RETURN_TOP(-u), HALF)
-
-
-def window(model, rng):
-    """A surround of long and short stones, voussoirs with a keystone, and a sill; it lines the whole depth."""
-    group, depth = "window", HALF + 0.035
-    lo, hi = MIDDLE - depth, MIDDLE + depth
-
-    def slab(stone, outline, out=0.0):
-        model.prism(group, stone, [(x, y, hi + out) for x, y in outline], (0, 0, lo - hi - 2 * out))
-    heights = spaced(SILL, SPRING, 0.26)
-    for i, (y0, y1) in enumerate(zip(heights, heights[1:])):
-        for side in (-1, 1):
-            long = 0.34 if i % 2 == 0 else 0.20
-            x0, x1 = sorted((WINDOW + side * REACH, WINDOW + side * (REACH + long)))
-            slab(pick(rng, STONES), [(x0, y0 + 0.003), (x1, y0 + 0.003), (x1, y1 - 0.003), (x0, y1 - 0.003)],
-                 0.004 * (i % 2))
-    count = 13
-    for i in range(count):
-        key = i == count // 2
-        a0, a1 = math.pi * i / count + 0.004, math.pi * (i + 1) / count - 0.004
-        outer = REACH + (0.36 if key else 0.24 + 0.02 * (i % 2))
-        inner = REACH - (0.03 if key else 0.0)
-        turn = [a0 + (a1 - a0) * k / 4 for k in range(5)]
-        ring = [(WINDOW + outer * math.cos(a), SPRING + outer * math.sin(a)) for a in turn]
-        ring += [(WINDOW + inner * math.cos(a), SPRING + inner * math.sin(a)) for a in turn[::-1]]
-        slab("limestone_pale" if key else pick(rng, STONES), ring, 0.03 if key else 0.004 * (i % 2))
-    x0, x1, out = WINDOW - REACH - 0.24, WINDOW + REACH + 0.24, 0.09
-    profile = [(-depth - out, SILL - 0.13), (depth + out, SILL - 0.13), (depth + out, SILL - 0.05),
-               (depth - 0.05, SILL), (-depth + 0.05, SILL), (-depth - out, SILL - 0.05)]
-    model.prism(group, "limestone_pale", [(x1, y, MIDDLE - w) for w, y in profile], (x0 - x1, 0, 0))
-
-
-def buttress(model, rng, x):
-    """Two stages of brick against the front, each under a sloping stone."""
-    half, wall_z = 0.24, MIDDLE + HALF - 0.02
-    stages = [(-0.15, 1.36, 0.46), (1.36, 2.56, 0.28)]
-    nexts = [0.28, 0.02]
-    for (low, high, deep), after in zip(stages, nexts):
-        core = deep - PROUD
-        model.box("wall", "mortar", (x - half + PROUD, low, wall_z), (x + half - PROUD, high, wall_z + core))
-        first = 0 if low < 0 else round(low / COURSE)
-        faces = [(Face((x - half + PROUD, 0, wall_z + core), (1, 0), (0, 1)), 2 * (half - PROUD), 0.009),
-                 (Face((x + half - PROUD, 0, wall_z + core), (0, -1), (1, 0)), core, 0.0),
-                 (Face((x - half + PROUD, 0, wall_z), (0, 1), (-1, 0)), core, 0.0)]
-        for face, width, edge in faces:
-            lay_bricks(model, rng, face, width, lambda u: high, first=first, phase=0.02, edge=edge)
-        rise = (deep - after) * 1.35
-        out, side = deep + 0.045, half + 0.03
-        profile = [(0.0, high), (out, high), (out, high + 0.05), (after, high + 0.05 + rise), (0.0, high + 0.05 + rise)]
-        model.prism("coping", pick(rng, STONES), [(x + side, y, wall_z + d) for d, y in profile[::-1]],
-                    (-2 * side, 0, 0))
+def plinth(model, rng, face, width):
+    """Four courses that stand out from the foot of a wall, with a sloping course of stone on them."""
+    lay_bricks(model, rng, face, width, lambda u: 0.30, proud=0.045, last=4, phase=0.25, edge=0.0)
+    stones = spaced(0.0, width, 0.7)
+    for a, b in zip(stones, stones[1:]):
+        outline = [face.at(a + 0.003, 0.31, 0.055), face.at(a + 0.003, 0.35, 0.045), face.at(a + 0.003, 0.40, 0.0),
+                   face.at(a + 0.003, 0.31, 0.0)]
+        along = [(b - a - 0.006) * c for c in face.along]
+        model.prism("wall", pick(rng, STONES), outline, (along[0], 0, along[1]))
 
 
 def soil_bed(model, rng, x0, x1, z0, z1, level=0.12):
@@ -428,38 +372,6 @@ def kerb(model, rng, start, end, wide=0.12, high=0.17):
             model.prism("kerb", stone, [(x0 + w, y, z0 + b) for w, y in profile], (0, 0, a - b))
 
 
-def beds(model, rng):
-    inside, outside = MIDDLE + HALF - 0.03, MIDDLE - HALF + 0.03
-    court = RETURN_X + HALF - 0.03
-    soil_bed(model, rng, court, 2.44, inside, 0.22)
-    soil_bed(model, rng, court, -2.14, 0.22, 2.40)
-    soil_bed(model, rng, -2.94, 2.44, -1.44, outside)
-    kerb(model, rng, (-2.04, 0.24), (2.56, 0.24))
-    kerb(model, rng, (-2.10, 0.18), (-2.10, 2.46))
-    kerb(model, rng, (-3.06, -1.50), (2.56, -1.50))
-    kerb(model, rng, (-3.00, -1.44), (-3.00, -0.76))
-    kerb(model, rng, (2.50, -1.44), (2.50, -0.84))
-    kerb(model, rng, (2.50, -0.36), (2.50, 0.18))
-    kerb(model, rng, (-2.70, 2.40), (-2.16, 2.40))
-
-
-def paving(model, rng):
-    """Random ashlar on a grid of 30 cm: slabs of five shapes, joints of 12 mm over sand."""
-    x0, z0, cell, columns, rows = -3.3, -3.9, 0.3, 22, 26
-    model.box("paving", "sand", (x0, -0.2, z0), (x0 + columns * cell, -0.02, z0 + rows * cell))
-    free = {(i, k) for i in range(columns) for k in range(rows)}
-    shapes = [((3, 2), 5), ((2, 3), 4), ((2, 2), 6), ((3, 3), 2), ((2, 1), 4), ((1, 2), 4), ((1, 1), 1)]
-    for k in range(rows):
-        for i in range(columns):
-            if (i, k) not in free:
-                continue
-            fits = [(s, w) for s, w in shapes
-                    if all((i + a, k + b) in free for a in range(s[0]) for b in range(s[1]))]
-            wide, deep = pick(rng, fits)
-            free -= {(i + a, k + b) for a in range(wide) for b in range(deep)}
-            flag(model, rng, x0 + i * cell, z0 + k * cell, x0 + (i + wide) * cell, z0 + (k + deep) * cell)
-
-
 def flag(model, rng, x0, z0, x1, z1):
     gap, bevel = 0.006, 0.012
     x0, z0, x1, z1 = x0 + gap, z0 + gap, x1 - gap, z1 - gap
@@ -480,46 +392,3 @@ def flag(model, rng, x0, z0, x1, z1):
     model.face("paving", material, [high[0], high[1], high[2]])
     model.face("paving", material, [high[0], high[2], high[3]])
     model.face("paving", material, foot[::-1])
-
-
-def courtyard():
-    model, rng = Model(), random.Random(1989)
-    main_wall(model, rng)
-    return_wall(model, rng)
-    for x in (-2.12, 0.64):
-        buttress(model, rng, x)
-    pier(model, rng, 2.76, MIDDLE, 0.24, 2.52, 0.13)
-    pier(model, rng, RETURN_X, RETURN_END + 0.22, 0.24, 1.56, 0.13)
-    window(model, rng)
-    paving(model, rng)
-    beds(model, rng)
-    return model
-
-
-def column():
-    """Greene's figure 3: a round column, 0.3 m in radius, on a plinth."""
-    model = Model()
-    model.box("plinth", "limestone_grey", (-0.46, 0.0, -0.46), (0.46, 0.14, 0.46))
-    turned(model, "plinth", "limestone_grey", 0, 0, 48,
-           [(0.0, 0.13), (0.42, 0.13), (0.42, 0.16), (0.40, 0.20), (0.34, 0.24), (0.32, 0.26), (0.0, 0.26)])
-    turned(model, "column", "marble", 0, 0, 48, [(0.0, 0.25), (0.30, 0.25), (0.30, 3.0), (0.0, 3.0)])
-    return model
-
-
-def maze_walls():
-    """For figure 2's flat walk in the plane z = 0: a frame with bars that a walk must find its way around."""
-    model, thick = Model(), 0.03
-    bars = [((-1.0, 0.0), (1.0, 0.04)), ((-1.0, 1.46), (1.0, 1.5)), ((-1.0, 0.04), (-0.96, 1.46)),
-            ((0.96, 0.04), (1.0, 1.46))]
-    bars += [((-0.62, 0.34), (0.96, 0.38)), ((-0.96, 0.72), (-0.16, 0.76)), ((0.2, 0.72), (0.66, 0.76)),
-             ((-0.58, 1.08), (0.34, 1.12)), ((0.62, 0.76), (0.66, 1.24)), ((-0.62, 1.08), (-0.58, 1.3))]
-    for (x0, y0), (x1, y1) in bars:
-        model.box("frame" if bars.index(((x0, y0), (x1, y1))) < 4 else "bars", "plaster", (x0, y0, -thick), (x1, y1, thick))
-    return model
-
-
-if __name__ == "__main__":
-    here = pathlib.Path(__file__).resolve().parent
-    courtyard().write(here / "courtyard.obj", "A courtyard wall with an arched window")
-    column().write(here / "column.obj", "A round column on a plinth")
-    maze_walls().write(here / "maze_walls.obj", "A flat frame with bars")

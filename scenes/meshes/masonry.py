@@ -221,16 +221,16 @@ def coping(model, rng, place, u0, u1, top, half, stone=0.62, thick=0.10, ridge=0
         model.face("coping", material, rings[-1])
 
 
-def pier(model, rng, x, z, half, height, finial):
-    """A square brick pier with a stone cap and a ball on it."""
+def pier(model, rng, x, z, half, height, finial, over=(0.03, 0.07)):
+    """A square brick pier with a stone cap in two steps and a ball on it."""
     core = half - PROUD
     model.box("wall", "mortar", (x - core, -0.15, z - core), (x + core, height, z + core))
     for face in four_faces(x, z, core):
         lay_bricks(model, rng, face, 2 * core, lambda u: height, phase=0.02)
-    for lift, reach, tall, stone in ((0.0, 0.03, 0.05, "limestone_grey"), (0.05, 0.07, 0.08, "limestone_pale")):
+    for lift, reach, tall, stone in ((0.0, over[0], 0.05, "limestone_grey"), (0.05, over[1], 0.08, "limestone_pale")):
         w = half + reach
         model.box("coping", stone, (x - w, height + lift, z - w), (x + w, height + lift + tall, z + w))
-    w, base, tip = half + 0.05, height + 0.13, height + 0.25
+    w, base, tip = half + over[1] - 0.02, height + 0.13, height + 0.25
     corners = [(x - w, base, z + w), (x + w, base, z + w), (x + w, base, z - w), (x - w, base, z - w)]
     small = [(x + (c[0] - x) * 0.3, tip, z + (c[2] - z) * 0.3) for c in corners]
     for i in range(4):

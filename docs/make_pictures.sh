@@ -41,6 +41,10 @@ small $work/garden_wall/vines.png vines 780
 small $work/garden_wall/contact_sheet.png contact_sheet 960
 for kind in sky_exposure sun_exposure threshold; do small $work/garden_wall/$kind.png $kind 800; done
 
+grow scenes/library/courtyard.yaml
+small $work/courtyard/vines.png courtyard 960
+small $work/courtyard/contact_sheet.png courtyard_panels 1100
+
 # One run in three parts, drawn after each; nothing of an older program's run is gone on with.
 rm -rf $work/kept
 program=${ESPALIER:-./run espalier}

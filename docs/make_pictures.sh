@@ -36,17 +36,21 @@ small() {  # small PICTURE NAME WIDTH [COLOURS]: docs/images/NAME.png, at most W
   ls -l "$images/$2.png" | awk '{print "  " $NF ": " $5 " bytes"}'
 }
 
+grow scenes/library/garden_wall.yaml
+small $work/garden_wall/vines.png vines 780
+small $work/garden_wall/contact_sheet.png contact_sheet 960
+for kind in sky_exposure sun_exposure threshold; do small $work/garden_wall/$kind.png $kind 800; done
+
 grow scenes/library/courtyard.yaml
-small $work/courtyard/vines.png vines 780
-small $work/courtyard/contact_sheet.png contact_sheet 960
-for kind in sky_exposure sun_exposure threshold; do small $work/courtyard/$kind.png $kind 800; done
+small $work/courtyard/vines.png courtyard 960
+small $work/courtyard/contact_sheet.png courtyard_panels 1100
 
 # One run in three parts, drawn after each; nothing of an older program's run is gone on with.
 rm -rf $work/kept
 program=${ESPALIER:-./run espalier}
 for iterations in 12 25 51; do
-  $program grow scenes/library/courtyard.yaml -o $work/kept --resume --iterations $iterations --no-pictures --quiet
-  $program render scenes/library/courtyard.yaml --from $work/kept --images vines -o $work/kept_$iterations --quiet
+  $program grow scenes/library/garden_wall.yaml -o $work/kept --resume --iterations $iterations --no-pictures --quiet
+  $program render scenes/library/garden_wall.yaml --from $work/kept --images vines -o $work/kept_$iterations --quiet
 done
 oiiotool $work/kept_{12,25,51}/vines.png --mosaic:pad=8 3x1 -o $work/kept_growth.png
 small $work/kept_growth.png kept_growth 1040

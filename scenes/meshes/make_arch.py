@@ -10,10 +10,10 @@ import math
 import pathlib
 import random
 
-import make_courtyard
-from make_courtyard import SLABS, Model, pick, spaced
+import masonry
+from masonry import SLABS, Model, pick, spaced
 
-make_courtyard.COLOURS.update({"cedar": (150, 118, 86), "cedar_grey": (142, 126, 106), "lawn_green": (86, 104, 58)})
+masonry.COLOURS.update({"cedar": (150, 118, 86), "cedar_grey": (142, 126, 106), "lawn_green": (86, 104, 58)})
 
 HALF_WIDE, HALF_DEEP, SPRING, BEAM = 0.75, 0.32, 1.75, 0.035
 

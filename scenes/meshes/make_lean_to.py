@@ -9,14 +9,14 @@ looks to +z; its back is rendered. Groups: wall, coping, roof, timber, bed, pavi
 import pathlib
 import random
 
-import make_courtyard
-from make_courtyard import HALF, PROUD, SLABS, Face, Model, coping, flag, lay_bricks, pick, soil_bed, spaced, wall_body
+import masonry
+from masonry import PROUD, SLABS, Face, Model, coping, flag, lay_bricks, pick, soil_bed, spaced, wall_body
 
-make_courtyard.COLOURS.update({"tile_red": (160, 92, 66), "tile_dark": (138, 80, 60), "tile_brown": (148, 98, 72),
-                               "oak": (128, 100, 72)})
+masonry.COLOURS.update({"tile_red": (160, 92, 66), "tile_dark": (138, 80, 60), "tile_brown": (148, 98, 72),
+                        "oak": (128, 100, 72)})
 TILES = [("tile_red", 5), ("tile_dark", 3), ("tile_brown", 3)]
 
-LEFT, RIGHT, MIDDLE, TOP = -3.2, 2.6, -0.6, 3.2
+LEFT, RIGHT, MIDDLE, HALF, TOP = -3.2, 2.6, -0.6, 0.16, 3.2
 FRONT = MIDDLE + HALF
 # The roof: from the wall down to its eaves.
 ROOF_LEFT, ROOF_RIGHT, RIDGE, EAVES, OUT = -1.1, 1.9, 2.72, 2.22, 1.5

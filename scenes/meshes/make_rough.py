@@ -9,10 +9,10 @@ is a sketch that limbs follow (figure 9 of Ned Greene's "Voxel Space Automata", 
 import math
 import pathlib
 
-import make_courtyard
-from make_courtyard import Model
+import masonry
+from masonry import Model
 
-make_courtyard.COLOURS.update({"chalk": (224, 220, 212), "gravel": (158, 150, 138)})
+masonry.COLOURS.update({"chalk": (224, 220, 212), "gravel": (158, 150, 138)})
 
 
 def open_cube():

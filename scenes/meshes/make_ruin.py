@@ -11,10 +11,10 @@ import math
 import pathlib
 import random
 
-import make_courtyard
-from make_courtyard import Face, Model, pick, spaced
+import masonry
+from masonry import Face, Model, pick, spaced
 
-make_courtyard.COLOURS.update({
+masonry.COLOURS.update({
     "ashlar_warm": (186, 170, 140), "ashlar_pale": (200, 188, 162), "ashlar_grey": (164, 158, 146),
     "ashlar_rust": (178, 154, 122), "ashlar_dark": (134, 128, 116), "mossy": (124, 124, 98), "rubble": (142, 130, 110),
     "dressed_pale": (206, 196, 172), "dressed_warm": (192, 178, 150), "dressed_grey": (176, 170, 156),

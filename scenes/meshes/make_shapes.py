@@ -10,10 +10,10 @@ import math
 import pathlib
 import random
 
-import make_courtyard
-from make_courtyard import Model, spaced
+import masonry
+from masonry import Model, spaced
 
-make_courtyard.COLOURS.update({"chalk": (224, 220, 212), "clay": (206, 184, 160), "grass": (104, 120, 74),
+masonry.COLOURS.update({"chalk": (224, 220, 212), "clay": (206, 184, 160), "grass": (104, 120, 74),
                                "topsoil": (84, 66, 50), "subsoil": (128, 100, 74), "clay_soil": (150, 118, 88)})
 
 

@@ -10,10 +10,10 @@ the facades by the way that they look: facade_south, facade_north, facade_east, 
 import math
 import pathlib
 
-import make_courtyard
-from make_courtyard import Model, spaced, turned
+import masonry
+from masonry import Model, spaced, turned
 
-make_courtyard.COLOURS.update({
+masonry.COLOURS.update({
     "plaster_red": (190, 108, 80),
     "plaster_ochre": (214, 160, 98),
     "plaster_rose": (206, 140, 114),

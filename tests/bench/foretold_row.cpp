@@ -24,9 +24,9 @@ void benchForetold(Report& report) {
   const std::string library = ESPALIER_SOURCE_DIR "/scenes/library/";
   double worst_s = 1.0, worst_bytes = 1.0;
   for (const std::string& job :
-       {"grow " + library + "courtyard.yaml", "grow " + library + "courtyard.yaml --no-pictures",
+       {"grow " + library + "garden_wall.yaml", "grow " + library + "garden_wall.yaml --no-pictures",
         "grow " + library + "figure_3.yaml", "grow " + (folder / "wall.yaml").string(),
-        "expose " + library + "street.yaml", "expose " + library + "courtyard.yaml",
+        "expose " + library + "street.yaml", "expose " + library + "garden_wall.yaml",
         "expose " + library + "figure_3.yaml", "expose " + library + "street.yaml --no-pictures"}) {
     const std::string line =
         fmt::format("'{}' {} -o '{}' >/dev/null 2>&1", ESPALIER_PROGRAM, job, (folder / "out").string());

@@ -15,8 +15,8 @@ namespace {
 
 using namespace espalier;
 
-scenes::Scene courtyard() {
-  auto scene = scenes::readScene(ESPALIER_SOURCE_DIR "/scenes/library/courtyard.yaml");
+scenes::Scene gardenWall() {
+  auto scene = scenes::readScene(ESPALIER_SOURCE_DIR "/scenes/library/garden_wall.yaml");
   if (!scene) throw sim::InputError(scenes::format(scene.problems()));
   return std::move(*scene);
 }
@@ -41,7 +41,7 @@ int main(int argc, char** argv) {
   try {
     bench::Report report(bench::machineText());
     report.note(bench::loadText());
-    const scenes::Scene scene = courtyard();
+    const scenes::Scene scene = gardenWall();
     scenes::Site site = scenes::makeSite(scene);
     if (wanted(1)) bench::benchSurfaces(scene, site, report);
     if (wanted(2)) bench::benchEveryVoxel(scene, site, report);

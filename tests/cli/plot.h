@@ -85,7 +85,7 @@ class Plot : public testing::Test {
   Scratch scratch_;
 
  private:
-  /// The plot has other regions than the courtyard.
+  /// The plot has other regions than the garden wall.
   static std::string withoutRegions(std::string text) {
     const auto at = text.find("\nregions:");
     if (at == std::string::npos) return text;

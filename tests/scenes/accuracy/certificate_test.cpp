@@ -232,7 +232,7 @@ TEST(AccuracyPage, SaysWhatTheProgramSays) {
     std::string page = tests::fileText(path);
     put(page, kShapesBegin, accuracyStudy());
     put(page, kMeshesBegin,
-        accuracyOnMeshes({tests::sourceFolder() / "scenes/meshes/courtyard.obj",
+        accuracyOnMeshes({tests::sourceFolder() / "scenes/meshes/garden_wall.obj",
                           tests::sourceFolder() / "scenes/meshes/column.obj"}));
     if (sharedMeshes().size() == 3) put(page, kSharedBegin, accuracyOnMeshes(sharedMeshes()));
     std::ofstream(path, std::ios::binary) << page;

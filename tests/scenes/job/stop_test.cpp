@@ -52,7 +52,7 @@ class StopAfter {
 class StoppedJob : public testing::Test {
  protected:
   void SetUp() override {
-    auto read = readScene(tests::sourceFolder() / "scenes/library/courtyard.yaml");
+    auto read = readScene(tests::sourceFolder() / "scenes/library/garden_wall.yaml");
     ASSERT_TRUE(read);
     scene_ = *read;
     scene_.world.voxel_m = 0.025;

@@ -17,13 +17,13 @@ Scene goodScene(const std::filesystem::path& path) {
   return result ? *result : Scene{};
 }
 
-TEST(ReadScene, ReadsTheCourtyard) {
-  const auto file = tests::sourceFolder() / "scenes/library/courtyard.yaml";
+TEST(ReadScene, ReadsTheGardenWall) {
+  const auto file = tests::sourceFolder() / "scenes/library/garden_wall.yaml";
   const auto scene = goodScene(file);
-  EXPECT_EQ(scene.name, "courtyard");
+  EXPECT_EQ(scene.name, "garden_wall");
   EXPECT_EQ(scene.file, file);
   ASSERT_EQ(scene.meshes.size(), 1u);
-  EXPECT_EQ(scene.meshes[0].file, tests::sourceFolder() / "scenes/meshes/courtyard.obj");
+  EXPECT_EQ(scene.meshes[0].file, tests::sourceFolder() / "scenes/meshes/garden_wall.obj");
   EXPECT_EQ(scene.world.voxel_m, 0.04);
   ASSERT_TRUE(scene.world.bounds_m);
   const auto voxels = ((*scene.world.bounds_m)[1] - (*scene.world.bounds_m)[0]) / *scene.world.voxel_m;

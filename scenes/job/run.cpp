@@ -12,12 +12,13 @@
 #include "render/model/plant_model.h"
 #include "rules/growth/rule_book.h"
 #include "scenes/foretell/foretell.h"
+#include "scenes/job/diced_files.h"
 #include "scenes/job/plant_models.h"
 #include "scenes/job/plant_reports.h"
 #include "scenes/job/saved_growth.h"
-#include "scenes/job/seed_failure_words.h"
 #include "scenes/job/stages.h"
 #include "scenes/job/warnings.h"
+#include "scenes/lights.h"
 #include "scenes/prepare/front_warnings.h"
 #include "scenes/prepare/in_scene.h"
 #include "scenes/prepare/plantings.h"
@@ -47,10 +48,11 @@ sim::VoxelSet openLayers(const sim::BitVolume& scene, const sim::World& grown) {
 }
 
 /// `layers`: free space where light is wanted too, beside all of it for images of vines, whose leaves are lit
-/// by what is around them.
+/// by what is around them. `models`: those that are written.
 sim::Lighting lightFor(const Scene& scene, const Site& site, bool vines,
-                       std::shared_ptr<const sim::VoxelSet> layers) {
+                       std::shared_ptr<const sim::VoxelSet> layers, const ModelsWanted& models = {}) {
   sim::LightWanted wanted;
+  if (models.diced == ImageKind::first_pass) wanted.to_sun = shadowDirection(scene.sun);
   wanted.space = std::move(layers);
   wanted.dense = vines;
   const bool bare = std::any_of(scene.images.begin(), scene.images.end(), showsNoPlant);
@@ -157,7 +159,9 @@ sim::Growth growOn(const Scene& scene, Prepared& prepared, std::optional<sim::Gr
     }
   }
   const bool vines = options.pictures && drawsVines(scene.images);
-  settings.memory.later_bytes = laterBytes(sim::Vec3(site.world.frame().size), vines);
+  settings.memory.later_bytes =
+      laterBytes(sim::Vec3(site.world.frame().size), vines) +
+      inScene(scene, scene.world.place, [&] { return dicedBytes(options.models, site); });
   // Stems and leaves as triangles, twice in memory while files are made; again for rays, where vines are
   // drawn.
   settings.memory.later_a_segment = vines ? 15'000.0 : 5'000.0;
@@ -207,6 +211,7 @@ bool drawsTextures(const Scene& scene) {
 Report runScene(const Scene& scene, const RunOptions& options, const Keeping& keeping) {
   if (options.pictures) requirePicturesFit(scene, picturesOf(scene));
   std::vector<std::string> names = modelFileNames(options.models);
+  for (std::string& name : dicedFileNames(options.models)) names.push_back(std::move(name));
   names.insert(names.end(), {kSkeletonFile, kWorldFile, kReportFile});
   if (keeping.keep || keeping.every > 0) names.emplace_back(kStateFile);
   if (options.pictures) {
@@ -242,7 +247,7 @@ Report runScene(const Scene& scene, const RunOptions& options, const Keeping& ke
   std::shared_ptr<const sim::VoxelSet> layers;
   const sim::Lighting light = stages.run("lighting", [&] {
     layers = std::make_shared<const sim::VoxelSet>(openLayers(bare, world));
-    return lightFor(scene, site, options.pictures && drawsVines(scene.images), layers);
+    return lightFor(scene, site, options.pictures && drawsVines(scene.images), layers, options.models);
   });
   report.light = light.about;
   std::vector<render::PlantModel> models;  // for pictures; else they are made while they are written
@@ -251,10 +256,13 @@ Report runScene(const Scene& scene, const RunOptions& options, const Keeping& ke
   const GuideVolumes guides = inScene(scene, [&] { return guideVolumes(growth, usedFields(scene), world); });
   for (const render::VdbField& field : guides.fields)
     report.growth->fields.push_back({field.name, guides.near->count()});
-  const ModelSources sources{site, growth.plants, bare, models, report.made_by};
+  const ModelSources sources{
+      site, growth.plants, bare, models, report.made_by, light, shadowDirection(scene.sun)};
   std::vector<OutputFile> files = modelFiles(
       options.models, sources,
       [&](std::size_t plant, std::size_t limbs) { report.growth->plants[plant].meeting_limbs = limbs; });
+  for (OutputFile& file : inScene(scene, [&] { return dicedFiles(options.models, sources); }))
+    files.push_back(std::move(file));
   files.push_back({kSkeletonFile, [&](std::ostream& out) {
                      render::writeSkeletons(out, growth.plants, world.frame(), report.made_by);
                    }});
@@ -361,39 +369,6 @@ Report renderScene(Scene scene, const std::filesystem::path& from, const RunOpti
   finishReport(files, report);
   requireNone(unread, scene.file, options);
   return report;
-}
-
-namespace {
-
-/// Why buds ended, and which seeds never grew: what somebody who wonders about a thin plant wants to know.
-std::string fates(const Report::Growth& report) {
-  const auto of = [&](sim::Outcome outcome) { return report.buds[static_cast<std::size_t>(outcome)]; };
-  std::string text =
-      fmt::format("buds that ended: {} found no way, {} too dark, {} too bright, {} in forbidden regions{}\n",
-                  of(sim::Outcome::no_trial), of(sim::Outcome::too_dark), of(sim::Outcome::too_bright),
-                  of(sim::Outcome::forbidden), unmetAmong(report.buds));
-  for (const Report::Growth::Attractors& one : report.attractors)
-    text += fmt::format("attractors {}: {}\n", inQuotes(one.name), one.ending);
-  for (const std::string& met : report.in_the_way) text += "note: " + met + "\n";
-  return text + poorPlants(report.plants);
-}
-
-}  // namespace
-
-std::string summary(const Report& report, const std::filesystem::path& folder) {
-  const Report::Growth& growth = *report.growth;
-  std::size_t segments = 0, elements = 0;
-  for (const Report::Growth::Plant& plant : growth.plants) {
-    segments += plant.segments;
-    elements += plant.elements;
-  }
-  const auto& size = report.frame.size;
-  return fmt::format("{}: {} x {} x {} voxels of {:.4g} m; {}, {}, {} in {}\n", report.scene, size.x, size.y,
-                     size.z, report.frame.voxel_m, sim::counted(growth.plants.size(), "plant"),
-                     sim::counted(segments, "segment"), sim::counted(elements, "leaf", "leaves"),
-                     sim::counted(static_cast<std::uint64_t>(growth.iterations), "iteration")) +
-         (growth.cut_short.empty() ? "" : "note: " + growth.cut_short + "\n") + fates(growth) +
-         endOfSummary(report, folder);
 }
 
 }  // namespace espalier::scenes

@@ -3,21 +3,11 @@
 #include <algorithm>
 
 #include "render/finish/finished_picture.h"
+#include "scenes/show/bit_sets.h"
 #include "scenes/show/model_parts.h"
 
 namespace espalier::scenes {
 namespace {
-
-/// What is set in both of two volumes of one size.
-sim::BitVolume both(sim::BitVolume set, const sim::BitVolume& other) {
-  const sim::Voxel size = set.size();
-  for (int y = 0; y < size.y; ++y) {
-    for (int z = 0; z < size.z; ++z) {
-      for (int w = 0; w < set.rowWords(); ++w) set.row(y, z)[w] &= other.row(y, z)[w];
-    }
-  }
-  return set;
-}
 
 bool shows(const ImageSpec& image, const char* part) {
   return std::find(image.show.begin(), image.show.end(), part) != image.show.end();

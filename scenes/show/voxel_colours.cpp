@@ -28,25 +28,28 @@ VoxelColours::VoxelColours(const sim::World& world, const sim::BitVolume& bare, 
 }
 
 VoxelColours::Light VoxelColours::lightOf(sim::Voxel v) const {
-  if (kinds_[0].occupied.at(v) && light_.where->has(v)) {
-    const std::size_t number = light_.where->number(v);
-    const sim::Vec3 normal(light_.surfaces[number].surface.normal);
-    const auto slant = static_cast<float>(std::max(0.0, glm::dot(normal, to_sun_)));
-    return {light_.sky.values[number], slant * light_.sun_now.values[number]};
-  }
   // What faces every way turns, in the mean, half of what the sun sees of it towards the sun.
   constexpr float kMeanSlant = 0.5f;
+  const auto slantOf = [&](const sim::Vec3& normal) {
+    return static_cast<float>(std::max(0.0, glm::dot(normal, to_sun_)));
+  };
+  const auto own = [&](float slant) -> Light {
+    const std::size_t number = light_.where->number(v);
+    return {light_.sky.values[number], slant * light_.sun_now.values[number]};
+  };
+  if (kinds_[0].occupied.at(v) && light_.where->has(v))
+    return own(slantOf(sim::Vec3(light_.surfaces[light_.where->number(v)].surface.normal)));
   float sky = 0.0f, faces = 0.0f, sun = 0.0f, slants = 0.0f;
   for (std::uint8_t face = 0; face < sim::kFaces; ++face) {
     if (world_.occupied().at(v + sim::kFaceNormals[face])) continue;
     sky += light_.atFace(light_.sky, v, face);
     faces += 1.0f;
-    const auto slant =
-        static_cast<float>(std::max(0.0, glm::dot(sim::Vec3(sim::kFaceNormals[face]), to_sun_)));
+    const float slant = slantOf(sim::Vec3(sim::kFaceNormals[face]));
     if (slant > 0.0f) sun += slant * light_.atFace(light_.sun_now, v, face);
     slants += slant;
   }
-  return {faces > 0.0f ? sky / faces : 0.0f, slants > 0.0f ? kMeanSlant * sun / slants : 0.0f};
+  if (faces == 0.0f) return own(kMeanSlant);  // a leaf among leaves, with free space before these
+  return {sky / faces, slants > 0.0f ? kMeanSlant * sun / slants : 0.0f};
 }
 
 sim::Colour VoxelColours::at(sim::Voxel voxel, sim::PartKind kind) const {

@@ -13,7 +13,7 @@
 
 #include "sim/base/frame.h"
 
-namespace espalier::sim {
+namespace espalier::sim::dicing {
 namespace {
 
 const Voxel kSize(12, 9, 14);
@@ -164,4 +164,4 @@ TEST(Dice, BeyondTheWorldItStaysInOnePieceForEachSide) {
 }
 
 }  // namespace
-}  // namespace espalier::sim
+}  // namespace espalier::sim::dicing

@@ -2,43 +2,58 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "sim/tile/clip.h"
 
 namespace espalier::sim {
 namespace {
 
-/// The cells along an axis that a polygon lies in, -1 and `size` for what is before and behind the world.
-struct Cells {
-  int first, last;
+struct Extent {
+  double low, high;
 };
 
-Cells cellsOf(const CutPolygon& polygon, int axis, int size) {
-  double low = polygon.corner[0][axis], high = low;
+Extent extentOf(const CutPolygon& polygon, int axis) {
+  Extent extent{polygon.corner[0][axis], polygon.corner[0][axis]};
   for (std::size_t i = 1; i < polygon.count; ++i) {
-    low = std::min(low, polygon.corner[i][axis]);
-    high = std::max(high, polygon.corner[i][axis]);
+    extent.low = std::min(extent.low, polygon.corner[i][axis]);
+    extent.high = std::max(extent.high, polygon.corner[i][axis]);
   }
-  const auto cell = [&](double place) {
-    return static_cast<int>(std::clamp(place, -1.0, static_cast<double>(size)));
-  };
-  const int first = cell(std::floor(low + 0.5));
-  // What merely touches the next plane does not reach behind it.
-  return {first, std::max(first, cell(std::ceil(high - 0.5)))};
+  return extent;
 }
 
-/// Hands over a polygon's part in each cell along an axis. What is left goes on from cut to cut, so that
-/// edges between cells have the corners that both sides of them know.
+/// What of a polygon lies within the world along an axis; the rest of it is handed over.
+template <class Take>
+CutPolygon within(const CutPolygon& polygon, int axis, int size, Take beyond) {
+  CutPolygon rest = polygon;
+  for (const auto& [plane, sign] : {std::pair{-0.5, 1.0}, std::pair{size - 0.5, -1.0}}) {
+    if (rest.count == 0) return rest;
+    const Extent extent = extentOf(rest, axis);
+    if (sign * ((sign > 0 ? extent.low : extent.high) - plane) >= 0.0) continue;
+    const CutPolygon outside = cut(rest, axis, plane, -sign);
+    if (outside.count > 2) beyond(outside);
+    rest = cut(rest, axis, plane, sign);
+  }
+  return rest;
+}
+
+/// Hands over a polygon's part in each of the world's cells along an axis. What is left goes on from cut to
+/// cut, so that edges between cells have the corners that both sides of them know.
 template <class Take>
 void inCells(CutPolygon rest, int axis, int size, Take take) {
-  const Cells cells = cellsOf(rest, axis, size);
-  for (int cell = cells.first; cell < cells.last; ++cell) {
-    const double plane = cell + 0.5;
-    const CutPolygon here = cut(rest, axis, plane, -1.0);
-    if (here.count > 2) take(cell, here);
+  if (rest.count < 3) return;
+  const Extent extent = extentOf(rest, axis);
+  const auto cell = [&](double place) { return std::clamp(static_cast<int>(place), 0, size - 1); };
+  const int first = cell(std::floor(extent.low + 0.5));
+  // What merely touches the next plane does not reach behind it.
+  const int last = std::max(first, cell(std::ceil(extent.high - 0.5)));
+  for (int here = first; here < last; ++here) {
+    const double plane = here + 0.5;
+    const CutPolygon part = cut(rest, axis, plane, -1.0);
+    if (part.count > 2) take(here, part);
     rest = cut(rest, axis, plane, 1.0);
   }
-  if (rest.count > 2) take(cells.last, rest);
+  if (rest.count > 2) take(last, rest);
 }
 
 }  // namespace
@@ -52,15 +67,12 @@ void dice(const std::array<Vec3, 3>& triangle_vx, Voxel size,
     visit(Voxel(glm::clamp(glm::floor(middle + 0.5), Vec3(0.0), Vec3(size - 1))),
           {polygon.corner.data(), polygon.count});
   };
-  const auto inside = [&](int cell, int axis) { return cell >= 0 && cell < size[axis]; };
-  CutPolygon whole;
-  for (const Vec3& corner : triangle_vx) whole.add(corner);
-  inCells(whole, 0, size.x, [&](int x, const CutPolygon& slab) {
-    if (!inside(x, 0)) return beyond(slab);
+  CutPolygon inside;
+  for (const Vec3& corner : triangle_vx) inside.add(corner);
+  for (int axis = 0; axis < 3; ++axis) inside = within(inside, axis, size[axis], beyond);
+  inCells(inside, 0, size.x, [&](int x, const CutPolygon& slab) {
     inCells(slab, 1, size.y, [&](int y, const CutPolygon& row) {
-      if (!inside(y, 1)) return beyond(row);
       inCells(row, 2, size.z, [&](int z, const CutPolygon& piece) {
-        if (!inside(z, 2)) return beyond(piece);
         visit({x, y, z}, {piece.corner.data(), piece.count});
       });
     });

@@ -84,8 +84,8 @@ TEST_F(Coloured, TheFirstPassIsThatOfThePicture) {
   const sim::Colour found = lit.at({3, 0, 20}, sim::PartKind::scene);
   EXPECT_NEAR(found.r, tone(wanted.r), 1e-6f);
   EXPECT_NEAR(found.b, tone(wanted.b), 1e-6f);
-  // Behind the leaves, where the sun does not come.
-  const sim::Colour shadow = lit.at({8, 0, 2}, sim::PartKind::scene);
+  // Behind the stem, where the sun does not come.
+  const sim::Colour shadow = lit.at({8, 0, 4}, sim::PartKind::scene);
   EXPECT_LT(shadow.r, 0.7f * found.r);
   EXPECT_GT(shadow.r, 0.0f);
 }
@@ -100,7 +100,7 @@ TEST_F(Coloured, PlantsAreLitByTheirOpenFacesAndNoneIsBlack) {
   ASSERT_FALSE(light_.where->has({8, 6, 8}) || light_.gaps->has({8, 6, 8})) << "no face of it is open";
   const sim::Colour inside = lit.at({8, 6, 8}, sim::PartKind::stem);
   EXPECT_GT(inside.r, 0.01f);
-  EXPECT_EQ(inside, lit.at({8, 4, 8}, sim::PartKind::stem)) << "lit as the nearest that has one";
+  EXPECT_EQ(inside, lit.at({8, 7, 8}, sim::PartKind::stem)) << "lit as the nearest that has one";
 }
 
 }  // namespace

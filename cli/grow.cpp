@@ -56,6 +56,19 @@ void addGrow(CLI::App& app, int& exit_status) {
       "for programs that read EXT_mesh_gpu_instancing and Draco, which Blender 3.4 does not");
   command->add_flag("--obj", arguments->models.obj,
                     "Write plant.obj too, with plant.mtl and the pictures of its materials");
+  rules::Key colours;
+  colours.kind = rules::Kind::choice;
+  colours.choices = {std::string(scenes::nameOf(scenes::ImageKind::first_pass)),
+                     std::string(scenes::nameOf(scenes::ImageKind::surface_colour))};
+  addChoice(
+      *command, "--diced", colours,
+      [arguments, lit = colours.choices.front()](const std::string& colour) {
+        arguments->models.diced =
+            colour == lit ? scenes::ImageKind::first_pass : scenes::ImageKind::surface_colour;
+      },
+      "Write diced.glb too, with --obj diced.obj: meshes and plants cut to the grid of voxels, in the "
+      "voxels' "
+      "colours, lit (first_pass) or not (surface_colour)");
   command->add_flag("--resume", arguments->keeping.resume,
                     "Go on from the state in the output folder, or begin if there is none");
   command->add_flag("--no-state", arguments->no_state, "Leave no state of growth behind at the end");

@@ -1,8 +1,12 @@
 #include "render/files/glb_file.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <initializer_list>
+#include <limits>
 #include <nlohmann/json.hpp>
 #include <ostream>
 #include <sstream>
@@ -24,6 +28,12 @@ tinygltf::Value extras(const sim::Provenance& made_by) {
   // As text: of JSON's numbers tinygltf writes 32 bits or a real one.
   return tinygltf::Value(tinygltf::Value::Object{{"seed", tinygltf::Value(std::to_string(made_by.seed))},
                                                  {"inputs", tinygltf::Value(std::move(inputs))}});
+}
+
+void putWords(std::ostream& out, std::initializer_list<std::size_t> words) {
+  for (const std::size_t word : words) {
+    for (unsigned byte = 0; byte < kGlbWord; ++byte) out.put(static_cast<char>(word >> (8 * byte) & 0xffu));
+  }
 }
 
 }  // namespace
@@ -199,6 +209,30 @@ std::string GlbFile::json() const {
   auto json = nlohmann::json::parse(std::string_view(file).substr(kGlbHeader + kGlbChunkHeader, length));
   if (!model.buffers.empty()) json["buffers"][0]["byteLength"] = bytes_;
   return json.dump();
+}
+
+void writeGlbFile(std::ostream& file, const sim::Provenance& made_by,
+                  const std::function<void(GlbFile&)>& add_all) {
+  GlbFile measured(made_by, nullptr);
+  add_all(measured);
+  measured.finish();
+  std::string json = measured.json();
+  json.resize((json.size() + kGlbWord - 1) / kGlbWord * kGlbWord, ' ');
+  const std::size_t buffer = measured.bufferBytes();
+  const std::size_t all =
+      kGlbHeader + kGlbChunkHeader + json.size() + (buffer > 0 ? kGlbChunkHeader + buffer : 0);
+  if (all > std::numeric_limits<std::uint32_t>::max()) {
+    throw sim::InputError(fmt::format("the surfaces take {:.1f} GB; a .glb file holds at most 4",
+                                      static_cast<double>(all) / 1e9));
+  }
+  putWords(file, {0x46546c67, 2, all, json.size(), 0x4e4f534a});  // "glTF", its version; "JSON"
+  file << json;
+  if (buffer == 0) return;
+  putWords(file, {buffer, 0x004e4942});  // "BIN"
+  GlbFile written(made_by, &file);
+  add_all(written);
+  written.finish();
+  if (written.bufferBytes() != buffer) throw sim::BrokenContract("a model was another the second time");
 }
 
 }  // namespace espalier::render

@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <glm/vec2.hpp>
 #include <iosfwd>
 #include <span>
@@ -87,6 +88,11 @@ class GlbFile {
   std::vector<Repeated> repeated_;  // none of which begins as another one does, where they are of one kind
   tinygltf::Model model_;
 };
+
+/// Writes a file whose parts `add_all` adds, the very same each time: it is asked once to learn their sizes,
+/// and once more for the data. Throws InputError where the file would have 4 GB or more.
+void writeGlbFile(std::ostream& file, const sim::Provenance& made_by,
+                  const std::function<void(GlbFile&)>& add_all);
 
 /// Of a VEC3 of places glTF wants to know the box.
 void setExtent(tinygltf::Accessor& accessor, std::span<const sim::Vec3f> places);

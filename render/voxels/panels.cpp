@@ -94,6 +94,10 @@ Colour skyColour(sim::Vec3 direction) {
                         : glm::mix(horizon, ground, powf(-height, 0.8f));
 }
 
+Colour firstPass(Colour surface, float sky, float sun) {
+  return surface * (sky * Colour(0.28f, 0.32f, 0.38f) + sun * Colour(1.15f, 1.0f, 0.78f));
+}
+
 PanelPainter::PanelPainter(const Visibility& seen, const PanelWorld& world, PanelLook look,
                            std::span<const Panel> panels)
     : seen_(seen), look_(std::move(look)) {
@@ -197,14 +201,11 @@ PanelPicture PanelPainter::paint(Panel panel, const LightNeeds& needs) const {
     case Panel::first_pass:
       break;
   }
-  // Greene blends the shadow matte with sky_exposure to approximate the light and mats the surface's colour
-  // through it; the slant of a face towards the sun is added, without which lit faces of a cube all look
-  // alike.
+  // Greene has no slant of a face towards the sun, without which lit faces of a cube all look alike.
   const auto light = [&](std::size_t i) {
     const float slant = static_cast<float>(
         std::max(0.0, glm::dot(sim::Vec3(kFaceNormals[seen_.fragments[i].face]), look_.to_sun)));
-    return colour_[i] *
-           (sky_.smooth[i] * Colour(0.28f, 0.32f, 0.38f) + lit_[i] * slant * Colour(1.15f, 1.0f, 0.78f));
+    return firstPass(colour_[i], sky_.smooth[i], lit_[i] * slant);
   };
   const auto shade = [&](std::size_t i) {
     const Colour c = light(i);

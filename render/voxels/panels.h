@@ -84,6 +84,11 @@ class PanelPainter {
   std::vector<sim::Colour> colour_;
 };
 
+/// Light that a surface of a colour sends on, linear: Greene blends the shadow matte with sky_exposure to
+/// approximate the light that falls on it, and mats its colour through that. `sky`: what it receives of the
+/// sky, 0..1; `sun`: the share of it that the sun reaches, times the cosine of the angle at which it does.
+sim::Colour firstPass(sim::Colour surface, float sky, float sun);
+
 /// The two colours of the threshold panel, display values, for its legend.
 struct ThresholdColours {
   sim::Colour above, below;

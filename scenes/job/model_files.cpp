@@ -19,6 +19,8 @@ std::string levelFile(int level) {
   return fmt::format("plant_lod{}.glb", level);
 }
 
+}  // namespace
+
 std::vector<const sim::Mesh*> meshesOf(const Site& site) {
   std::vector<const sim::Mesh*> meshes;
   for (const auto& tiled : site.meshes) {
@@ -35,8 +37,6 @@ render::PlantModels modelsFrom(const ModelSources& sources, int level, bool inst
   }
   return modelsOf(sources.site.world.frame(), sources.plants, sources.bare, level, instances);
 }
-
-}  // namespace
 
 std::vector<std::string> modelFileNames(const ModelsWanted& wanted) {
   std::vector<std::string> names{kGlbFile};

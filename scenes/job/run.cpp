@@ -12,11 +12,13 @@
 #include "render/model/plant_model.h"
 #include "rules/growth/rule_book.h"
 #include "scenes/foretell/foretell.h"
+#include "scenes/job/diced_files.h"
 #include "scenes/job/plant_models.h"
 #include "scenes/job/plant_reports.h"
 #include "scenes/job/saved_growth.h"
 #include "scenes/job/stages.h"
 #include "scenes/job/warnings.h"
+#include "scenes/lights.h"
 #include "scenes/prepare/front_warnings.h"
 #include "scenes/prepare/in_scene.h"
 #include "scenes/prepare/plantings.h"
@@ -45,10 +47,12 @@ sim::VoxelSet openLayers(const sim::BitVolume& scene, const sim::World& grown) {
 }
 
 /// `layers`: free space where light is wanted too, beside all of it for images of vines, whose leaves are lit
-/// by what is around them. `bare`: what the scene alone occupies, for those that show no plant.
+/// by what is around them. `bare`: what the scene alone occupies, for those that show no plant. `models`: those
+/// that are written.
 sim::Lighting lightFor(const Scene& scene, const Site& site, bool vines, const sim::BitVolume& bare,
-                       std::shared_ptr<const sim::VoxelSet> layers) {
+                       std::shared_ptr<const sim::VoxelSet> layers, const ModelsWanted& models = {}) {
   sim::LightWanted wanted;
+  if (models.diced == ImageKind::first_pass) wanted.to_sun = shadowDirection(scene.sun);
   wanted.space = std::move(layers);
   wanted.dense = vines;
   if (vines && std::any_of(scene.images.begin(), scene.images.end(), showsNoPlant)) wanted.bare = &bare;
@@ -153,7 +157,9 @@ sim::Growth growOn(const Scene& scene, Prepared& prepared, std::optional<sim::Gr
     }
   }
   const bool vines = options.pictures && drawsVines(scene.images);
-  settings.memory.later_bytes = laterBytes(sim::Vec3(site.world.frame().size), vines);
+  settings.memory.later_bytes =
+      laterBytes(sim::Vec3(site.world.frame().size), vines) +
+      inScene(scene, scene.world.place, [&] { return dicedBytes(options.models, site); });
   // Stems and leaves as triangles, twice in memory while files are made; again for rays, where vines are
   // drawn.
   settings.memory.later_a_segment = vines ? 15'000.0 : 5'000.0;
@@ -203,6 +209,7 @@ bool drawsTextures(const Scene& scene) {
 Report runScene(const Scene& scene, const RunOptions& options, const Keeping& keeping) {
   if (options.pictures) requirePicturesFit(scene, picturesOf(scene));
   std::vector<std::string> names = modelFileNames(options.models);
+  for (std::string& name : dicedFileNames(options.models)) names.push_back(std::move(name));
   names.insert(names.end(), {kSkeletonFile, kWorldFile, kReportFile});
   if (keeping.keep || keeping.every > 0) names.emplace_back(kStateFile);
   if (options.pictures) {
@@ -238,7 +245,7 @@ Report runScene(const Scene& scene, const RunOptions& options, const Keeping& ke
   std::shared_ptr<const sim::VoxelSet> layers;
   const sim::Lighting light = stages.run("lighting", [&] {
     layers = std::make_shared<const sim::VoxelSet>(openLayers(bare, world));
-    return lightFor(scene, site, options.pictures && drawsVines(scene.images), bare, layers);
+    return lightFor(scene, site, options.pictures && drawsVines(scene.images), bare, layers, options.models);
   });
   report.light = light.about;
   std::vector<render::PlantModel> models;  // for pictures; else they are made while they are written
@@ -247,10 +254,13 @@ Report runScene(const Scene& scene, const RunOptions& options, const Keeping& ke
   const GuideVolumes guides = inScene(scene, [&] { return guideVolumes(growth, usedFields(scene), world); });
   for (const render::VdbField& field : guides.fields)
     report.growth->fields.push_back({field.name, guides.near->count()});
-  const ModelSources sources{site, growth.plants, bare, models, report.made_by};
+  const ModelSources sources{
+      site, growth.plants, bare, models, report.made_by, light, shadowDirection(scene.sun)};
   std::vector<OutputFile> files = modelFiles(
       options.models, sources,
       [&](std::size_t plant, std::size_t limbs) { report.growth->plants[plant].meeting_limbs = limbs; });
+  for (OutputFile& file : inScene(scene, [&] { return dicedFiles(options.models, sources); }))
+    files.push_back(std::move(file));
   files.push_back({kSkeletonFile, [&](std::ostream& out) {
                      render::writeSkeletons(out, growth.plants, world.frame(), report.made_by);
                    }});

@@ -230,14 +230,23 @@ Lighting lightOf(const World& world, const Sky& sky, const Sun& sun, const Light
     light.sun.values = std::move(both.shares);
     light.sun_hours.values = std::move(both.hours);
   }
+  std::optional<Sun> now;
+  if (wanted.to_sun) {
+    now = sunStandingAt(*wanted.to_sun);
+    light.sun_now.values =
+        surfaceSun(sensors, sweepOpen(world.opaque(), now->directions, sensors.places), *now);
+  }
   light.surfaces = std::move(sensors.surfaces);
   light.surfaces.resize(count);
   light.sky.beyond = unobstructed(sky.directions, [&](std::size_t i, Vec3 normal) {
     const auto& d = sky.directions[i];
     return shareOf(d) * received(sky.weighting, glm::normalize(Vec3(d.v)), normal);
   });
-  light.sun.beyond =
-      unobstructed(sun.directions, [&](std::size_t i, Vec3) { return shareOf(sun.directions[i]); });
+  const auto shares = [](const DirectionSet& directions) {
+    return unobstructed(directions, [&](std::size_t i, Vec3) { return shareOf(directions[i]); });
+  };
+  light.sun.beyond = shares(sun.directions);
+  if (now) light.sun_now.beyond = shares(now->directions);
   light.sun_hours.beyond = unobstructed(sun.directions, [&](std::size_t i, Vec3) { return sun.hours[i]; });
   if (wanted.dense || wanted.space) findInSpace(light, world, sky, sun, wanted);
   return light;

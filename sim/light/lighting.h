@@ -25,6 +25,8 @@ struct LightWanted {
   /// Greene's rays for sky_exposure instead of the sky's directions. They know no normals: surfaces then
   /// receive what level ground would in front of them.
   std::optional<RandomSky> random_sky = std::nullopt;
+  /// A sun in one place, unit: what of it each surface sees.
+  std::optional<Vec3> to_sun = std::nullopt;
 };
 
 /// What the numbers of a light are: named wherever they are shown.
@@ -60,6 +62,7 @@ struct Lighting {
 
   Received sky, sun;             ///< 0..1
   Received sun_hours;            ///< a day
+  Received sun_now;              ///< 0..1: of LightWanted::to_sun, where that was asked for
   std::vector<Vec3f> brightest;  ///< by surface: unit, zero where no sky is seen; empty if not wanted
 
   /// In free space, as level ground receives it; null where not wanted. Hours are fractions of

@@ -195,6 +195,14 @@ Sun makeSun(const RealSun& sun) {
   return path.sun(days, whereAndWhen(sun));
 }
 
+Sun sunStandingAt(Vec3 to_sun) {
+  if (!(to_sun.y > 0.0)) return {};
+  constexpr double kAlways = 0.7;  // beside an axis no lattice vector may lie nearer
+  SunPath path(kAlways, SunWeighting::even);
+  path.add(1.0, [&](double) { return to_sun; });
+  return path.sun(1, "sun standing still");
+}
+
 Vec3 sunAt(double latitude_deg, double declination_deg, double hour_angle_deg) {
   const double sin_latitude = sineOfDegrees(latitude_deg), cos_latitude = cosineOfDegrees(latitude_deg);
   const double sin_declination = sineOfDegrees(declination_deg);

@@ -72,6 +72,10 @@ Vec3 sunDirection(const RealSun& sun, std::chrono::year_month_day date, double h
 /// Throws InputError for settings that make no sun, among them one that is not up.
 Sun makeSun(const RealSun& sun);
 
+/// A sun that stands still, within 0.7 degrees of a unit direction; without directions where that is not
+/// above the horizon.
+Sun sunStandingAt(Vec3 to_sun);
+
 /// Without air, x to the east and -z to the north: where a sun of this declination stands when it has turned
 /// by the hour angle (0 at noon, 15 degrees an hour) over a latitude.
 Vec3 sunAt(double latitude_deg, double declination_deg, double hour_angle_deg);

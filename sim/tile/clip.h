@@ -2,6 +2,8 @@
 // Internal to the room: convex polygons cut by axis-aligned planes (Sutherland and Hodgman 1974).
 #include <array>
 #include <cstddef>
+#include <glm/common.hpp>
+#include <utility>
 
 #include "sim/base/vec.h"
 
@@ -16,6 +18,17 @@ struct CutPolygon {
   void add(Vec3 p) { corner[count++] = p; }
 };
 
+/// Where an edge crosses a plane, which its ends lie on either side of. Polygons that share the edge find the
+/// very same point, whichever way around they have it; and it lies between the ends along every axis, so that
+/// what was cut to a slab stays in it.
+inline Vec3 crossing(Vec3 low, Vec3 high, int axis, double bound) {
+  if (low[axis] > high[axis]) std::swap(low, high);
+  const double along = (bound - low[axis]) / (high[axis] - low[axis]);
+  Vec3 at = glm::clamp(low + along * (high - low), glm::min(low, high), glm::max(low, high));
+  at[axis] = bound;
+  return at;
+}
+
 /// The part where sign * (coordinate - bound) >= 0.
 inline CutPolygon cut(const CutPolygon& polygon, int axis, double bound, double sign) {
   CutPolygon kept;
@@ -25,11 +38,7 @@ inline CutPolygon cut(const CutPolygon& polygon, int axis, double bound, double 
     const double hp = sign * (p[axis] - bound);
     const double hq = sign * (q[axis] - bound);
     if (hp >= 0) kept.add(p);
-    if ((hp > 0 && hq < 0) || (hp < 0 && hq > 0)) {
-      Vec3 crossing = p + (hp / (hp - hq)) * (q - p);
-      crossing[axis] = bound;
-      kept.add(crossing);
-    }
+    if ((hp > 0 && hq < 0) || (hp < 0 && hq > 0)) kept.add(crossing(p, q, axis, bound));
   }
   return kept;
 }

@@ -125,6 +125,12 @@ TEST_F(EveryFlag, OfGrowChangesWhatComesOut) {
          grown("--obj", "b");
          return Seen{names(scratch_.path("a")), names(scratch_.path("b"))};
        }},
+      {"diced",
+       [&] {
+         grown("", "a");
+         grown("--diced surface_colour", "b");
+         return Seen{names(scratch_.path("a")), names(scratch_.path("b"))};
+       }},
       {"lods",
        [&] {
          grown("", "a");

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "sim/base/parallel.h"
 #include "sim/sweep/sweep.h"
 #include "sim/tile/build_world.h"
@@ -181,6 +183,39 @@ TEST(Lighting, IsTheSameOnAnyNumberOfThreads) {
   EXPECT_NE(other.sky.values, lights[0].sky.values);
   EXPECT_NE(other.sun_hours.values, lights[0].sun_hours.values);
   EXPECT_NE(other.brightest, lights[0].brightest);
+}
+
+/// Behind the wall lies its shadow, as long as it is high where the sun stands at half a right angle.
+TEST(Lighting, ASunInOnePlaceCastsAShadow) {
+  const World world = wallOnGround();
+  LightWanted wanted;
+  const Vec3 to_sun = glm::normalize(Vec3(0, 1, 1));
+  wanted.to_sun = to_sun;
+  const Lighting light = lightOf(world, sky(Weighting::cosine), {}, wanted);
+  ASSERT_EQ(light.sun_now.values.size(), light.sky.values.size());
+  const auto on_ground = [&](int z) { return light.atFace(light.sun_now, {16, 0, z}, 3); };
+  for (const int z : {14, 20}) EXPECT_FLOAT_EQ(on_ground(z), 1.0f) << z;
+  for (const int z : {5, 10}) EXPECT_FLOAT_EQ(on_ground(z), 0.0f) << z;
+  EXPECT_FLOAT_EQ(on_ground(1), 1.0f) << "beyond the shadow";
+  EXPECT_FLOAT_EQ(light.atFace(light.sun_now, {16, 5, 12}, 5), 1.0f) << "the wall's front";
+  EXPECT_FLOAT_EQ(light.atFace(light.sun_now, {16, 5, 12}, 4), 0.0f) << "its back";
+  wanted.to_sun = Vec3(0, -1, 0);
+  for (const float value : lightOf(world, sky(Weighting::cosine), {}, wanted).sun_now.values)
+    EXPECT_EQ(value, 0.0f);
+  EXPECT_TRUE(lightOf(world, sky(Weighting::cosine)).sun_now.values.empty());
+}
+
+TEST(Sun, MayStandStillAnywhereAboveTheHorizon) {
+  for (int i = 0; i < 400; ++i) {
+    const double height = 1.0 - (i + 0.5) / 400.0, turn = 2.4 * i, across = std::sqrt(1.0 - height * height);
+    const Vec3 to_sun(across * std::cos(turn), height, across * std::sin(turn));
+    const Sun sun = sunStandingAt(to_sun);
+    ASSERT_EQ(sun.directions.size(), 1u);
+    EXPECT_LE(sun.worst_angle_deg, 0.71);
+    EXPECT_GT(glm::dot(glm::normalize(Vec3(sun.directions[0].v)), to_sun), std::cos(0.0125));
+  }
+  EXPECT_EQ(sunStandingAt(glm::normalize(Vec3(0.01, 1, 0.01))).directions.size(), 1u) << "beside an axis";
+  EXPECT_TRUE(sunStandingAt({0, -1, 0}).directions.empty());
 }
 
 }  // namespace

@@ -1,0 +1,68 @@
+#include "scenes/show/voxel_colours.h"
+
+#include <algorithm>
+#include <cstdint>
+
+#include "render/image/tone.h"
+#include "render/voxels/panels.h"
+#include "scenes/show/bit_sets.h"
+#include "sim/base/faces.h"
+#include "sim/base/nearest.h"
+
+namespace espalier::scenes {
+VoxelColours::VoxelColours(const sim::World& world, const sim::BitVolume& bare, const sim::Lighting& light,
+                           ImageKind kind, sim::Vec3 to_sun)
+    : world_(world),
+      light_(light),
+      kind_(kind),
+      to_sun_(to_sun),
+      kinds_{Kind{bare, {}}, Kind{without(world.solid(), bare), {}},
+             Kind{without(world.occupied(), world.solid()), {}}} {
+  for (Kind& one : kinds_) {
+    if (one.occupied.count() == 0) one.occupied = world.occupied();
+  }
+  if (kind == ImageKind::surface_colour) return;
+  sim::BitVolume lit = light.where->bits();
+  lit.add(light.gaps->bits());
+  for (Kind& one : kinds_) one.lit = both(one.occupied, lit);
+}
+
+VoxelColours::Light VoxelColours::lightOf(sim::Voxel v) const {
+  // What faces every way turns, in the mean, half of what the sun sees of it towards the sun.
+  constexpr float kMeanSlant = 0.5f;
+  const auto slantOf = [&](const sim::Vec3& normal) {
+    return static_cast<float>(std::max(0.0, glm::dot(normal, to_sun_)));
+  };
+  const auto own = [&](float slant) -> Light {
+    const std::size_t number = light_.where->number(v);
+    return {light_.sky.values[number], slant * light_.sun_now.values[number]};
+  };
+  if (kinds_[0].occupied.at(v) && light_.where->has(v))
+    return own(slantOf(sim::Vec3(light_.surfaces[light_.where->number(v)].surface.normal)));
+  float sky = 0.0f, faces = 0.0f, sun = 0.0f, slants = 0.0f;
+  for (std::uint8_t face = 0; face < sim::kFaces; ++face) {
+    if (world_.occupied().at(v + sim::kFaceNormals[face])) continue;
+    sky += light_.atFace(light_.sky, v, face);
+    faces += 1.0f;
+    const float slant = slantOf(sim::Vec3(sim::kFaceNormals[face]));
+    if (slant > 0.0f) sun += slant * light_.atFace(light_.sun_now, v, face);
+    slants += slant;
+  }
+  if (faces == 0.0f) return own(kMeanSlant);  // a leaf among leaves, with free space before these
+  return {sky / faces, slants > 0.0f ? kMeanSlant * sun / slants : 0.0f};
+}
+
+sim::Colour VoxelColours::at(sim::Voxel voxel, sim::PartKind kind) const {
+  const Kind& own = kinds_[static_cast<std::size_t>(kind)];
+  const auto occupied = sim::nearestSet(own.occupied, voxel);
+  if (!occupied) return sim::Colour(0.0f);
+  const sim::Colour colour = world_.surfaceAt(*occupied)->colour;
+  if (kind_ == ImageKind::surface_colour) return colour;
+  const auto lit_at = sim::nearestSet(own.lit, *occupied);
+  const Light light = lit_at ? lightOf(*lit_at) : Light();
+  const sim::Colour lit = render::firstPass(colour, light.sky, light.sun);
+  const render::ToneCurve tone;
+  return {tone(lit.r), tone(lit.g), tone(lit.b)};
+}
+
+}  // namespace espalier::scenes

@@ -43,6 +43,9 @@ for kind in sky_exposure sun_exposure threshold; do small $work/garden_wall/$kin
 
 grow scenes/library/courtyard.yaml
 small $work/courtyard/vines.png courtyard 960
+for scene in paving cottage; do grow scenes/library/$scene.yaml; done
+small $work/paving/vines.png paving 900
+small $work/cottage/vines.png cottage 960
 small $work/courtyard/contact_sheet.png courtyard_panels 1100
 if command -v blender >/dev/null; then  # the one picture that another program draws
   ${ESPALIER:-./run espalier} grow scenes/library/garden_wall.yaml --diced first_pass --obj --no-pictures --quiet -o $work/diced

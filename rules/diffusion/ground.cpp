@@ -89,13 +89,14 @@ void Ground::findBorders() {
         return other.first != t &&
                std::abs(glm::dot(triangles[other.first].normal, triangles[t].normal)) >= cos_bend_ - kFlat;
       });
-      if (!joined) addBorder(triangles[t], i);
+      if (!joined) addBorder(t, i);
     }
   }
 }
 
 /// Where another triangle's edges meet this one elsewhere than at its ends, parts of it may be no border.
-void Ground::addBorder(const Triangle& triangle, std::size_t edge) {
+void Ground::addBorder(std::uint32_t number, std::size_t edge) {
+  const Triangle& triangle = surface_->triangles()[number];
   const sim::Vec3 from = triangle.corners_vx[edge], to = triangle.corners_vx[(edge + 1) % 3];
   const double length = glm::distance(from, to);
   constexpr double kPart_vx = 1.0;
@@ -117,7 +118,8 @@ void Ground::addBorder(const Triangle& triangle, std::size_t edge) {
     constexpr double kReach_vx = 16'383.0;
     if (glm::all(glm::lessThan(glm::abs(begins), sim::Vec3(kReach_vx))) &&
         glm::all(glm::lessThan(glm::abs(at), sim::Vec3(kReach_vx))))
-      borders_.add(sim::Limb{sim::latticePoint(begins), sim::latticePoint(at), 1, 0});
+      borders_.add(
+          sim::Limb{sim::latticePoint(begins), sim::latticePoint(at), 1, static_cast<std::int32_t>(number)});
     begun = false;
   }
 }
@@ -185,7 +187,10 @@ void Ground::obstaclesAbout(const Stance& stance, double reach_vx, double low_vx
     if (goesOn(triangle, stance)) continue;
     sim::CutPolygon polygon;
     for (const sim::Vec3 corner : triangle.corners_vx) polygon.add(aboutStance(stance, corner));
-    polygon = sim::cutToSlab(polygon, 2, low_vx, high_vx);
+    // Sides of what bears hinder where they rise; where they go down the surface ends, or goes on.
+    constexpr double kRises_vx = 0.02;
+    const double low = bears_[triangle.region] ? std::max(low_vx, kRises_vx) : low_vx;
+    polygon = sim::cutToSlab(polygon, 2, low, high_vx);
     for (const int axis : {0, 1}) polygon = sim::cutToSlab(polygon, axis, -reach_vx, reach_vx);
     if (polygon.count == 0) continue;
     std::vector<glm::dvec2> points;
@@ -195,6 +200,8 @@ void Ground::obstaclesAbout(const Stance& stance, double reach_vx, double low_vx
   thread_local sim::Nearby nearby;
   borders_.gather(box, 0, -1, nearby);
   for (const sim::Limb& border : nearby.limbs()) {
+    // That of a side ends nothing that lies on top.
+    if (!goesOn(surface_->triangles()[static_cast<std::size_t>(border.node)], stance)) continue;
     const sim::Vec3 from = aboutStance(stance, placeOf(border.from)),
                     to = aboutStance(stance, placeOf(border.to));
     if (std::max(from.z, to.z) < low_vx || std::min(from.z, to.z) > high_vx) continue;

@@ -57,12 +57,12 @@ class Ground {
  private:
   bool goesOn(const sim::SceneSurface::Triangle& triangle, const Stance& from) const;
   void findBorders();
-  void addBorder(const sim::SceneSurface::Triangle& triangle, std::size_t edge);
+  void addBorder(std::uint32_t triangle, std::size_t edge);
 
   std::shared_ptr<const sim::SceneSurface> surface_;
   std::vector<bool> bears_;
   double cos_bend_;
-  sim::PieceGrid borders_;
+  sim::PieceGrid borders_;  ///< as limbs, each with the number of its triangle
 };
 
 /// Just above a surface: no voxel that the surface itself passes holds it.

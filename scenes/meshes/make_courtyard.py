@@ -94,7 +94,7 @@ def beds(model, rng):
 
 
 def kerbs(model, rng):
-    edge_x, back, front = 1.62, -1.20, 1.80
+    edge_x, back, front = 1.625, -1.20, 1.80
     kerb(model, rng, (-edge_x - 0.06, back), (edge_x + 0.06, back), high=0.14)
     for x in (-edge_x, edge_x):
         kerb(model, rng, (x, back + 0.06), (x, front + 0.06), high=0.14)

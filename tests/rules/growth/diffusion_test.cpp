@@ -355,6 +355,26 @@ TEST(Diffusion, StaysWhereItsRegionsLetIt) {
   }
 }
 
+TEST(Paving, GoesOnOverSeams) {
+  // Two boxes side by side, in one plane: their sides are no walls, and their rims no end.
+  Ground ground({box({0, -0.2, 0}, {2, 0, 1.5}, "floor"), box({0.4, -0.2, 1.5}, {1.6, 0, 3}, "floor")});
+  const RuleSet rules = paving();
+  const sim::Growth growth = ground.grow(rules, {{1.0, 0.1, 0.7}});
+  const LaidMeasure measure = measured(ground, rules, growth);
+  EXPECT_GT(measure.covered_vx2, 0.75 * measure.surface_vx2);
+  bool across = false;
+  for (const auto& corners : footprints(growth)) {
+    double low = 1e9, high = -1e9;
+    for (const Vec3 corner : corners) {
+      const double z = sim::worldFromVoxel(ground.world.frame(), corner).z;
+      low = std::min(low, z);
+      high = std::max(high, z);
+    }
+    across = across || (low < 1.45 && high > 1.55);
+  }
+  EXPECT_TRUE(across);
+}
+
 TEST(Diffusion, SaysWhereASeedFindsNoSurface) {
   Ground ground({sheet(4.0, 4.0), box({1, 1.4, 1}, {2, 1.6, 2}, "shelf")});
   RuleSet rules = tufts();

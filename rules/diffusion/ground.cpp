@@ -33,7 +33,9 @@ sim::LatticeBox boxAbout(const Stance& stance, double reach_vx, double high_vx) 
   const sim::Vec3 n = stance.normal;
   const sim::Vec3 reach =
       reach_vx * glm::sqrt(glm::max(sim::Vec3(0.0), 1.0 - n * n)) + high_vx * glm::abs(n) + 1e-3;
-  return {sim::latticePoint(stance.at_vx - reach), sim::latticePoint(stance.at_vx + reach)};
+  const sim::Vec3 most(16'000.0);  // as far as the lattice goes; no world is wider
+  return {sim::latticePoint(glm::clamp(stance.at_vx - reach, -most, most)),
+          sim::latticePoint(glm::clamp(stance.at_vx + reach, -most, most))};
 }
 
 sim::Vec3 openPlace(sim::Vec3 at_vx, sim::Vec3 normal) {

@@ -71,7 +71,9 @@ std::optional<Outcome> LaidRoom::hinders(const Scaled& element, const LaidWay& w
 
 std::optional<Stance> LaidRoom::settle(const Scaled& element, const LaidWay& way, bool up) const {
   const sim::Vec3 wanted_vx = site_.stance.placed(way.by);
-  const double within = 0.5 * glm::length(way.by) + diffusion_.off.number + 0.5;
+  // Surfaces that bend are met above or below; a wide search takes long.
+  constexpr double kMostBend_vx = 24.0;
+  const double within = std::min(0.5 * glm::length(way.by), kMostBend_vx) + diffusion_.off.number + 0.5;
   auto stance = site_.ground->goingOn(site_.stance, wanted_vx, within);
   if (!stance) return std::nullopt;
   const bool same_plane = stance->at_vx == wanted_vx;

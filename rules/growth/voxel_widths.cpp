@@ -16,6 +16,7 @@ namespace {
 
 constexpr double kShortestSegment = 0.1, kLongestSegment = 60.0;
 constexpr double kFarthestTwist = 64.0;
+constexpr double kFarthestOff = 16.0;  // surfaces are looked for so far about each corner
 constexpr double kThinnestTwig = 1e-6, kThickestTwig = 100.0;  // thinner ones are none in single precision
 constexpr double kFarthestCorner = 1e5;  // as far as plain numbers reach: 1000 voxel widths, a hundredfold
 
@@ -189,6 +190,9 @@ std::string wrongWith(const RuleSet& rules, const std::string& at) {
         "first to be less than the second",
         min, max, at);
   }
+  if (rules.propagate == Propagate::diffusion)
+    wrong = within("diffusion.off", rules.diffusion.off, 0.0, kFarthestOff);
+  if (!wrong.empty()) return wrong;
   if (const Diffusion& d = rules.diffusion; d.gap_min.number > d.gap_max.number) {
     return fmt::format(
         "diffusion.gap.min is {:.3g} and diffusion.gap.max is {:.3g} voxel widths {}; expected the first to "

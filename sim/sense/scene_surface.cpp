@@ -121,6 +121,16 @@ void SceneSurface::list(std::uint32_t number, const std::array<Vec3, 3>& part) {
 
 std::optional<SceneSurface::Place> SceneSurface::nearest(Vec3 at_vx, double within_vx,
                                                          const Wanted& wanted) const {
+  // Mostly it is near, and of a fine mesh a wide search meets thousands.
+  constexpr double kFirst_vx = 1.0, kWider = 2.5;
+  for (double reach_vx = std::min(kFirst_vx, within_vx);; reach_vx = std::min(kWider * reach_vx, within_vx)) {
+    const auto place = nearestOf(at_vx, reach_vx, wanted);
+    if (place || !(reach_vx < within_vx)) return place;
+  }
+}
+
+std::optional<SceneSurface::Place> SceneSurface::nearestOf(Vec3 at_vx, double within_vx,
+                                                           const Wanted& wanted) const {
   const Voxel low = glm::clamp(cellOf(at_vx - within_vx), Voxel(0), cells_ - 1);
   const Voxel high = glm::clamp(cellOf(at_vx + within_vx), Voxel(0), cells_ - 1);
   std::optional<Place> best;

@@ -50,6 +50,7 @@ class SceneSurface {
   void trianglesIn(const LatticeBox& box, std::vector<std::uint32_t>& found) const;
 
  private:
+  std::optional<Place> nearestOf(Vec3 at_vx, double within_vx, const Wanted& wanted) const;
   void list(std::uint32_t number, const std::array<Vec3, 3>& part);
   std::uint64_t keyOf(Voxel cell) const;
 

@@ -32,6 +32,9 @@ void benchFront(int most_attractors, Report& report);
 /// The stems of a tree of some 100,000 nodes as a surface.
 void benchStems(Report& report);
 
+/// Paving floors of three sizes.
+void benchLaying(Report& report);
+
 /// A sky of at least so many directions, of equal weight for equal parts.
 sim::DirectionSet skyOf(int directions);
 

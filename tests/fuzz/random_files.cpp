@@ -42,6 +42,12 @@ const std::map<std::string, rules::Limits> kUsual = {
     {"elements[].per_segment", {0.0, 3.0}},
     {"elements[].size", {0.05, 1.6}},
     {"elements[].petiole", {0.0, 3.0}},
+    {"elements[].thick", {0.0, 0.6}},
+    {"elements[].share", {0.1, 4.0}},
+    {"diffusion.distance", {0.3, 8.0}},
+    {"diffusion.gap.min", {0.0, 2.0}},
+    {"diffusion.gap.max", {0.5, 30.0}},
+    {"diffusion.off", {0.1, 4.0}},
     {"elements[].phyllotaxis.spacing", {1.0, 8.0}},
     {"elements[].phyllotaxis.whorl", {1.0, 3.0}},
     {"world.layers", {0.0, 6.0}},
@@ -250,6 +256,10 @@ void RandomFiles::knowSpecials() {
   const bool lays = lays_;
   rule("propagate", [=] {
     return std::string(colonizes ? "colonization" : lays ? "diffusion" : "random_tree");
+  });
+  rule("diffusion.steps", [this] {
+    const auto step = [&] { return 3.0 * world_.voxel_m * numbers_.uniform(-1.0, 1.0); };
+    return fmt::format("[[{}, {}], [{}, {}], [{}, {}]]", step(), step(), step(), step(), step(), step());
   });
   // Nobody waits for more.
   rule("diffusion.rounds", [this] { return fmt::format("{}", numbers_.whole(1, 12)); });

@@ -16,7 +16,9 @@ void prepare(const std::shared_ptr<const rules::RuleSet>& rules) {
     try {
       const sim::Frame frame{sim::Vec3(0.0), voxel_m, {30, 30, 30}};
       rules::layersNeeded(*rules, voxel_m, 60.0);
-      require(rules::makeProcess(rules, frame) != nullptr, "no process");
+      const auto nothing = std::make_shared<const sim::SceneSurface>(
+          frame.size, std::vector<sim::SurfaceTriangle>(), std::vector<std::string>());
+      require(rules::makeProcess(rules, frame, nothing) != nullptr, "no process");
     } catch (const sim::InputError&) {
     }
   }

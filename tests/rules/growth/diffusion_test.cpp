@@ -385,6 +385,25 @@ TEST(Diffusion, SaysWhereASeedFindsNoSurface) {
   EXPECT_THROW(makeProcess(std::make_shared<const RuleSet>(rules), ground.world.frame()), sim::InputError);
 }
 
+TEST(Diffusion, HasLengthsThatSuitTheVoxels) {
+  Ground ground({sheet(2.0, 2.0)});
+  RuleSet rules = paving();
+  rules.diffusion.off = {1.0, true};
+  try {
+    ground.grow(rules, {{1.0, 0.1, 1.0}});
+    FAIL();
+  } catch (const sim::InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("diffusion.off is 25 voxel widths"), std::string::npos)
+        << error.what();
+  }
+  // Far beyond the world nothing lies, and to find that takes no time.
+  rules = tufts();
+  rules.diffusion.distance = Length{1000.0};
+  EXPECT_EQ(elementsOf(ground.grow(rules, {{1.0, 0.1, 1.0}}, 2)), 1u);
+  rules.elements.front().size = 900.0;
+  EXPECT_THROW(ground.grow(rules, {{1.0, 0.1, 1.0}}, 2), sim::InputError);
+}
+
 TEST(Diffusion, GrowsByTheRulesOfTheLight) {
   Ground ground({sheet(3.0, 3.0), box({-0.2, 0, 0}, {0, 2.0, 3.0}, "wall")});
   RuleSet rules = tufts();

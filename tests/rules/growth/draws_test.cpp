@@ -155,6 +155,7 @@ TEST(Draws, ARangeOfOneNumberIsThatNumber) {
     Datum changed = datum;
     if (auto* const value = std::get_if<Value>(&changed)) value->kind = Value::Kind::range;
     if (auto* const length = std::get_if<Length>(&changed)) length->value.kind = Value::Kind::range;
+    if (std::holds_alternative<std::monostate>(datum)) return;  // of those that may be missing
     ++values;
     key.set(object, changed);
     expectSame(before, grown(ranges).plants[0], path);

@@ -56,8 +56,8 @@ const std::vector<BadFile> kBadRules = {
      {"2:23: branches propagates otherwise than the rule set that it belongs to"}},
     {"unknown process",
      "propagate: random_trees\n",
-     {"2:12: propagate is 'random_trees'; expected one of random_tree, colonization; did you mean "
-      "'random_tree'?"}},
+     {"2:12: propagate is 'random_trees'; expected one of random_tree, colonization, diffusion; did "
+      "you mean 'random_tree'?"}},
     // numbers
     {"octal",
      "random_tree: {branch_angle: 010}\n",

@@ -60,20 +60,22 @@ TEST(SceneSurface, FindsTheNearestOfThoseThatAreWanted) {
   for (int run = 0; run < 300; ++run) {
     const Vec3 at = Vec3(even(random), even(random), even(random)) * Vec3(kSize) - 0.5;
     const double within = 6.0 * even(random);
-    double least = within;
+    double least = within, least_inside = within;
     for (const auto& t : surface.triangles()) {
       if (t.region != 1) continue;
-      // Of what lies outside of the world nobody asks.
       const Vec3 there = nearestOn(t.corners_vx, at);
+      least = std::min(least, glm::distance(there, at));
+      // What lies outside of the world may be found or not.
       if (glm::all(glm::greaterThanEqual(there, Vec3(-0.5))) &&
           glm::all(glm::lessThan(there, Vec3(kSize) - 0.5)))
-        least = std::min(least, glm::distance(there, at));
+        least_inside = std::min(least_inside, glm::distance(there, at));
     }
     const auto place = surface.nearest(at, within, [](const auto& t) { return t.region == 1; });
-    EXPECT_EQ(place.has_value(), least < within) << run;
+    EXPECT_TRUE(place || !(least_inside < within)) << run;
     if (!place) continue;
-    ++found;
-    EXPECT_DOUBLE_EQ(glm::distance(place->at_vx, at), least);
+    found += least == least_inside ? 1 : 0;
+    EXPECT_GE(glm::distance(place->at_vx, at), least);
+    EXPECT_LE(glm::distance(place->at_vx, at), least_inside);
     EXPECT_EQ(surface.triangles()[place->triangle].region, 1u);
   }
   EXPECT_GT(found, 50);

@@ -48,8 +48,8 @@ small $work/paving/vines.png paving 900
 small $work/cottage/vines.png cottage 960
 small $work/courtyard/contact_sheet.png courtyard_panels 1100
 if command -v blender >/dev/null; then  # the one picture that another program draws
-  ${ESPALIER:-./run espalier} grow scenes/library/garden_wall.yaml --diced first_pass --obj --no-pictures --quiet -o $work/diced
-  blender -b -P docs/draw_diced.py -- $work/diced/diced.obj "$PWD/$work/diced/blender.png" 4.0 2.7 7.6 -0.5 1.66 -0.3 37
+  ${ESPALIER:-./run espalier} grow scenes/library/courtyard.yaml --diced first_pass --obj --no-pictures --quiet -o $work/diced
+  blender -b -P docs/draw_diced.py -- $work/diced/diced.obj "$PWD/$work/diced/blender.png" 4.3 5.8 8.3 -0.1 0.85 -0.2 29
   small $work/diced/blender.png diced 780
 fi
 

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <map>
-#include <numbers>
+#include <tuple>
+#include <utility>
 
 #include "sim/base/random.h"
 #include "sim/tile/clip.h"
@@ -72,27 +72,34 @@ bool Ground::goesOn(const Triangle& triangle, const Stance& from) const {
 
 /// Edges of what bears beyond which it does not go on.
 void Ground::findBorders() {
-  using Corner = std::array<double, 3>;
-  std::map<std::array<Corner, 2>, std::vector<std::pair<std::uint32_t, std::size_t>>> edges;
+  struct Edge {
+    std::array<double, 6> ends;  // the lower one first: the same from both sides
+    std::uint32_t triangle = 0, number = 0;
+  };
   const auto& triangles = surface_->triangles();
-  const auto corner = [](sim::Vec3 p) { return Corner{p.x, p.y, p.z}; };
+  std::vector<Edge> edges;
   for (std::uint32_t t = 0; t < triangles.size(); ++t) {
     if (!bears_[triangles[t].region]) continue;
-    for (std::size_t i = 0; i < 3; ++i) {
-      std::array<Corner, 2> ends{corner(triangles[t].corners_vx[i]),
-                                 corner(triangles[t].corners_vx[(i + 1) % 3])};
-      std::sort(ends.begin(), ends.end());
-      edges[ends].emplace_back(t, i);
+    for (std::uint32_t i = 0; i < 3; ++i) {
+      sim::Vec3 p = triangles[t].corners_vx[i], q = triangles[t].corners_vx[(i + 1) % 3];
+      if (std::tie(q.x, q.y, q.z) < std::tie(p.x, p.y, p.z)) std::swap(p, q);
+      edges.push_back({{p.x, p.y, p.z, q.x, q.y, q.z}, t, i});
     }
   }
-  for (const auto& [ends, sides] : edges) {
-    for (const auto& [t, i] : sides) {
-      const bool joined = std::any_of(sides.begin(), sides.end(), [&](const auto& other) {
-        return other.first != t &&
-               std::abs(glm::dot(triangles[other.first].normal, triangles[t].normal)) >= cos_bend_ - kFlat;
+  std::sort(edges.begin(), edges.end(), [](const Edge& a, const Edge& b) {
+    return std::tie(a.ends, a.triangle, a.number) < std::tie(b.ends, b.triangle, b.number);
+  });
+  for (auto first = edges.begin(); first != edges.end();) {
+    const auto last = std::find_if(first, edges.end(), [&](const Edge& e) { return e.ends != first->ends; });
+    for (auto side = first; side != last; ++side) {
+      const sim::Vec3 normal = triangles[side->triangle].normal;
+      const bool joined = std::any_of(first, last, [&](const Edge& other) {
+        return other.triangle != side->triangle &&
+               std::abs(glm::dot(triangles[other.triangle].normal, normal)) >= cos_bend_ - kFlat;
       });
-      if (!joined) addBorder(t, i);
+      if (!joined) addBorder(side->triangle, side->number);
     }
+    first = last;
   }
 }
 

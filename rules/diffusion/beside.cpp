@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <limits>
 
 namespace espalier::rules {
 namespace {
@@ -60,7 +61,7 @@ std::vector<std::size_t> distinctEdges(const Outline& outline) {
 }
 
 std::vector<Laid> placesBeside(const Outline& parent, const Outline& own, std::span<const std::size_t> edges,
-                               double gap, std::span<const Outline> others) {
+                               double gap, std::span<const Outline> others, Point askew) {
   std::vector<Laid> places;
   if (parent.size() < 3 || own.size() < 3) return places;
   const double slack = slackOf(own);
@@ -75,10 +76,22 @@ std::vector<Laid> placesBeside(const Outline& parent, const Outline& own, std::s
     const Point way = (to - from) / length, out(way.y, -way.x);
     for (const std::size_t f : edges) {
       const Point mine = own[(f + 1) % own.size()] - own[f];
-      const double my_length = glm::length(mine);
-      const Point turn = turnTo(mine / my_length, -way);
+      const Point flush = turnTo(mine / glm::length(mine), -way);
+      const Point turn(flush.x * askew.x - flush.y * askew.y, flush.y * askew.x + flush.x * askew.y);
       const Outline turned = moved(own, turn, Point(0.0));
-      const Point by = to + gap * out - turned[f];  // its edge begins where the other ends
+      // What is widened touches the other's edge, so that a corner that points there has its room too.
+      const Outline turned_wide = moved(wide, turn, Point(0.0));
+      double near = std::numeric_limits<double>::infinity(), near_wide = near, low = near, high = -near;
+      for (const Point p : turned_wide) near_wide = std::min(near_wide, glm::dot(p, out));
+      for (const Point p : turned) near = std::min(near, glm::dot(p, out));
+      for (const Point p : turned) {  // its edge there, or its corner
+        if (glm::dot(p, out) > near + 10.0 * slack) continue;
+        low = std::min(low, glm::dot(p, way));
+        high = std::max(high, glm::dot(p, way));
+      }
+      const double rim_at = glm::dot(to, out) + (gap > 0.0 ? slack : 0.0);
+      const Point by = (rim_at - near_wide) * out + (glm::dot(to, way) - high) * way;
+      const double my_length = high - low;
       const double shared = kLeastShare * std::min(length, my_length);
       const double first = shared - length, last = my_length - shared;
       const Outline moving = moved(wide, turn, by);

@@ -1,5 +1,7 @@
 #include "rules/growth/laid_pose.h"
 
+#include <algorithm>
+
 #include "sim/base/random.h"
 
 namespace espalier::rules {
@@ -49,6 +51,19 @@ void poseOn(const Stance& stance, Pose pose, sim::Vec3 light, Tilt tilt, sim::Pl
   element.z = leaning(element.z);
   element.z = glm::normalize(element.z - glm::dot(element.z, element.y) * element.y);
   element.x = glm::cross(element.y, element.z);
+}
+
+void liftOnto(const Stance& stance, const Element& rule, sim::PlacedElement& element) {
+  constexpr double kHair_vx = 0.03;  // or a leaf would lie in the very plane of the ground
+  double lowest = kNoLimit;
+  for (const auto& polygon : rule.polygons) {
+    for (const sim::Vec3 corner : polygon)
+      lowest = std::min(lowest, glm::dot(sim::placed(element, corner) - stance.at_vx, stance.normal));
+  }
+  if (!(lowest < kNoLimit)) return;
+  const double lift = (rule.body ? 0.0 : kHair_vx) - lowest;
+  // What is modelled above its foot, as a shingle's lower end, stays there.
+  if (lift > 0.0) element.position_vx += lift * stance.normal;
 }
 
 }  // namespace espalier::rules

@@ -14,4 +14,8 @@ struct Tilt {
 /// goes; then all of it leans. `light`: unit, towards the brightest part of the sky; zero where none is seen.
 void poseOn(const Stance& stance, Pose pose, sim::Vec3 light, Tilt tilt, sim::PlacedElement& element);
 
+/// Lifts what lies flat out of its surface: its lowest corner comes to lie on it, of what is no body a hair
+/// above.
+void liftOnto(const Stance& stance, const Element& rule, sim::PlacedElement& element);
+
 }  // namespace espalier::rules

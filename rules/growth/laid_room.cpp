@@ -29,12 +29,9 @@ Outline Scaled::outline() const {
   return scaled;
 }
 
-void LaidRoom::look(glm::dvec2 about, double reach_vx, double low_vx, double high_vx) {
-  about_ = about;
+void LaidRoom::look(const Stance& here, double reach_vx, double low_vx, double high_vx) {
   outlines_.clear();
   neighbours_.clear();
-  Stance here = site_.stance;
-  here.at_vx = site_.stance.placed(about);
   thread_local std::vector<sim::NumberedElement> found;
   view_.pieces.elementsIn(boxAbout(here, reach_vx, 0.5 * reach_vx + 1.0), found);
   const int first = sim::numberOf(view_.world, view_.stand.front());
@@ -49,7 +46,7 @@ void LaidRoom::look(glm::dvec2 about, double reach_vx, double low_vx, double hig
 }
 
 std::optional<Outcome> LaidRoom::hinders(const Scaled& element, const LaidWay& way, bool seed) const {
-  const Outline own = moved(element.outline(), way.turn, way.by - about_);
+  const Outline own = moved(element.outline(), way.turn, way.by);
   const double slack = slackOf(element), gap = diffusion_.gap_min.number;
   const bool neighbour_wanted = !seed && diffusion_.gap_max.number < kNoLimit;
   double nearest = kNoLimit;

@@ -41,14 +41,14 @@ class LaidRoom {
   LaidRoom(const sim::SiteView& view, const LayingSite& site, const Diffusion& diffusion)
       : view_(view), site_(site), diffusion_(diffusion) {}
 
-  /// Sees neighbours and obstacles within reach of a place in the site's plane from above it; of surfaces
-  /// that do not go on from the site those that rise into the layer from `low_vx` to `high_vx` above that
-  /// plane.
-  void look(glm::dvec2 about, double reach_vx, double low_vx, double high_vx);
-  /// Neighbours, then obstacles, about that place.
+  /// Sees neighbours and obstacles within reach of a stance from above it; of surfaces that do not go on from
+  /// there those that rise into the layer from `low_vx` to `high_vx` above its plane.
+  void look(const Stance& here, double reach_vx, double low_vx, double high_vx);
+  /// Neighbours, then obstacles, about that stance.
   const std::vector<Outline>& outlines() const { return outlines_; }
 
-  /// Why an element cannot lie there for its neighbours' or obstacles' sake; a seed's needs no neighbour.
+  /// Why an element cannot lie in the plane of that stance for its neighbours' or obstacles' sake; a seed's
+  /// needs no neighbour.
   std::optional<sim::Outcome> hinders(const Scaled& element, const LaidWay& way, bool seed) const;
   /// Where it comes to lie on the surface; nothing where that is not there, or bends away beneath it. `up`:
   /// its +y goes up the slope before it is turned.
@@ -66,7 +66,6 @@ class LaidRoom {
   const sim::SiteView& view_;
   const LayingSite& site_;
   const Diffusion& diffusion_;
-  glm::dvec2 about_{0.0};
   std::vector<Outline> outlines_;
   std::vector<const sim::PlacedElement*> neighbours_;
 };

@@ -69,7 +69,7 @@ class Layer {
     if (diffusion_.around != Around::edges || !kind.flat || site_.beside == nullptr ||
         !site_.beside_kind->flat)
       return layByChance(shape, kind, item);
-    if (!looked_) room_.look(glm::dvec2(0.0), farthest() + radius_ + nearby_vx(), low_vx_, high_vx_);
+    if (!looked_) room_.look(site_.stance, farthest() + radius_ + nearby_vx(), low_vx_, high_vx_);
     looked_ = true;
     const double scale =
         evaluate(kind.rule->size, senses_.circumstance, slots.uniform(kSize)) * senses_.vigour;
@@ -117,18 +117,34 @@ class Layer {
                : diffusion_.gap_min.number;
   }
 
+  /// What has sides in one plane crosses there: without a gap tiles would be their own neighbours' hindrance.
+  double gapOfEdges() const {
+    constexpr double kHair_vx = 1.0 / 1024.0;
+    return std::max(diffusion_.gap_min.number, kHair_vx);
+  }
+
+  Tilt tiltOf(sim::Slots& slots) const {
+    const double most_deg = evaluate(diffusion_.tilt_deg, senses_.circumstance, slots.uniform(kTiltMost));
+    return {most_deg * slots.uniform(kTilt), slots.uniform(kTiltSide)};
+  }
+
+  /// What finds no place at its seed is tried farther and farther from it.
+  glm::dvec2 aboutSeed(const LaidKind& kind, double scale, int trial, sim::Slots& slots) const {
+    constexpr double kFarthest = 3.0;  // times how far it reaches itself
+    const double far = kFarthest * kind.reach * scale * trial / kind.rule->trials;
+    return far * sim::unitCircle(slots.uniform(kSide));
+  }
+
   std::optional<sim::ProposedElement> layBeside(std::int32_t shape, const LaidKind& kind, double scale,
                                                 sim::Slots& slots) {
     Outline own = kind.outline;
     for (glm::dvec2& corner : own) corner *= scale;
     const Outline parent = outlineAbout(site_.stance, *site_.beside, *site_.beside_kind);
-    // A turn takes room about what is laid askew.
     const double most_deg = evaluate(diffusion_.turn_deg, senses_.circumstance, slots.uniform(kTurnMost));
     const double askew_deg = turnBy(most_deg, diffusion_.turn_step_deg, slots.uniform(kTurn));
-    const glm::dvec2 askew = sim::unitCircle(askew_deg / 360.0);
-    const double room = std::abs(askew.y) * kind.reach * scale;
-    std::vector<Laid> places =
-        placesBeside(parent, own, kind.edges, diffusion_.gap_min.number + room, room_.outlines());
+    const Tilt tilt = tiltOf(slots);
+    std::vector<Laid> places = placesBeside(parent, own, kind.edges, gapOfEdges(), room_.outlines(),
+                                            sim::unitCircle(askew_deg / 360.0));
     // What lies along most of its rim leaves the fewest holes; among equals chance decides.
     std::vector<std::pair<double, std::size_t>> order;
     for (std::size_t i = 0; i < places.size(); ++i) {
@@ -142,9 +158,7 @@ class Layer {
     if (order.empty()) ++proposal_.trials[static_cast<std::size_t>(Outcome::blocked)];
     // A plane's own +y is the outline's +y.
     for (const auto& [rank, i] : order) {
-      const glm::dvec2 t = places[i].turn;
-      const LaidWay way{places[i].by, {t.x * askew.x - t.y * askew.y, t.y * askew.x + t.x * askew.y}};
-      if (auto laid = tryAt(shape, kind, scale, way, {})) return laid;
+      if (auto laid = tryAt(shape, kind, scale, {places[i].by, places[i].turn}, tilt, true)) return laid;
     }
     return std::nullopt;
   }
@@ -163,12 +177,10 @@ class Layer {
           evaluate(kind.rule->size, senses_.circumstance, slots.uniform(kSize)) * senses_.vigour;
       const double most_deg = evaluate(diffusion_.turn_deg, senses_.circumstance, slots.uniform(kTurnMost));
       const double turn_deg = turnBy(most_deg, diffusion_.turn_step_deg, slots.uniform(kTurn));
-      const LaidWay way{site_.beside == nullptr ? glm::dvec2(0.0) : offset(slots, item, trial),
-                        sim::unitCircle(turn_deg / 360.0)};
-      room_.look(way.by, nearby_vx() + (kind.flat ? kind.reach * scale : 0.0) + off_foot_ + kOnePlace_vx,
-                 low_vx_, high_vx_);
-      const double tilt_deg = evaluate(diffusion_.tilt_deg, senses_.circumstance, slots.uniform(kTiltMost));
-      auto laid = tryAt(shape, kind, scale, way, {tilt_deg * slots.uniform(kTilt), slots.uniform(kTiltSide)});
+      const LaidWay way{
+          site_.beside == nullptr ? aboutSeed(kind, scale, trial, slots) : offset(slots, item, trial),
+          sim::unitCircle(turn_deg / 360.0)};
+      auto laid = tryAt(shape, kind, scale, way, tiltOf(slots), false);
       if (!laid || !judge) {
         if (laid) return laid;
         continue;
@@ -219,17 +231,24 @@ class Layer {
     return std::nullopt;
   }
 
+  /// `flush`: beside what was looked at from the site; else it is looked about where it would lie.
   std::optional<sim::ProposedElement> tryAt(std::int32_t shape, const LaidKind& kind, double scale,
-                                            const LaidWay& way, Tilt tilt) {
+                                            const LaidWay& way, Tilt tilt, bool flush) {
     const sim::Vec3 wanted_vx = site_.stance.placed(way.by);
     const bool seed = site_.beside == nullptr;
     const Scaled scaled{kind, scale};
     // Neighbours first: most trials end by them.
-    if (const auto hindered = room_.hinders(scaled, way, seed)) return count(*hindered, wanted_vx);
-    const bool along_neighbour = diffusion_.around == Around::edges && kind.flat;
-    const auto stance = room_.settle(scaled, way, diffusion_.ahead == Ahead::up && !along_neighbour);
+    if (flush) {
+      if (const auto hindered = room_.hinders(scaled, way, seed)) return count(*hindered, wanted_vx);
+    }
+    const auto stance = room_.settle(scaled, way, diffusion_.ahead == Ahead::up && !flush);
     if (!stance) return count(Outcome::too_far, wanted_vx);
-    if (!room_.keepsApart(scaled, *stance, stance->at_vx == wanted_vx))
+    if (!flush) {
+      room_.look(*stance, nearby_vx() + (kind.flat ? kind.reach * scale : 0.0) + off_foot_ + kOnePlace_vx,
+                 low_vx_, high_vx_);
+      if (const auto hindered = room_.hinders(scaled, {}, seed)) return count(*hindered, stance->at_vx);
+    }
+    if (!room_.keepsApart(scaled, *stance, !flush || stance->at_vx == wanted_vx))
       return count(Outcome::blocked, wanted_vx);
     sim::ProposedElement laid;
     laid.element.shape = shape;
@@ -237,6 +256,7 @@ class Layer {
     laid.element.scale = scale;
     laid.element.exposure = static_cast<float>(senses_.exposure);
     poseOn(*stance, kind.rule->pose, senses_.light, tilt, laid.element);
+    if (kind.flat) liftOnto(*stance, *kind.rule, laid.element);
     return room_.fits(laid, *stance) ? count(laid) : count(Outcome::blocked, stance->at_vx);
   }
 

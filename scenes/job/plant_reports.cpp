@@ -43,7 +43,7 @@ std::vector<Report::Growth::Attractors> attractorReports(const Scene& scene, con
 }
 
 Report::Growth::Laid laidReport(const PlantSpec& spec, std::span<const sim::Plant> plants,
-                                const sim::Columns& memory,
+                                std::span<const sim::Tally> tallies, const sim::Columns& memory,
                                 const std::shared_ptr<const sim::SceneSurface>& surface,
                                 const sim::World& world) {
   Report::Growth::Laid laid;
@@ -52,6 +52,9 @@ Report::Growth::Laid laidReport(const PlantSpec& spec, std::span<const sim::Plan
   laid.asked_fill = spec.rules->diffusion.fill;
   laid.measure = rules::measureLaid(spec.rules, plants, surface, world);
   laid.waiting = rules::countLaying(memory);
+  for (const sim::Tally& tally : tallies) {
+    for (std::size_t i = 0; i < laid.ends.size(); ++i) laid.ends[i] += tally.sites[i];
+  }
   return laid;
 }
 
@@ -100,6 +103,7 @@ Report::Growth growthReport(const Scene& scene, const Site& site, const sim::Bit
     if (lays(spec)) {
       if (!surface) surface = sim::surfaceOf(site.world.frame(), site.meshes);
       report.laid.push_back(laidReport(spec, std::span(growth.plants).subspan(first, count),
+                                       std::span(growth.tallies).subspan(first, count),
                                        growth.stands[i].memory, surface, grown));
     }
     if (!spec.skeleton) continue;

@@ -65,7 +65,8 @@ struct Report {
       std::size_t elements = 0;
       double asked_fill = 1.0;
       rules::LaidMeasure measure;
-      std::size_t waiting = 0;  ///< sites that could still lay something
+      std::size_t waiting = 0;    ///< sites that could still lay something
+      sim::OutcomeCounts ends{};  ///< what became of its sites
     };
     std::vector<Laid> laid;
     std::uint64_t state_hash = 0;

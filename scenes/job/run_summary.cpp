@@ -16,6 +16,27 @@ std::string areaText(double area_m2) {
   return fmt::format("{:.3g} cm\u00b2", 1e4 * area_m2);
 }
 
+/// Why diffusion laid no more.
+std::string whyNoMore(const Report::Growth::Laid& laid) {
+  if (laid.waiting > 0) {
+    return fmt::format(
+        "the iterations ended while more could be laid beside {} of them; expected more "
+        "iterations, or rounds",
+        laid.waiting);
+  }
+  const std::uint64_t dark = sim::timesOf(laid.ends, sim::Outcome::too_dark),
+                      bright = sim::timesOf(laid.ends, sim::Outcome::too_bright),
+                      unmet = sim::timesOf(laid.ends, sim::Outcome::unmet),
+                      full = sim::timesOf(laid.ends, sim::Outcome::no_trial);
+  const std::string places =
+      "expected smaller elements among them, a smaller gap, more trials, or seeds in every part";
+  if (dark + bright + unmet == 0) return "nothing more found a place; " + places;
+  return fmt::format(
+      "of the places beside what lies there {} were too dark, {} too bright, {} not of the age or senses "
+      "that are required, and at {} nothing found room; expected another require, or seeds elsewhere",
+      dark, bright, unmet, full);
+}
+
 /// What diffusion has laid, and why no more where more was asked.
 std::string laidText(const Report::Growth::Laid& laid, double voxel_m) {
   const rules::LaidMeasure& measure = laid.measure;
@@ -31,16 +52,8 @@ std::string laidText(const Report::Growth::Laid& laid, double voxel_m) {
   }
   text += "\n";
   if (laid.elements == 0 || laid.asked_fill == 1.0 || share >= laid.asked_fill - 0.005) return text;
-  text += fmt::format(
-      "note: fill asks for {:.1f} % of it: {}\n", 100.0 * laid.asked_fill,
-      laid.waiting > 0
-          ? fmt::format("the iterations ended while more could be laid beside {} of them; expected more "
-                        "iterations, or rounds",
-                        laid.waiting)
-          : "nothing more found a place; expected smaller elements among them, a smaller gap, more trials, "
-            "or "
-            "seeds in every part");
-  return text;
+  return text +
+         fmt::format("note: fill asks for {:.1f} % of it: {}\n", 100.0 * laid.asked_fill, whyNoMore(laid));
 }
 
 /// Why buds ended, and which seeds never grew: what somebody who wonders about a thin plant wants to know.

@@ -56,7 +56,15 @@ SceneSurface::SceneSurface(Voxel size, const std::vector<SurfaceTriangle>& trian
     triangles_.push_back({triangle.corners_vx, normal / length, triangle.region});
     const std::size_t before = listed_.size();
     list(static_cast<std::uint32_t>(triangles_.size() - 1), triangle.corners_vx);
-    if (listed_.size() == before) triangles_.pop_back();
+    if (listed_.size() == before) {
+      triangles_.pop_back();
+      continue;
+    }
+    Ball ball{(triangle.corners_vx[0] + triangle.corners_vx[1] + triangle.corners_vx[2]) / 3.0};
+    for (const Vec3 corner : triangle.corners_vx)
+      ball.radius_vx = std::max(ball.radius_vx, glm::distance(corner, ball.middle_vx));
+    ball.radius_vx *= 1.0 + 1e-9;
+    balls_.push_back(ball);
   }
   std::sort(listed_.begin(), listed_.end());
   listed_.erase(std::unique(listed_.begin(), listed_.end()), listed_.end());
@@ -142,6 +150,8 @@ std::optional<SceneSurface::Place> SceneSurface::nearestOf(Vec3 at_vx, double wi
         if (cell == in_cell_.end()) continue;
         for (std::uint32_t i = cell->second.first; i < cell->second.second; ++i) {
           const std::uint32_t number = listed_[i].second;
+          const Ball& ball = balls_[number];
+          if (glm::distance(ball.middle_vx, at_vx) - ball.radius_vx > far) continue;
           const Triangle& triangle = triangles_[number];
           if (!wanted(triangle)) continue;
           const Vec3 there = nearestOn(triangle.corners_vx, at_vx);

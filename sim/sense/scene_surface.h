@@ -55,7 +55,13 @@ class SceneSurface {
   std::uint64_t keyOf(Voxel cell) const;
 
   Voxel cells_;
+  struct Ball {
+    Vec3 middle_vx{0.0};
+    double radius_vx = 0.0;
+  };
+
   std::vector<Triangle> triangles_;
+  std::vector<Ball> balls_;  // that hold them
   std::vector<std::string> regions_;
   std::vector<std::pair<std::uint64_t, std::uint32_t>> listed_;  // cell and triangle, sorted
   std::unordered_map<std::uint64_t, std::pair<std::uint32_t, std::uint32_t>> in_cell_;  // from, to in listed_

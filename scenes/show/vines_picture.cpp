@@ -3,7 +3,6 @@
 #include <algorithm>
 
 #include "render/finish/finished_picture.h"
-#include "scenes/show/bit_sets.h"
 #include "scenes/show/model_parts.h"
 
 namespace espalier::scenes {

@@ -5,11 +5,20 @@
 
 #include "render/image/tone.h"
 #include "render/voxels/panels.h"
-#include "scenes/show/bit_sets.h"
 #include "sim/base/faces.h"
-#include "sim/base/nearest.h"
+#include "sim/sense/nearest_voxel.h"
 
 namespace espalier::scenes {
+namespace {
+
+/// What is set in the first alone.
+sim::BitVolume without(sim::BitVolume set, const sim::BitVolume& other) {
+  set.remove(other);
+  return set;
+}
+
+}  // namespace
+
 VoxelColours::VoxelColours(const sim::World& world, const sim::BitVolume& bare, const sim::Lighting& light,
                            ImageKind kind, sim::Vec3 to_sun)
     : world_(world),
@@ -24,7 +33,10 @@ VoxelColours::VoxelColours(const sim::World& world, const sim::BitVolume& bare, 
   if (kind == ImageKind::surface_colour) return;
   sim::BitVolume lit = light.where->bits();
   lit.add(light.gaps->bits());
-  for (Kind& one : kinds_) one.lit = both(one.occupied, lit);
+  for (Kind& one : kinds_) {
+    one.lit = one.occupied;
+    one.lit.keep(lit);
+  }
 }
 
 VoxelColours::Light VoxelColours::lightOf(sim::Voxel v) const {

@@ -27,4 +27,11 @@ void BitVolume::keep(const BitVolume& only) {
   });
 }
 
+void BitVolume::remove(const BitVolume& these) {
+  assert(these.size_ == size_);
+  parallelFor(words_.size(), [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) words_[i] &= ~these.words_[i];
+  });
+}
+
 }  // namespace espalier::sim

@@ -34,8 +34,9 @@ class BitVolume {
   void clear(Voxel v) { row(v.y, v.z)[v.x >> 6] &= ~(std::uint64_t{1} << (v.x & 63)); }
   /// Sets all that are set in a volume of the same size.
   void add(const BitVolume& more);
-  /// Clears all that are not set in a volume of the same size.
+  /// Clears all that are not set in a volume of the same size; or all that are.
   void keep(const BitVolume& only);
+  void remove(const BitVolume& these);
 
   /// The 64 voxels from one on along x, bit 0 being itself; zeros before the row and behind it. The row must
   /// lie inside, and x between -63 and the row's end.

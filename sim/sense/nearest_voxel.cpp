@@ -4,18 +4,22 @@
 #include <bit>
 #include <cmath>
 #include <cstdlib>
+#include <glm/common.hpp>
 
 namespace espalier::sim {
 namespace {
 
 constexpr int kBits = BitVolume::kWordBits;
 
-/// How far along a row the nearest set bit lies from x, if that is at most `reach`.
-std::optional<int> alongRow(const BitVolume& bits, int y, int z, int x, int reach) {
+/// Of a row the set bit that is nearest to x, if it is no farther than `reach`; of two the lower one.
+std::optional<int> inRow(const BitVolume& bits, int y, int z, int x, int reach) {
   const int low = std::max(0, x - reach), high = std::min(bits.size().x - 1, x + reach);
   if (low > high) return std::nullopt;
   const std::uint64_t* const row = bits.row(y, z);
   std::optional<int> nearest;
+  const auto consider = [&](int place) {
+    if (!nearest || std::abs(place - x) < std::abs(*nearest - x)) nearest = place;
+  };
   for (int w = low / kBits; w <= high / kBits; ++w) {
     std::uint64_t word = row[w];
     if (w == low / kBits) word &= ~std::uint64_t{0} << (low % kBits);
@@ -24,37 +28,41 @@ std::optional<int> alongRow(const BitVolume& bits, int y, int z, int x, int reac
     const int at = x - w * kBits;  // within the word, or before or behind it
     const std::uint64_t up_to = at < 0 ? 0 : at >= kBits - 1 ? word : word & ((std::uint64_t{2} << at) - 1);
     const std::uint64_t beyond = word & ~up_to;
-    if (up_to != 0) {
-      const int gap = at - (kBits - 1 - std::countl_zero(up_to));
-      nearest = std::min(nearest.value_or(gap), gap);
-    }
-    if (beyond != 0) {
-      const int gap = std::countr_zero(beyond) - at;
-      nearest = std::min(nearest.value_or(gap), gap);
-    }
+    if (up_to != 0) consider(w * kBits + kBits - 1 - std::countl_zero(up_to));
+    if (beyond != 0) consider(w * kBits + std::countr_zero(beyond));
   }
   return nearest;
 }
 
-int rootOf(int square) {
-  int root = static_cast<int>(std::sqrt(static_cast<double>(square)));
+/// The greatest whole number whose square is no more, as far as any row goes.
+int rootOf(std::int64_t square) {
+  auto root = static_cast<std::int64_t>(std::sqrt(static_cast<double>(square)));
   while (root * root > square) --root;
   while ((root + 1) * (root + 1) <= square) ++root;
-  return root;
+  return static_cast<int>(root);
 }
 
 }  // namespace
 
-std::optional<double> distanceToNearest(const BitVolume& bits, Voxel from, int most) {
-  int best = most * most + 1;  // squared: less than this is wanted
+std::optional<Voxel> nearestSet(const BitVolume& bits, Voxel from, int most) {
+  std::int64_t best = std::int64_t{most} * most;  // squared: more than this is too far
+  std::optional<Voxel> found;
   const auto lookAt = [&](int y, int z) {
     if (y < 0 || z < 0 || y >= bits.size().y || z >= bits.size().z) return;
-    const int aside = (y - from.y) * (y - from.y) + (z - from.z) * (z - from.z);
-    if (aside >= best) return;
-    const auto gap = alongRow(bits, y, z, from.x, rootOf(best - 1 - aside));
-    if (gap) best = std::min(best, aside + *gap * *gap);
+    const std::int64_t dy = y - from.y, dz = z - from.z, aside = dy * dy + dz * dz;
+    if (aside > best) return;
+    const auto x = inRow(bits, y, z, from.x, rootOf(best - aside));
+    if (!x) return;
+    const std::int64_t dx = *x - from.x, square = aside + dx * dx;
+    const Voxel there(*x, y, z);
+    if (found && square == best && !beforeInRows(there, *found)) return;
+    best = square;
+    found = there;
   };
-  for (int ring = 0; ring * ring < best; ++ring) {
+  // No ring beyond this one has a row.
+  const Voxel far = glm::max(glm::abs(from), glm::abs(bits.size() - 1 - from));
+  const std::int64_t last = std::max(far.y, far.z);
+  for (int ring = 0; ring <= last && std::int64_t{ring} * ring <= best; ++ring) {
     for (int a = -ring; a <= ring; ++a) {
       lookAt(from.y - ring, from.z + a);
       if (ring > 0) lookAt(from.y + ring, from.z + a);
@@ -63,8 +71,12 @@ std::optional<double> distanceToNearest(const BitVolume& bits, Voxel from, int m
       lookAt(from.y + a, from.z + ring);
     }
   }
-  if (best > most * most) return std::nullopt;
-  return std::sqrt(static_cast<double>(best));
+  return found;
+}
+
+std::optional<double> distanceToNearest(const BitVolume& bits, Voxel from, int most) {
+  const auto nearest = nearestSet(bits, from, most);
+  return nearest ? std::optional(glm::length(Vec3(*nearest - from))) : std::nullopt;
 }
 
 }  // namespace espalier::sim

@@ -14,6 +14,16 @@ void add(Hasher& hash, const Columns& columns) {
   }
 }
 
+/// Of the elements that stand there: a thin one may have no voxel to tell of it.
+void addShapes(Hasher& hash, const Plant& plant) {
+  std::vector<bool> stands(plant.shapes.size(), false);
+  for (const PlacedElement& e : plant.elements) stands[static_cast<std::size_t>(e.shape)] = true;
+  for (std::size_t i = 0; i < plant.shapes.size(); ++i) {
+    if (!stands[i]) continue;
+    for (const auto& polygon : plant.shapes[i].polygons) hash.add(polygon);
+  }
+}
+
 }  // namespace
 
 std::uint64_t stateHash(const World& world, const Growth& growth) {
@@ -39,6 +49,7 @@ std::uint64_t stateHash(const World& world, const Growth& growth) {
       hash.add(e.exposure);
       hash.add(e.born);
     }
+    addShapes(hash, plant);
   }
   for (const Stand& stand : growth.stands) add(hash, stand.memory);
   for (const auto& [name, columns] : growth.commons) {

@@ -77,9 +77,7 @@ Triangles trianglesOf(const TiledMesh& tiled, const std::vector<Vec3>& vertices_
                       "larger voxels, a smaller mesh, or a surface that is not filled",
                       tiled.mesh.name, kFarthestCorner));
     } else {
-      CutPolygon polygon;
-      for (const Vec3& p : corners) polygon.add(p);
-      for (int axis = 0; axis < 3; ++axis) polygon = cutToSlab(polygon, axis, -2.0, size[axis] + 1.0);
+      const CutPolygon polygon = cutToBox(corners, Vec3(-2.0), Vec3(size) + 1.0);
       for (std::size_t i = 2; i < polygon.count; ++i)
         triangles.push_back({polygon.corner[0], polygon.corner[i - 1], polygon.corner[i]});
     }

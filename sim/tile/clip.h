@@ -1,5 +1,4 @@
 #pragma once
-// Internal to the room: convex polygons cut by axis-aligned planes (Sutherland and Hodgman 1974).
 #include <array>
 #include <cstddef>
 #include <glm/common.hpp>
@@ -7,6 +6,7 @@
 
 #include "sim/base/vec.h"
 
+/// Convex polygons cut by axis-aligned planes (Sutherland and Hodgman 1974).
 namespace espalier::sim {
 
 /// A triangle cut by up to six planes. A cut lengthens a polygon by half at the very most, however roundly
@@ -45,6 +45,14 @@ inline CutPolygon cut(const CutPolygon& polygon, int axis, double bound, double 
 
 inline CutPolygon cutToSlab(const CutPolygon& polygon, int axis, double low, double high) {
   return cut(cut(polygon, axis, low, 1.0), axis, high, -1.0);
+}
+
+/// A triangle's part in a box, bounds included.
+inline CutPolygon cutToBox(const std::array<Vec3, 3>& triangle, Vec3 low, Vec3 high) {
+  CutPolygon part;
+  for (const Vec3 corner : triangle) part.add(corner);
+  for (int axis = 0; axis < 3; ++axis) part = cutToSlab(part, axis, low[axis], high[axis]);
+  return part;
 }
 
 }  // namespace espalier::sim

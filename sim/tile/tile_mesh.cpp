@@ -87,9 +87,7 @@ class Tiler {
 
   /// A triangle too large for fixed point is cut to the world first.
   void addVast(const std::array<Vec3, 3>& t, std::uint32_t triangle, std::vector<Share>& shares) {
-    CutPolygon polygon;
-    for (const Vec3& p : t) polygon.add(p);
-    for (int axis = 0; axis < 3; ++axis) polygon = cutToSlab(polygon, axis, -2.0, size_[axis] + 1.0);
+    const CutPolygon polygon = cutToBox(t, Vec3(-2.0), Vec3(size_) + 1.0);
     for (std::size_t i = 2; i < polygon.count; ++i) {
       addWithinReach({polygon.corner[0], polygon.corner[i - 1], polygon.corner[i]}, triangle, shares);
     }

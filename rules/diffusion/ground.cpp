@@ -16,9 +16,15 @@ using Triangle = sim::SceneSurface::Triangle;
 
 constexpr double kFlat = 1e-6;  // how far unit normals of one plane may differ
 constexpr double kInPlane_vx = 1e-4;
+constexpr double kLattice_vx = 16'000.0;  // as far as the lattice goes; no world is wider
+constexpr double kNearWorld_vx = 8.0;
 
 sim::Vec3 placeOf(sim::LatticePoint p) {
   return sim::Vec3(p) / static_cast<double>(sim::kFixedOne);
+}
+
+bool onLattice(sim::Vec3 p_vx) {
+  return glm::all(glm::lessThan(glm::abs(p_vx), sim::Vec3(kLattice_vx)));
 }
 
 /// A place in (x, y, height) about a stance.
@@ -27,13 +33,30 @@ sim::Vec3 aboutStance(const Stance& stance, sim::Vec3 p_vx) {
   return {flat.x, flat.y, glm::dot(p_vx - stance.at_vx, stance.normal)};
 }
 
+/// Leaves of a line what lies in a box; false where nothing does.
+bool cutLineToBox(sim::Vec3& from, sim::Vec3& to, sim::Vec3 low, sim::Vec3 high) {
+  double begins = 0.0, ends = 1.0;
+  const sim::Vec3 way = to - from;
+  for (int axis = 0; axis < 3; ++axis) {
+    if (way[axis] == 0.0 && (from[axis] < low[axis] || from[axis] > high[axis])) return false;
+    if (way[axis] == 0.0) continue;
+    const double a = (low[axis] - from[axis]) / way[axis], b = (high[axis] - from[axis]) / way[axis];
+    begins = std::max(begins, std::min(a, b));
+    ends = std::min(ends, std::max(a, b));
+  }
+  if (!(begins < ends)) return false;
+  to = from + ends * way;
+  from += begins * way;
+  return true;
+}
+
 }  // namespace
 
 sim::LatticeBox boxAbout(const Stance& stance, double reach_vx, double high_vx) {
   const sim::Vec3 n = stance.normal;
   const sim::Vec3 reach =
       reach_vx * glm::sqrt(glm::max(sim::Vec3(0.0), 1.0 - n * n)) + high_vx * glm::abs(n) + 1e-3;
-  const sim::Vec3 most(16'000.0);  // as far as the lattice goes; no world is wider
+  const sim::Vec3 most(kLattice_vx);
   return {sim::latticePoint(glm::clamp(stance.at_vx - reach, -most, most)),
           sim::latticePoint(glm::clamp(stance.at_vx + reach, -most, most))};
 }
@@ -60,7 +83,10 @@ Stance turned(const Stance& stance, glm::dvec2 turn) {
 
 Ground::Ground(std::shared_ptr<const sim::SceneSurface> surface,
                const std::function<bool(const std::string& region)>& bears, double bend_deg, sim::Voxel size)
-    : surface_(std::move(surface)), cos_bend_(sim::unitCircle(bend_deg / 360.0).x), borders_(size) {
+    : surface_(std::move(surface)),
+      cos_bend_(sim::unitCircle(bend_deg / 360.0).x),
+      world_size_(size),
+      borders_(size) {
   for (const std::string& region : surface_->regions()) bears_.push_back(bears(region));
   findBorders();
 }
@@ -106,7 +132,10 @@ void Ground::findBorders() {
 /// Where another triangle's edges meet this one elsewhere than at its ends, parts of it may be no border.
 void Ground::addBorder(std::uint32_t number, std::size_t edge) {
   const Triangle& triangle = surface_->triangles()[number];
-  const sim::Vec3 from = triangle.corners_vx[edge], to = triangle.corners_vx[(edge + 1) % 3];
+  // As far as it comes near to the world.
+  const sim::Vec3 margin(kNearWorld_vx);
+  sim::Vec3 from = triangle.corners_vx[edge], to = triangle.corners_vx[(edge + 1) % 3];
+  if (!cutLineToBox(from, to, -margin, sim::Vec3(world_size_) + margin)) return;
   const double length = glm::distance(from, to);
   constexpr double kPart_vx = 1.0;
   constexpr double kBeside_vx = 0.05;
@@ -124,11 +153,8 @@ void Ground::addBorder(std::uint32_t number, std::size_t edge) {
     if (!ends && !begun) begins = at;
     begun = begun || !ends;
     if (!ends || !begun) continue;
-    constexpr double kReach_vx = 16'383.0;
-    if (glm::all(glm::lessThan(glm::abs(begins), sim::Vec3(kReach_vx))) &&
-        glm::all(glm::lessThan(glm::abs(at), sim::Vec3(kReach_vx))))
-      borders_.add(
-          sim::Limb{sim::latticePoint(begins), sim::latticePoint(at), 1, static_cast<std::int32_t>(number)});
+    borders_.add(
+        sim::Limb{sim::latticePoint(begins), sim::latticePoint(at), 1, static_cast<std::int32_t>(number)});
     begun = false;
   }
 }
@@ -194,13 +220,13 @@ void Ground::obstaclesAbout(const Stance& stance, double reach_vx, double low_vx
   for (const std::uint32_t number : found) {
     const Triangle& triangle = surface_->triangles()[number];
     if (goesOn(triangle, stance)) continue;
-    sim::CutPolygon polygon;
-    for (const sim::Vec3 corner : triangle.corners_vx) polygon.add(aboutStance(stance, corner));
     // Sides of what bears hinder where they rise; where they go down the surface ends, or goes on.
     constexpr double kRises_vx = 0.02;
     const double low = bears_[triangle.region] ? std::max(low_vx, kRises_vx) : low_vx;
-    polygon = sim::cutToSlab(polygon, 2, low, high_vx);
-    for (const int axis : {0, 1}) polygon = sim::cutToSlab(polygon, axis, -reach_vx, reach_vx);
+    const auto& c = triangle.corners_vx;
+    const sim::CutPolygon polygon =
+        sim::cutToBox({aboutStance(stance, c[0]), aboutStance(stance, c[1]), aboutStance(stance, c[2])},
+                      {-reach_vx, -reach_vx, low}, {reach_vx, reach_vx, high_vx});
     if (polygon.count == 0) continue;
     std::vector<glm::dvec2> points;
     for (std::size_t i = 0; i < polygon.count; ++i) points.emplace_back(polygon.corner[i]);
@@ -221,23 +247,26 @@ void Ground::obstaclesAbout(const Stance& stance, double reach_vx, double low_vx
 bool Ground::clash(const Stance& stance, const sim::Facets& facets) const {
   thread_local std::vector<std::uint32_t> found;
   surface_->trianglesIn(facets.box, found);
-  for (const std::uint32_t number : found) {
-    const Triangle& triangle = surface_->triangles()[number];
-    if (goesOn(triangle, stance)) continue;
-    // The part within the element's box alone, or its corners might lie beyond the lattice.
-    constexpr double kReach_vx = 16'000.0;
-    const auto& c = triangle.corners_vx;
-    bool on_lattice = true;
-    for (const sim::Vec3 corner : c)
-      on_lattice = on_lattice && glm::all(glm::lessThan(glm::abs(corner), sim::Vec3(kReach_vx)));
-    if (!on_lattice) continue;
+  const auto crosses = [&](const std::array<sim::Vec3, 3>& c) {
     const sim::LatticeTriangle wall{sim::latticePoint(c[0]), sim::latticePoint(c[1]),
                                     sim::latticePoint(c[2])};
-    for (const sim::CornerNumbers& t : facets.shape->triangles) {
-      if (sim::cross(wall, {facets.corners[t[0]], facets.corners[t[1]], facets.corners[t[2]]})) return true;
+    return std::any_of(facets.shape->triangles.begin(), facets.shape->triangles.end(), [&](const auto& t) {
+      return sim::cross(wall, {facets.corners[t[0]], facets.corners[t[1]], facets.corners[t[2]]});
+    });
+  };
+  return std::any_of(found.begin(), found.end(), [&](std::uint32_t number) {
+    const Triangle& triangle = surface_->triangles()[number];
+    if (goesOn(triangle, stance)) return false;
+    const auto& corners = triangle.corners_vx;
+    if (std::all_of(corners.begin(), corners.end(), onLattice)) return crosses(corners);
+    // Of one that reaches beyond the lattice the part about the element.
+    const sim::CutPolygon part =
+        sim::cutToBox(corners, placeOf(facets.box.low) - 1.0, placeOf(facets.box.high) + 1.0);
+    for (std::size_t i = 2; i < part.count; ++i) {
+      if (crosses({part.corner[0], part.corner[i - 1], part.corner[i]})) return true;
     }
-  }
-  return false;
+    return false;
+  });
 }
 
 }  // namespace espalier::rules

@@ -62,6 +62,7 @@ class Ground {
   std::shared_ptr<const sim::SceneSurface> surface_;
   std::vector<bool> bears_;
   double cos_bend_;
+  sim::Voxel world_size_;
   sim::PieceGrid borders_;  ///< as limbs, each with the number of its triangle
 };
 

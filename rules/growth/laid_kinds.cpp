@@ -12,19 +12,17 @@ LaidKind kindOf(const Element& element) {
   kind.rule = &element;
   kind.flat = element.pose == Pose::surface;
   std::vector<glm::dvec2> points;
-  sim::Vec3 lowest(kNoLimit), highest(-kNoLimit);
+  double nearest = kNoLimit;
   for (const auto& polygon : element.polygons) {
     for (const sim::Vec3 corner : polygon) {
       points.emplace_back(corner);
-      lowest = glm::min(lowest, corner);
-      highest = glm::max(highest, corner);
+      nearest = std::min(nearest, glm::length(corner));
       kind.reach = std::max(kind.reach, glm::length(corner));
       kind.low = std::min(kind.low, corner.z);
       kind.high = std::max(kind.high, corner.z);
     }
   }
-  // Boxes of turned elements are no smaller.
-  if (!points.empty()) kind.off_foot = glm::length(glm::max(glm::max(lowest, -highest), sim::Vec3(0.0)));
+  if (!points.empty()) kind.off_foot = nearest;
   if (!kind.flat || points.empty()) return kind;
   kind.outline = hullOf(std::move(points));
   kind.edges = distinctEdges(kind.outline);
@@ -68,6 +66,25 @@ double widestBend(const RuleBook& book) {
   return widest;
 }
 
+double farthestFoot(const Diffusion& diffusion, double beside_vx, double own_vx) {
+  constexpr double kMostDeviations = 3.5 * 1.5;  // to each of two sides
+  const double far = highest(diffusion.far());
+  switch (diffusion.around) {
+    case Around::ring:
+      return far;
+    case Around::gaussian:
+      return kMostDeviations * far;
+    case Around::edges:
+      return std::max(far,
+                      beside_vx + diffusion.gap_min.number + own_vx);  // by chance beside what is not flat
+    case Around::steps:
+      break;
+  }
+  double step = 0.0;
+  for (const glm::dvec2 s : diffusion.steps) step = std::max(step, glm::length(s));
+  return step + kMostDeviations * far;
+}
+
 double mostReach(const RuleBook& book, const std::vector<LaidKind>& kinds) {
   double most = 0.0;
   forEachSet(book.top(), [&](const RuleSet& set, const std::string&) {
@@ -78,16 +95,7 @@ double mostReach(const RuleBook& book, const std::vector<LaidKind>& kinds) {
       radius = std::max(radius, kinds[first + i].reach * scale);
     }
     const Diffusion& d = set.diffusion;
-    constexpr double kMostDeviations = 3.5 * 1.5;  // to each of two sides
-    double far = highest(d.far());
-    if (d.around == Around::gaussian) far *= kMostDeviations;
-    if (d.around == Around::edges) far = 2.0 * radius + d.gap_min.number;
-    if (d.around == Around::steps) {
-      far *= kMostDeviations;
-      double step = 0.0;
-      for (const glm::dvec2 s : d.steps) step = std::max(step, glm::length(s));
-      far += step;
-    }
+    const double far = farthestFoot(d, radius, radius);
     most = std::max(most, far + radius + d.gap_min.number);
   });
   return most;

@@ -17,7 +17,7 @@ struct LaidKind {
   Outline outline{glm::dvec2(0.0)};
   std::vector<std::size_t> edges;  ///< distinctEdges of it
   double reach = 0.0;              ///< of its farthest corner from its foot
-  double off_foot = 0.0;           ///< from its foot to the box about its corners
+  double off_foot = 0.0;           ///< of its nearest corner from its foot
   double low = 0.0, high = 0.0;    ///< of what lies flat: from the surface
 };
 
@@ -32,6 +32,10 @@ Outline outlineAbout(const Stance& stance, const sim::PlacedElement& element, co
 
 /// The greatest diffusion.bend of a book's rule sets, degrees.
 double widestBend(const RuleBook& book);
+
+/// From the foot of what lies there to that of the next, at most: beside something that reaches so far, and
+/// of elements that do.
+double farthestFoot(const Diffusion& diffusion, double beside_vx, double own_vx);
 
 /// The farthest that any point of a new element may lie from the foot of the one beside it.
 double mostReach(const RuleBook& book, const std::vector<LaidKind>& kinds);

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "rules/growth/elements.h"
+#include "sim/base/random.h"
 #include "sim/grow/pieces.h"
 #include "sim/tile/tiling.h"
 
@@ -73,6 +74,9 @@ std::optional<Stance> LaidRoom::settle(const Scaled& element, const LaidWay& way
   const double within = std::min(0.5 * glm::length(way.by), kMostBend_vx) + diffusion_.off.number + 0.5;
   auto stance = site_.ground->goingOn(site_.stance, wanted_vx, within);
   if (!stance) return std::nullopt;
+  // The ground goes on as far as any set of the plant lets it.
+  const double cos_bend = sim::unitCircle(diffusion_.bend_deg / 360.0).x;
+  if (glm::dot(stance->normal, site_.stance.normal) < cos_bend - 1e-6) return std::nullopt;
   const bool same_plane = stance->at_vx == wanted_vx;
   if (up) *stance = facing(*stance, {0, 1, 0});
   *stance = turned(*stance, way.turn);

@@ -93,28 +93,13 @@ class Layer {
 
   /// From the one foot to the other, at most.
   double farthest() const {
-    constexpr double kMostDeviations = 3.5 * 1.5;
-    const double far = highest(diffusion_.far());
-    switch (diffusion_.around) {
-      case Around::ring:
-        return far;
-      case Around::gaussian:
-        return kMostDeviations * far;
-      case Around::edges:
-        return site_.beside_kind->reach * site_.beside->scale + diffusion_.gap_min.number + radius_;
-      case Around::steps:
-        break;
-    }
-    double step = 0.0;
-    for (const glm::dvec2 s : diffusion_.steps) step = std::max(step, glm::length(s));
-    return step + kMostDeviations * far;
+    const bool beside = site_.beside != nullptr;
+    return farthestFoot(diffusion_, beside ? site_.beside_kind->reach * site_.beside->scale : 0.0, radius_);
   }
 
   /// As far as neighbours are looked for.
   double nearby_vx() const {
-    return diffusion_.gap_max.number < kNoLimit
-               ? std::max(diffusion_.gap_max.number, diffusion_.gap_min.number)
-               : diffusion_.gap_min.number;
+    return diffusion_.gap_max.number < kNoLimit ? diffusion_.gap_max.number : diffusion_.gap_min.number;
   }
 
   /// What has sides in one plane crosses there: without a gap tiles would be their own neighbours' hindrance.
@@ -155,7 +140,7 @@ class Layer {
     std::sort(order.begin(), order.end());
     if (order.size() > static_cast<std::size_t>(kind.rule->trials))
       order.resize(static_cast<std::size_t>(kind.rule->trials));
-    if (order.empty()) ++proposal_.trials[static_cast<std::size_t>(Outcome::blocked)];
+    if (order.empty()) count(Outcome::blocked, site_.stance.at_vx);
     // A plane's own +y is the outline's +y.
     for (const auto& [rank, i] : order) {
       if (auto laid = tryAt(shape, kind, scale, {places[i].by, places[i].turn}, tilt, true)) return laid;
@@ -181,14 +166,13 @@ class Layer {
           site_.beside == nullptr ? aboutSeed(kind, scale, trial, slots) : offset(slots, item, trial),
           sim::unitCircle(turn_deg / 360.0)};
       auto laid = tryAt(shape, kind, scale, way, tiltOf(slots), false);
-      if (!laid || !judge) {
-        if (laid) return laid;
-        continue;
-      }
+      if (!laid) continue;
+      if (!judge) return laid;
       const sim::Vec3 to_vx = laid->element.position_vx;
       if (const Outcome outcome = judge->judged(to_vx, 0.0); outcome != Outcome::grown) {
         --proposal_.trials[static_cast<std::size_t>(Outcome::grown)];
         ++proposal_.trials[static_cast<std::size_t>(outcome)];
+        if (view_.record_attempts) proposal_.attempts.back().outcome = outcome;
         continue;
       }
       if (!rules_.prefer.any()) return laid;
@@ -261,7 +245,7 @@ class Layer {
   }
 
   std::optional<sim::ProposedElement> count(const sim::ProposedElement& laid) {
-    ++proposal_.trials[static_cast<std::size_t>(Outcome::grown)];
+    count(Outcome::grown, laid.element.position_vx);
     return laid;
   }
 
@@ -303,8 +287,11 @@ std::optional<sim::ProposedElement> layElement(const sim::SiteView& view, const 
     while (picked + 1 < left.size() && target >= left[picked].first) target -= left[picked++].first;
     const std::size_t i = left[picked].second;
     left.erase(left.begin() + static_cast<std::ptrdiff_t>(picked));
-    if (auto laid = layer.lay(first_shape + static_cast<std::int32_t>(i), static_cast<unsigned>(i)))
-      return laid;
+    auto laid = layer.lay(first_shape + static_cast<std::int32_t>(i), static_cast<unsigned>(i));
+    if (!laid) continue;
+    for (sim::Attempt& attempt : proposal.attempts)
+      attempt.taken = attempt.outcome == sim::Outcome::grown && attempt.to_vx == laid->element.position_vx;
+    return laid;
   }
   return std::nullopt;
 }

@@ -1,6 +1,7 @@
 #include "rules/growth/surface_points.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <deque>
 #include <numeric>
@@ -8,11 +9,10 @@
 
 #include "rules/growth/elements.h"
 #include "sim/base/random.h"
+#include "sim/tile/clip.h"
 
 namespace espalier::rules {
 namespace {
-
-using Triangle = sim::SceneSurface::Triangle;
 
 constexpr double kCell_vx = 2.0;
 constexpr double kClosest_vx = 0.25;  // between points, about
@@ -49,25 +49,39 @@ struct Point {
   double area_vx2 = 0.0;
 };
 
-/// Evenly on all triangles that bear something, by Roberts' R2 sequence in each, folded over its diagonal.
-std::vector<Point> spread(const sim::SceneSurface& surface, const RuleSet& rules, double most_points) {
+/// A piece of a triangle that lies in the world.
+struct Piece {
+  std::array<sim::Vec3, 3> corners_vx;
+  sim::Vec3 normal{0.0};
+  double area_vx2 = 0.0;
+};
+
+/// Of all triangles that bear something.
+std::vector<Piece> piecesInWorld(const sim::SceneSurface& surface, const RuleSet& rules, sim::Voxel size) {
   std::vector<bool> bears;
   for (const std::string& region : surface.regions()) bears.push_back(setNear(rules, region) != nullptr);
-  const auto areaOfTriangle = [](const Triangle& t) {
-    return 0.5 *
-           glm::length(glm::cross(t.corners_vx[1] - t.corners_vx[0], t.corners_vx[2] - t.corners_vx[0]));
-  };
-  double sum = 0.0;
-  for (const Triangle& triangle : surface.triangles()) {
-    if (bears[triangle.region]) sum += areaOfTriangle(triangle);
+  std::vector<Piece> pieces;
+  for (const sim::SceneSurface::Triangle& triangle : surface.triangles()) {
+    if (!bears[triangle.region]) continue;
+    const sim::CutPolygon part = sim::cutToBox(triangle.corners_vx, sim::Vec3(-0.5), sim::Vec3(size) - 0.5);
+    for (std::size_t i = 2; i < part.count; ++i) {
+      const std::array<sim::Vec3, 3> c{part.corner[0], part.corner[i - 1], part.corner[i]};
+      const double area = 0.5 * glm::length(glm::cross(c[1] - c[0], c[2] - c[0]));
+      if (area > 0.0) pieces.push_back({c, triangle.normal, area});
+    }
   }
+  return pieces;
+}
+
+/// Evenly on all of them, by Roberts' R2 sequence in each, folded over its diagonal.
+std::vector<Point> spread(const std::vector<Piece>& pieces, double most_points) {
+  double sum = 0.0;
+  for (const Piece& piece : pieces) sum += piece.area_vx2;
   const double own = std::max(kClosest_vx * kClosest_vx, sum / most_points);
   std::vector<Point> points;
-  for (const Triangle& triangle : surface.triangles()) {
-    if (!bears[triangle.region]) continue;
-    const auto& c = triangle.corners_vx;
-    const double area = areaOfTriangle(triangle);
-    const auto count = static_cast<std::size_t>(std::max(1.0, std::ceil(area / own)));
+  for (const Piece& piece : pieces) {
+    const auto& c = piece.corners_vx;
+    const auto count = static_cast<std::size_t>(std::max(1.0, std::ceil(piece.area_vx2 / own)));
     for (std::size_t i = 1; i <= count; ++i) {
       double u = std::fmod(0.5 + 0.7548776662466927 * static_cast<double>(i), 1.0);
       double v = std::fmod(0.5 + 0.5698402909980532 * static_cast<double>(i), 1.0);
@@ -75,8 +89,8 @@ std::vector<Point> spread(const sim::SceneSurface& surface, const RuleSet& rules
         u = 1.0 - u;
         v = 1.0 - v;
       }
-      points.push_back(
-          {c[0] + u * (c[1] - c[0]) + v * (c[2] - c[0]), triangle.normal, area / static_cast<double>(count)});
+      points.push_back({c[0] + u * (c[1] - c[0]) + v * (c[2] - c[0]), piece.normal,
+                        piece.area_vx2 / static_cast<double>(count)});
     }
   }
   return points;
@@ -140,7 +154,7 @@ double SurfacePoints::coveredArea() const {
 
 SurfacePoints pointsAround(std::span<const Stance> lying, const sim::SceneSurface& surface,
                            const RuleBook& book, const sim::World& world, double most_points) {
-  std::vector<Point> all = spread(surface, book.top(), most_points);
+  std::vector<Point> all = spread(piecesInWorld(surface, book.top(), world.frame().size), most_points);
   std::stable_sort(all.begin(), all.end(),
                    [](const Point& a, const Point& b) { return cellAt(a.at_vx) < cellAt(b.at_vx); });
   std::vector<std::int64_t> cells;

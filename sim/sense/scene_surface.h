@@ -50,16 +50,16 @@ class SceneSurface {
   void trianglesIn(const LatticeBox& box, std::vector<std::uint32_t>& found) const;
 
  private:
-  std::optional<Place> nearestOf(Vec3 at_vx, double within_vx, const Wanted& wanted) const;
-  void list(std::uint32_t number, const std::array<Vec3, 3>& part);
-  std::uint64_t keyOf(Voxel cell) const;
-
-  Voxel cells_;
   struct Ball {
     Vec3 middle_vx{0.0};
     double radius_vx = 0.0;
   };
 
+  std::optional<Place> nearestOf(Vec3 at_vx, double within_vx, const Wanted& wanted) const;
+  void list(std::uint32_t number, const std::array<Vec3, 3>& part);
+  std::uint64_t keyOf(Voxel cell) const;
+
+  Voxel cells_;
   std::vector<Triangle> triangles_;
   std::vector<Ball> balls_;  // that hold them
   std::vector<std::string> regions_;

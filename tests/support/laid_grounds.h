@@ -58,17 +58,20 @@ inline rules::RuleSet tufts() {
 
 /// A mesh in a world with a margin of free voxels.
 struct LaidGround {
-  explicit LaidGround(std::vector<sim::TiledMesh> given)
+  explicit LaidGround(const std::vector<sim::TiledMesh>& given)
+      : LaidGround(given, sim::frameAround(given, kLaidVoxel_m, 0.4)) {}
+  LaidGround(std::vector<sim::TiledMesh> given, const sim::Frame& frame)
       : meshes(std::move(given)),
-        world(sim::buildWorld(sim::frameAround(meshes, kLaidVoxel_m, 0.4), meshes, 4)),
+        world(sim::buildWorld(frame, meshes, 4)),
         surface(sim::surfaceOf(world.frame(), meshes)) {}
 
   sim::Growth grow(const rules::RuleSet& rules, const std::vector<Vec3>& seeds_m, int iterations = 40,
-                   std::uint64_t seed = 1) {
+                   std::uint64_t seed = 1, bool record_attempts = false) {
     std::vector<Vec3> seeds_vx;
     for (const Vec3 at_m : seeds_m) seeds_vx.push_back(sim::voxelFromWorld(world.frame(), at_m));
     sim::GrowthSettings settings = brightSettings(iterations);
     settings.seed = seed;
+    settings.record_attempts = record_attempts;
     const auto process =
         rules::makeProcess(std::make_shared<const rules::RuleSet>(rules), world.frame(), surface);
     return sim::grow(world, {{"laid", process, sim::seedsAt(world.frame(), seeds_vx)}}, settings);

@@ -168,6 +168,33 @@ TEST(Diffusion, StaysWhereItsRegionsLetIt) {
   }
 }
 
+TEST(Diffusion, TellsOfEachTrialOnce) {
+  LaidGround ground({sheet(2.0, 2.0)});
+  for (const RuleSet& rules : {paving(), tufts()}) {
+    const sim::Growth growth = ground.grow(rules, {{1.0, 0.1, 1.0}}, 5, 1, true);
+    const sim::Tally& tally = growth.tallies.front();
+    std::uint64_t trials = 0;
+    for (const std::uint64_t times : tally.trials) trials += times;
+    std::size_t taken = 0;
+    for (const sim::Attempt& attempt : growth.attempts) taken += attempt.taken ? 1 : 0;
+    EXPECT_EQ(growth.attempts.size(), trials);
+    EXPECT_EQ(taken, growth.plants.front().elements.size());
+    ground = LaidGround({sheet(2.0, 2.0)});
+  }
+}
+
+TEST(Diffusion, HasAStateThatTellsShapesApart) {
+  const auto stateOf = [](double side_vx) {
+    LaidGround ground({sheet(2.0, 2.0)});
+    RuleSet rules = paving();
+    rules.elements = {slab("tile", side_vx, side_vx, 0.1)};  // in no voxel but the ground's own
+    rules.diffusion.rounds = 1;                              // one of them
+    return sim::stateHash(ground.world, ground.grow(rules, {{1.0, 0.1, 1.0}}, 1));
+  };
+  EXPECT_EQ(stateOf(5.0), stateOf(5.0));
+  EXPECT_NE(stateOf(5.0), stateOf(5.2));
+}
+
 TEST(Diffusion, SaysWhereASeedFindsNoSurface) {
   LaidGround ground({sheet(4.0, 4.0), box({1, 1.4, 1}, {2, 1.6, 2}, "shelf")});
   RuleSet rules = tufts();
@@ -176,45 +203,6 @@ TEST(Diffusion, SaysWhereASeedFindsNoSurface) {
   EXPECT_EQ(elementsOf(growth), 0u);
   EXPECT_EQ(sim::timesOf(growth.tallies.front().sites, sim::Outcome::too_far), 1u);
   EXPECT_THROW(makeProcess(std::make_shared<const RuleSet>(rules), ground.world.frame()), sim::InputError);
-}
-
-/// Hills with ripples: 60 x 60 squares of two triangles over 4 x 4 m.
-sim::TiledMesh terrain() {
-  sim::TiledMesh tiled;
-  tiled.mesh = tests::emptyMesh("terrain");
-  constexpr int kSteps = 60;
-  for (int j = 0; j <= kSteps; ++j) {
-    for (int i = 0; i <= kSteps; ++i) {
-      const double x = 4.0 * i / kSteps, z = 4.0 * j / kSteps;
-      tiled.mesh.vertices_m.emplace_back(
-          x, 0.4 * std::sin(1.7 * x) * std::cos(1.3 * z) + 0.05 * std::sin(9.0 * x + 4.0 * z), z);
-    }
-  }
-  for (std::uint32_t j = 0; j < kSteps; ++j) {
-    for (std::uint32_t i = 0; i < kSteps; ++i) {
-      const std::uint32_t a = j * (kSteps + 1) + i, b = a + kSteps + 1;
-      tests::addTriangle(tiled.mesh, a, b, b + 1);
-      tests::addTriangle(tiled.mesh, a, b + 1, a + 1);
-    }
-  }
-  return tiled;
-}
-
-TEST(Diffusion, KeepsFeetApartOnHills) {
-  LaidGround ground({terrain()});
-  RuleSet rules = tufts();
-  rules.diffusion.distance = Length{6.0};
-  rules.diffusion.gap_min = {1.5};
-  rules.elements.front().pose = Pose::stand;
-  const sim::Growth growth = ground.grow(rules, {{2.0, 0.3, 2.0}}, 60);
-  const auto& elements = growth.plants.front().elements;
-  EXPECT_GT(elements.size(), 2000u);
-  double least = 1e9;
-  for (std::size_t i = 0; i < elements.size(); ++i) {
-    for (std::size_t k = 0; k < i; ++k)
-      least = std::min(least, glm::distance(elements[i].position_vx, elements[k].position_vx));
-  }
-  EXPECT_GE(least, 1.5 - 1e-6);
 }
 
 /// The lowest corner of all elements, voxel widths above y = 0.

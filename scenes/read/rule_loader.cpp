@@ -284,7 +284,7 @@ RulesPointer RuleLoader::within(const YamlNode& node, const std::string& path, c
                               "set; expected it there",
                               path));
   }
-  warnOfFront(node, path);
+  warnOfMoot(node, path);
   RulesPointer set = reference(node, path, enclosing);
   if (set && set->propagate != enclosing.propagate) {
     const auto* says = node.entry("propagate");
@@ -297,22 +297,29 @@ RulesPointer RuleLoader::within(const YamlNode& node, const std::string& path, c
   return set;
 }
 
-void RuleLoader::warnOfFront(const YamlNode& node, const std::string& path) {
-  const auto* front = node.entry("colonization");
-  if (!front || front->value.kind != YamlNode::Kind::map) return;
+void RuleLoader::warnOfMoot(const YamlNode& node, const std::string& path) {
   static const std::set<std::string_view> of_plant = {"attractors", "acts", "onto", "repeated", "fields"};
   static const std::set<std::string_view> of_site = {"avoid", "trials"};
+  static const std::set<std::string_view> of_laying = {"fill", "rounds"};
   const bool of_order = path == "branches" || path == "twigs";
-  const auto& known = *rules::find(rules::ruleTable(), "colonization")->child;
-  for (const auto& entry : front->value.entries) {
-    const bool moot = of_order ? of_plant.contains(entry.key) : !of_site.contains(entry.key);
-    if (!moot || !rules::find(known, entry.key)) continue;
-    warnings_.add(entry.place,
-                  fmt::format("{}.colonization.{} has no effect: {}; expected it there", path, entry.key,
-                              of_order ? "a plant has one, that of its outermost rule set"
-                                       : "limbs have it of the trunk's, the branches' or the "
-                                         "twigs' rule set, wherever they are"));
-  }
+  const char* const of_outermost = "a plant has one, that of its outermost rule set";
+  const auto warn = [&](const std::string& section, const auto& isMoot, const char* why) {
+    const auto* const says = node.entry(section);
+    if (!says || says->value.kind != YamlNode::Kind::map) return;
+    const auto& known = *rules::find(rules::ruleTable(), section)->child;
+    for (const auto& entry : says->value.entries) {
+      if (!isMoot(entry.key) || !rules::find(known, entry.key)) continue;
+      warnings_.add(entry.place, fmt::format("{}.{}.{} has no effect: {}; expected it there", path, section,
+                                             entry.key, why));
+    }
+  };
+  warn(
+      "colonization",
+      [&](const std::string& key) { return of_order ? of_plant.contains(key) : !of_site.contains(key); },
+      of_order ? of_outermost
+               : "limbs have it of the trunk's, the branches' or the twigs' rule set, wherever they are");
+  warn(
+      "diffusion", [&](const std::string& key) { return of_laying.contains(key); }, of_outermost);
 }
 
 rules::RegionRule RuleLoader::region(const YamlNode& node, const std::string& path,

@@ -71,8 +71,8 @@ class RuleLoader {
   /// A reference within a rule set, to one that holds in a region or stands by.
   std::shared_ptr<const rules::RuleSet> within(const YamlNode& node, const std::string& path,
                                                const rules::RuleSet& enclosing);
-  /// Warns of keys of colonization that have no effect in such a rule set.
-  void warnOfFront(const YamlNode& node, const std::string& path);
+  /// Warns of keys of a process that have no effect in such a rule set.
+  void warnOfMoot(const YamlNode& node, const std::string& path);
   rules::RegionRule region(const YamlNode& node, const std::string& path, const rules::RuleSet& enclosing);
   void mentionSensed(const Layers& layers);
   void mention(const std::string& region, const Place& place, bool sensed);

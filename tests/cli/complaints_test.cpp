@@ -96,6 +96,20 @@ TEST_F(Plot, KeysOfAFrontThatHaveNoEffectAreWarnings) {
   EXPECT_EQ(report("told")["warnings"].size(), 2u) << report("told")["warnings"];
 }
 
+TEST_F(Plot, KeysOfDiffusionThatHaveNoEffectAreWarnings) {
+  scratch_.write(
+      "vine.yaml",
+      "espalier: rules\npropagate: diffusion\ndiffusion: {fill: 0.2, rounds: 3}\n"
+      "elements: [{pose: surface, polygons: [[[-1, -1, 0], [1, -1, 0], [0, 1, 0]]]}]\n"
+      "regions: {wall: {diffusion: {fill: 0.9, gap: 0.5}}}\notherwise: {diffusion: {rounds: 9}}\n");
+  const auto ran = grow("--no-pictures", "told");
+  EXPECT_EQ(ran.status, 0) << ran.output;
+  for (const char* said : {":5:30: warning: regions.wall.diffusion.fill has no effect: a plant has one",
+                           ":6:24: warning: otherwise.diffusion.rounds has no effect: a plant has one"})
+    EXPECT_NE(ran.output.find(said), std::string::npos) << ran.output;
+  EXPECT_EQ(report("told")["warnings"].size(), 2u) << report("told")["warnings"];
+}
+
 TEST_F(Plot, AWarningInTheReportIsTheSameHoweverTheFilesAreNamed) {
   scratch_.write("vine.yaml", tests::fileText(scratch_.path("vine.yaml")) + "\nregions: {wal: forbid}\n");
   const std::string folder = scratch_.path("").string();

@@ -24,9 +24,8 @@ void forEachOfScene(const Site& site, const TakeUncut& take) {
     take(render::uncut(*mesh, site.world.frame()), sim::PartKind::scene);
 }
 
-void forEachUncut(const ModelSources& sources, const TakeUncut& take) {
+void forEachOfPlants(const ModelSources& sources, const TakeUncut& take) {
   const sim::Frame& frame = sources.site.world.frame();
-  forEachOfScene(sources.site, take);
   modelsFrom(sources, 0, false)([&](const render::PlantModel& plant) {
     take(render::uncut(plant.stems, frame), sim::PartKind::stem);
     take(render::uncut(plant.stalks, frame), sim::PartKind::stem);
@@ -49,10 +48,12 @@ double requireFits(const render::Uncut& mesh, const Site& site, const ModelsWant
 
 render::DicedMeshes dicedFrom(const ModelSources& sources, std::shared_ptr<const VoxelColours> colours) {
   return [sources, colours = std::move(colours)](const std::function<void(const render::DicedMesh&)>& take) {
-    forEachUncut(sources, [&](const render::Uncut& uncut, sim::PartKind kind) {
+    const auto dice = [&](const render::Uncut& uncut, sim::PartKind kind) {
       take(render::diced(uncut, sources.site.world.frame(),
                          [&](sim::Voxel voxel) { return colours->at(voxel, kind); }));
-    });
+    };
+    forEachOfScene(sources.site, dice);
+    forEachOfPlants(sources, dice);
   };
 }
 
@@ -76,8 +77,9 @@ std::vector<std::string> dicedFileNames(const ModelsWanted& wanted) {
 
 std::vector<OutputFile> dicedFiles(const ModelsWanted& wanted, const ModelSources& sources) {
   if (!wanted.diced) return {};
-  forEachUncut(sources,
-               [&](const render::Uncut& uncut, sim::PartKind) { requireFits(uncut, sources.site, wanted); });
+  // The scene's own were asked about before anything grew (dicedBytes).
+  forEachOfPlants(
+      sources, [&](const render::Uncut& uncut, sim::PartKind) { requireFits(uncut, sources.site, wanted); });
   const auto meshes =
       dicedFrom(sources, std::make_shared<const VoxelColours>(sources.site.world, sources.bare, sources.light,
                                                               *wanted.diced, sources.to_sun));

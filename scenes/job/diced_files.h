@@ -17,7 +17,7 @@ double dicedBytes(const ModelsWanted& wanted, const Site& site);
 
 /// The files, the second where models are wanted as OBJ too: the scene's meshes and the plants' stems, stalks
 /// and elements cut to the grid of voxels, in the colours of these (Greene 1989, figures 5 and 9A). Throws
-/// InputError where one of them would not fit into memory while it is cut.
+/// InputError where a plant's would not fit into memory while it is cut; dicedBytes asks for the scene's.
 std::vector<OutputFile> dicedFiles(const ModelsWanted& wanted, const ModelSources& sources);
 
 }  // namespace espalier::scenes

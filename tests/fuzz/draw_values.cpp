@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <map>
 
 #include <algorithm>
 #include <array>
@@ -14,6 +15,49 @@
 namespace espalier::fuzz {
 namespace {
 
+/// Where the numbers of keys usually lie that cost time or memory, or that few voxels allow; by their path.
+const std::map<std::string, rules::Limits> kUsual = {
+    {"random_tree.length", {0.1, 20.0}},
+    {"random_tree.branch_age_range", {1.0, 6.0}},
+    {"random_tree.trials.min", {1.0, 40.0}},
+    {"random_tree.trials.max", {1.0, 90.0}},
+    {"colonization.step", {0.1, 8.0}},
+    {"colonization.influence", {1.0, 60.0}},
+    {"colonization.kill", {0.1, 6.0}},
+    {"colonization.trials", {1.0, 60.0}},
+    {"colonization.branching.above", {0.0, 20.0}},
+    {"bias.twist.radius", {0.1, 8.0}},
+    {"require.age.min", {0.0, 3.0}},
+    {"require.age.max", {4.0, 40.0}},
+    {"require.in_region.max", {1.0, 9.0}},
+    {"require.proximity.min", {0.0, 4.0}},
+    {"require.proximity.max", {0.1, 30.0}},
+    {"prefer.proximity", {0.0, 20.0}},
+    {"stem.radius", {1e-3, 4.0}},
+    {"stem.thickens", {0.0, 0.5}},
+    {"stem.thickest", {1e-3, 20.0}},
+    {"elements[].trials", {1.0, 12.0}},
+    {"elements[].per_segment", {0.0, 3.0}},
+    {"elements[].size", {0.05, 1.6}},
+    {"elements[].petiole", {0.0, 3.0}},
+    {"elements[].thick", {0.0, 0.6}},
+    {"elements[].share", {0.1, 4.0}},
+    {"diffusion.distance", {0.3, 8.0}},
+    {"diffusion.gap.min", {0.0, 2.0}},
+    {"diffusion.gap.max", {0.5, 30.0}},
+    {"diffusion.off", {0.1, 4.0}},
+    {"elements[].phyllotaxis.spacing", {1.0, 8.0}},
+    {"elements[].phyllotaxis.whorl", {1.0, 3.0}},
+    {"world.layers", {0.0, 6.0}},
+    {"sky.accuracy", {0.01, 0.5}},
+    {"sky.directions", {1.0, 300.0}},
+    {"sky.rays", {1.0, 12.0}},
+    {"sun.samples", {1.0, 100.0}},
+    {"sun.step", {20.0, 1440.0}},
+    {"sun.accuracy", {0.3, 10.0}},
+    {"exposure.band", {1.0, 6.0}},
+};
+
 using rules::Kind;
 using rules::Limits;
 
@@ -22,6 +66,11 @@ constexpr double kEnd = 0.12;  // of numbers that are an end of their range, eac
 constexpr double kWide = 400.0;
 
 }  // namespace
+
+std::optional<rules::Limits> usualLimits(const std::string& path) {
+  const auto at = kUsual.find(path);
+  return at == kUsual.end() ? std::nullopt : std::optional(at->second);
+}
 
 double ValueDrawer::number(const Limits& limits, const Limits& usual) {
   const bool unusual = usual.min > limits.min || usual.max < limits.max;

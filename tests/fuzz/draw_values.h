@@ -1,4 +1,5 @@
 #pragma once
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -8,6 +9,9 @@
 
 /// Legal texts for keys of any kind, from what the registry says of them.
 namespace espalier::fuzz {
+
+/// Where the numbers of a key usually lie, if that is narrower than what it may be; by its path.
+std::optional<rules::Limits> usualLimits(const std::string& path);
 
 /// Draws values of a file whose world has voxels of one size, and so many of them along its longest side.
 class ValueDrawer {

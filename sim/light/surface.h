@@ -53,7 +53,8 @@ double openSky(Weighting weighting, Vec3 normal);
 
 /// For each surface what it receives of the sky (sim/light/sky.h) by its own normal, 0..1: openSky where
 /// nothing stands in the way, exactly, and else the share of it that the open directions in front of the
-/// surface bring. `open` must be of the sensors' places and the sky's directions.
+/// surface bring. `open` must be of the sensors' places and the sky's directions; they may be those of a sky
+/// mirrored below the horizon.
 std::vector<float> surfaceSky(const SurfaceSensors& sensors, const OpenTable& open, const Sky& sky);
 
 /// The same of the sun: the weighted fraction of its way that the surface sees, 0..1; a surface does not see

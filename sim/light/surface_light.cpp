@@ -152,6 +152,8 @@ double openSky(Weighting weighting, Vec3 normal) {
 }
 
 std::vector<float> surfaceSky(const SurfaceSensors& sensors, const OpenTable& open, const Sky& sky) {
+  const bool below = !sky.directions.empty() && sky.directions.front().v.y < 0;
+  const Vec3 side(1.0, below ? -1.0 : 1.0, 1.0);
   std::vector<Givers::Amount> amounts;
   for (const LatticeDirection& d : sky.directions) {
     const Vec3 unit = glm::normalize(Vec3(d.v));
@@ -167,7 +169,7 @@ std::vector<float> surfaceSky(const SurfaceSensors& sensors, const OpenTable& op
                   [&](const Judge::Light& light, Vec3f normal) {
                     if (light.most <= 0.0f) return 0.0f;
                     const float share_of_open = std::clamp(light.received / light.most, 0.0f, 1.0f);
-                    return share_of_open * static_cast<float>(openSky(sky.weighting, Vec3(normal)));
+                    return share_of_open * static_cast<float>(openSky(sky.weighting, Vec3(normal) * side));
                   });
 }
 

@@ -107,16 +107,27 @@ void Passes::add(const Met& met, std::size_t first, std::size_t count, const std
   constexpr std::size_t kGrain = 2048;
   parallelFor(sums.size(), kGrain, [&](std::size_t begin, std::size_t end) {
     std::vector<std::uint32_t> amounts(64 * givers.words());
-    Vec3f normal(0.0f);  // no receiver's
+    struct Given {
+      std::uint32_t direction, amount;
+    };
+    std::vector<Given> given;  // by what lies before a receiver
+    Vec3f normal(0.0f);        // no receiver's
     for (std::size_t i = begin; i < end; ++i) {
-      const Vec3f own = sensors_.surfaces[i].surface.normal;
-      if (own != normal) givers.give(own, amounts.data());
-      normal = own;
-      Sums& sum = sums[i];
-      for (std::size_t d = 0; d < count; ++d) {
-        const Whole& sent = whole[met.along(d)[i]];
-        for (std::size_t c = 0; c < 4; ++c) sum[c] += std::uint64_t{amounts[first + d]} * sent[c];
+      if (const Vec3f own = sensors_.surfaces[i].surface.normal; own != normal) {
+        normal = own;
+        givers.give(normal, amounts.data());
+        given.clear();
+        for (std::uint32_t d = 0; d < count; ++d) {
+          if (amounts[first + d] != 0) given.push_back({d, amounts[first + d]});
+        }
       }
+      const std::uint32_t* const numbers = met.by(i);
+      Sums sum = sums[i];
+      for (const Given& g : given) {
+        const Whole& sent = whole[numbers[g.direction]];
+        for (std::size_t c = 0; c < 4; ++c) sum[c] += std::uint64_t{g.amount} * sent[c];
+      }
+      sums[i] = sum;
     }
   });
 }
@@ -141,7 +152,7 @@ std::vector<Colour> Passes::pass(const std::vector<Colour>& radiosities) {
   for (std::size_t first = 0; first < directions_.size(); first += at_once) {
     const std::size_t some = std::min(at_once, directions_.size() - first);
     const bool all = some == directions_.size();
-    if (all && kept_.receivers == count) {
+    if (all && !kept_.numbers.empty()) {
       add(kept_, first, some, whole, sums);
       continue;
     }

@@ -93,18 +93,18 @@ class Shown {
 }  // namespace
 
 Stops<std::uint32_t> receiversMet(const World& world, const Lighting& light) {
-  const BitVolume& opaque = world.opaque();
-  Stops<std::uint32_t> stops(std::make_shared<const VoxelSet>(inTheOpen(opaque)));
+  Stops<std::uint32_t> stops(inTheOpen(world.opaque()));
   const Shown shown(light);
-  const std::vector<Voxel> voxels = stops.where->voxels();
-  parallelFor(voxels.size(), [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) {
-      for (std::uint8_t face = 0; face < kFaces; ++face) {
-        const bool entered = !opaque.at(voxels[i] + kFaceNormals[face]);
-        stops.values[face][i] = entered ? shown.by(voxels[i], face) : shown.none();
+  for (std::uint8_t f = 0; f < kFaces; ++f) {
+    auto& face = stops.faces[f];
+    const std::vector<Voxel> voxels = face.where.voxels();
+    parallelFor(voxels.size(), [&](std::size_t begin, std::size_t end) {
+      for (std::size_t i = begin; i < end; ++i) {
+        const bool entered = !world.opaque().at(voxels[i] + kFaceNormals[f]);
+        face.values[i] = entered ? shown.by(voxels[i], f) : shown.none();
       }
-    }
-  });
+    });
+  }
   return stops;
 }
 
@@ -132,31 +132,37 @@ std::vector<Voxel> viewpoints(const SurfaceSensors& sensors) {
 Met meet(const Stops<std::uint32_t>& stops, const SurfaceSensors& sensors, const std::vector<Voxel>& viewpoints,
          const DirectionSet& directions, std::size_t first, std::size_t count) {
   const auto receivers = static_cast<std::uint32_t>(viewpoints.size());
-  const auto slices = static_cast<std::size_t>(stops.where->bits().size().y);
+  const auto slices = static_cast<std::size_t>(stops.where.size().y);
   std::vector<std::vector<std::uint32_t>> from(slices);  // receivers by the slice from which they look
   for (std::uint32_t i = 0; i < receivers; ++i) {
     if (viewpoints[i].y >= 0) from[static_cast<std::size_t>(viewpoints[i].y)].push_back(i);
   }
-  Met met{receivers, std::vector<std::uint32_t>(count * receivers, receivers)};
-  parallelFor(count, 1, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t d = begin; d < end; ++d) {
-      const LatticeDirection& direction = directions[first + d];
-      const Vec3f unit(glm::normalize(Vec3(direction.v)));
-      std::uint32_t* const numbers = met.numbers.data() + d * receivers;
-      CarriedSweep<std::uint32_t> sweep(stops, direction, receivers);
-      for (std::size_t i = 0; i < slices; ++i) {
-        const std::size_t y = sweep.downwards() ? slices - 1 - i : i;
-        sweep.run(static_cast<int>(y));
-        for (const std::uint32_t receiver : from[y]) {
-          const Voxel place = viewpoints[receiver];
-          const std::uint32_t* const row = sweep.row(place.z);
-          if (!row) continue;
-          const std::uint32_t seen = row[place.x], number = seen & ~kSlants;
-          const bool back = (seen & kSlants) != 0 &&
-                            glm::dot(sensors.surfaces[number].surface.normal, unit) >= 0.0f;
-          if (!back) numbers[receiver] = number;
-        }
+  const auto lookAlong = [&](const LatticeDirection& direction, std::vector<std::uint32_t>& numbers) {
+    const Vec3f unit(glm::normalize(Vec3(direction.v)));
+    CarriedSweep<std::uint32_t> sweep(stops, direction, receivers);
+    for (std::size_t i = 0; i < slices; ++i) {
+      const std::size_t y = sweep.downwards() ? slices - 1 - i : i;
+      sweep.run(static_cast<int>(y));
+      for (const std::uint32_t receiver : from[y]) {
+        const Voxel place = viewpoints[receiver];
+        const std::uint32_t* const row = sweep.row(place.z);
+        if (!row) continue;
+        const std::uint32_t seen = row[place.x], number = seen & ~kSlants;
+        const bool back =
+            (seen & kSlants) != 0 && glm::dot(sensors.surfaces[number].surface.normal, unit) >= 0.0f;
+        if (!back) numbers[receiver] = number;
       }
+    }
+  };
+  Met met{count, std::vector<std::uint32_t>(count * receivers)};
+  // As many directions side by side as make a cache's line of each receiver's numbers.
+  constexpr std::size_t kAtOnce = 16;
+  parallelForEach((count + kAtOnce - 1) / kAtOnce, [&](std::size_t block) {
+    const std::size_t begin = block * kAtOnce, some = std::min(kAtOnce, count - begin);
+    std::vector<std::vector<std::uint32_t>> numbers(some, std::vector<std::uint32_t>(receivers, receivers));
+    for (std::size_t d = 0; d < some; ++d) lookAlong(directions[first + begin + d], numbers[d]);
+    for (std::size_t i = 0; i < receivers; ++i) {
+      for (std::size_t d = 0; d < some; ++d) met.numbers[i * count + begin + d] = numbers[d][i];
     }
   });
   return met;

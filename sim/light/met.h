@@ -15,10 +15,10 @@ Stops<std::uint32_t> receiversMet(const World& world, const Lighting& light);
 
 /// What each receiver meets along each of some directions.
 struct Met {
-  std::size_t receivers = 0;
-  std::vector<std::uint32_t> numbers;  ///< direction by direction; `receivers` where nothing is met
+  std::size_t directions = 0;
+  std::vector<std::uint32_t> numbers;  ///< receiver by receiver; the number of all receivers where nothing is
 
-  const std::uint32_t* along(std::size_t direction) const { return numbers.data() + direction * receivers; }
+  const std::uint32_t* by(std::size_t receiver) const { return numbers.data() + receiver * directions; }
 };
 
 /// The receivers of a Lighting with the places from which they are judged (sim/light/surface.h).

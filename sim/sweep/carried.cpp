@@ -7,11 +7,37 @@
 
 namespace espalier::sim {
 
+namespace {
+
+/// The stops with a free voxel, or the world's edge, before a face.
+BitVolume open(const BitVolume& stops, Voxel before) {
+  BitVolume result(stops.size());
+  const Voxel size = stops.size();
+  parallelForEach(static_cast<std::size_t>(size.y), [&](std::size_t slice) {
+    const int y = static_cast<int>(slice), oy = y + before.y;
+    for (int z = 0; z < size.z; ++z) {
+      const int oz = z + before.z;
+      const bool inside = oy >= 0 && oy < size.y && oz >= 0 && oz < size.z;
+      for (int w = 0; w < stops.rowWords() - 1; ++w) {
+        const int x = w * BitVolume::kWordBits + before.x;
+        result.row(y, z)[w] = stops.row(y, z)[w] & ~(inside ? stops.from({x, oy, oz}) : 0);
+      }
+    }
+  });
+  return result;
+}
+
+}  // namespace
+
 template <typename Value>
-Stops<Value>::Stops(std::shared_ptr<const VoxelSet> of) : where(std::move(of)) {
-  x.reserve(where->count());
-  for (const Voxel v : where->voxels()) x.push_back(v.x);
-  for (std::vector<Value>& of_face : values) of_face.resize(where->count());
+Stops<Value>::Stops(BitVolume of) : where(std::move(of)) {
+  for (std::size_t f = 0; f < kFaces; ++f) {
+    OfFace& face = faces[f];
+    face.where = VoxelSet(open(where, kFaceNormals[f]));
+    face.x.reserve(face.where.count());
+    for (const Voxel v : face.where.voxels()) face.x.push_back(v.x);
+    face.values.resize(face.where.count());
+  }
 }
 
 std::vector<std::uint8_t> facesEntered(const LatticeDirection& direction) {
@@ -28,7 +54,7 @@ std::vector<std::uint8_t> facesEntered(const LatticeDirection& direction) {
 template <typename Value>
 CarriedSweep<Value>::CarriedSweep(const Stops<Value>& stops, const LatticeDirection& direction, Value open)
     : stops_(stops),
-      size_(stops.where->bits().size()),
+      size_(stops.where.size()),
       v_(direction.v),
       crossed_(direction.crossed),
       faces_(facesEntered(direction)),
@@ -51,17 +77,17 @@ void CarriedSweep<Value>::runRow(int y, int z) {
   std::uint8_t& filled = filled_[rowIndex(y, z)];
   bool any = takeEnd(y, z, to);
   if (!any && filled != 0) std::fill_n(to, size_.x, open_);
-  // The nearest last: it hides the others.
+  // The nearest last: it hides the others. One with another stop before its face is hidden by that.
   for (std::size_t i = crossed_.size(); i-- > 0;) {
     const Voxel o = crossed_[i];
     const int oy = y + o.y, oz = z + o.z;
     if (oy < 0 || oy >= size_.y || oz < 0 || oz >= size_.z) continue;
-    const std::size_t end = stops_.where->firstOfRow(oy, oz + 1);
-    const Value* const values = stops_.values[faces_[i]].data();
-    for (std::size_t k = stops_.where->firstOfRow(oy, oz); k < end; ++k) {
-      const int x = stops_.x[k] - o.x;
+    const typename Stops<Value>::OfFace& face = stops_.faces[faces_[i]];
+    const std::size_t end = face.where.firstOfRow(oy, oz + 1);
+    for (std::size_t k = face.where.firstOfRow(oy, oz); k < end; ++k) {
+      const int x = face.x[k] - o.x;
       if (x < 0 || x >= size_.x) continue;
-      to[x] = values[k];
+      to[x] = face.values[k];
       any = true;
     }
   }
@@ -89,7 +115,7 @@ bool CarriedSweep<Value>::takeEnd(int y, int z, Value* to) const {
 /// Along x a row depends on itself: where the next voxel is no stop, what that one sees is seen.
 template <typename Value>
 void CarriedSweep<Value>::alongRow(int y, int z, Value* to) const {
-  const BitVolume& stops = stops_.where->bits();
+  const BitVolume& stops = stops_.where;
   for (int i = 1; i < size_.x; ++i) {
     const int x = v_.x > 0 ? size_.x - 1 - i : i;
     if (!stops.at({x + v_.x, y, z})) to[x] = to[x + v_.x];
@@ -109,7 +135,7 @@ constexpr std::size_t kAtOnce = 8;
 /// Adds what a few directions of one kind see to the sums.
 void addSeen(const Stops<std::uint16_t>& stops, const DirectionSet& directions,
              const std::vector<std::size_t>& batch, std::vector<std::uint32_t>& sums) {
-  const Voxel size = stops.where->bits().size();
+  const Voxel size = stops.where.size();
   std::vector<CarriedSweep<std::uint16_t>> sweeps;
   for (const std::size_t d : batch) sweeps.emplace_back(stops, directions[d], std::uint16_t{0});
   const auto nx = static_cast<std::size_t>(size.x), slice = nx * static_cast<std::size_t>(size.z);
@@ -132,7 +158,7 @@ void addSeen(const Stops<std::uint16_t>& stops, const DirectionSet& directions,
 }  // namespace
 
 Field<std::uint16_t> carriedSum(const Stops<std::uint16_t>& stops, const DirectionSet& directions) {
-  const Voxel size = stops.where->bits().size();
+  const Voxel size = stops.where.size();
   std::vector<std::vector<std::size_t>> batches;
   for (const bool downwards : {true, false}) {
     std::vector<std::size_t> batch;
@@ -157,12 +183,18 @@ Field<std::uint16_t> carriedSum(const Stops<std::uint16_t>& stops, const Directi
       addSeen(stops, directions, batches[b], sums[share]);
   });
   Field<std::uint16_t> field{size, std::vector<std::uint16_t>(count)};
-  parallelFor(count, [&](std::size_t begin, std::size_t end) {
+  parallelForEach(static_cast<std::size_t>(size.y), [&](std::size_t slice) {
     constexpr std::uint32_t kWhole = ExposureField::kWhole;
-    for (std::size_t i = begin; i < end; ++i) {
-      std::uint32_t sum = 0;
-      for (const auto& share : sums) sum += share[i];
-      field.values[i] = static_cast<std::uint16_t>((std::uint64_t{sum} + kWhole / 2) / kWhole);
+    const int y = static_cast<int>(slice);
+    for (int z = 0; z < size.z; ++z) {
+      const std::uint64_t* const stop = stops.where.row(y, z);
+      std::size_t i = field.index({0, y, z});
+      for (int x = 0; x < size.x; ++x, ++i) {
+        if (((stop[x >> 6] >> (x & 63)) & 1u) != 0) continue;
+        std::uint32_t sum = 0;
+        for (const auto& share : sums) sum += share[i];
+        field.values[i] = static_cast<std::uint16_t>((std::uint64_t{sum} + kWhole / 2) / kWhole);
+      }
     }
   });
   return field;

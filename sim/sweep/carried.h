@@ -1,7 +1,6 @@
 #pragma once
 #include <array>
 #include <cstdint>
-#include <memory>
 #include <vector>
 
 #include "sim/base/bits.h"
@@ -13,24 +12,31 @@
 /// The sibling of sim/sweep/sweep.h that carries a value in place of a bit: what lies where a ray ends. Along
 /// a direction v, with o_1 .. o_m = v the voxels crossed in one period,
 ///     seen(p) = the value of the first stop among p + o_1 .. p + o_m, or else seen(p + v).
-/// Exactly what casting each ray from each voxel's centre gives, at a cost in proportion to the voxels.
+/// Exactly what casting each ray from the centre of each voxel gives that is no stop, at a cost in proportion
+/// to the voxels.
 namespace espalier::sim {
 
-/// Voxels at which rays end, each with a value for each of its faces (sim/base/faces.h): a ray sees that of
-/// the face through which it comes.
+/// Voxels at which rays end, with a value for each of their faces (sim/base/faces.h) that has no other of them
+/// before it: a ray sees that of the face through which it comes.
 template <typename Value>
 struct Stops {
-  explicit Stops(std::shared_ptr<const VoxelSet> of);
+  struct OfFace {
+    VoxelSet where{BitVolume()};  ///< the stops that have such a face
+    std::vector<std::int32_t> x;  ///< of each of them
+    std::vector<Value> values;
+  };
+  /// Values of 0.
+  explicit Stops(BitVolume of);
 
-  std::shared_ptr<const VoxelSet> where;
-  std::vector<std::int32_t> x;  ///< of each of the voxels
-  std::array<std::vector<Value>, kFaces> values;
+  BitVolume where;
+  std::array<OfFace, kFaces> faces;
 };
 
 /// The faces through which a ray comes into the voxels that it crosses in one period.
 std::vector<std::uint8_t> facesEntered(const LatticeDirection& direction);
 
-/// Slices of what every voxel sees along one direction, the last few of them. Value: 16 or 32 bits.
+/// Slices of what voxels see along one direction, the last few of them; of stops themselves nothing is said.
+/// Value: 16 or 32 bits.
 template <typename Value>
 class CarriedSweep {
  public:
@@ -65,9 +71,9 @@ class CarriedSweep {
   std::vector<std::uint8_t> filled_;  // rows in which anything but `open` may be seen
 };
 
-/// For every voxel the sum of what it sees along the directions, times their weights, over
-/// ExposureField::kWhole and rounded; 0 is seen where nothing stops a ray. The weights must add up to at most
-/// that. The same on any number of threads.
+/// For every voxel that is no stop the sum of what it sees along the directions, times their weights, over
+/// ExposureField::kWhole and rounded; 0 is seen where nothing stops a ray, and stops have 0. The weights must
+/// add up to at most that. The same on any number of threads.
 Field<std::uint16_t> carriedSum(const Stops<std::uint16_t>& stops, const DirectionSet& directions);
 
 }  // namespace espalier::sim

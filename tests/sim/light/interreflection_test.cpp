@@ -246,7 +246,7 @@ TEST(Interreflection, MeetsWhatItsRaysMeet) {
           end = Voxel(-1);
         }
       }
-      const std::uint32_t number = met.along(d)[i];
+      const std::uint32_t number = met.by(i)[d];
       if (!contains(opaque.size(), end)) {
         ASSERT_EQ(number, lit.count());
         continue;

@@ -11,6 +11,7 @@
 
 #include "render/image/camera.h"
 #include "rules/front/guide.h"
+#include "rules/language/emission.h"
 #include "rules/language/envelope_spec.h"
 #include "rules/language/rule_set.h"
 #include "scenes/problem.h"
@@ -59,7 +60,8 @@ struct SceneMesh {
   double thickness_m = 0.02;  ///< of lines and points as they are drawn
   bool guide = false;         ///< is felt and stands in nobody's way (sim::TiledMesh)
   Placement placement;
-  std::optional<sim::Colour> colour;  ///< instead of the file's materials; linear RGB
+  std::optional<sim::Colour> colour;     ///< instead of the file's materials; linear RGB
+  std::optional<rules::Emission> emits;  ///< likewise
   Place place = {};                   ///< where a scene file has it; without a path where none does
 };
 
@@ -147,6 +149,17 @@ enum class ExposureWhere { surfaces, band, everything };
 /// What tables of exposure make of surfaces from which no sky and no sun is seen, such as those inside of
 /// closed rooms.
 enum class Unreached { count, leave_out };
+
+/// How directions count for light that bounces.
+enum class BounceWeighting { lambert, equal };
+
+/// Light that bounces, in pictures.
+struct InterreflectionSpec {
+  int passes = 8;            ///< at most, the first included
+  double tolerance = 0.002;  ///< as sim::BounceSettings has it
+  int directions = 128;      ///< over each half of the sphere
+  BounceWeighting weighting = BounceWeighting::lambert;
+};
 
 struct ExposureSpec {
   ExposureWhere where = ExposureWhere::surfaces;
@@ -305,6 +318,7 @@ struct Scene {
   SkySpec sky;
   SunSpec sun;
   ExposureSpec exposure;
+  std::optional<InterreflectionSpec> interreflection;  ///< none: pictures are lit by the sky and the sun alone
   std::vector<AttractorsSpec> attractors;
   std::vector<FieldSpec> fields;
   std::vector<PlantSpec> plants;

@@ -38,7 +38,7 @@ void addMaterial(GlbFile& file, DicedLight light) {
   material.pbrMetallicRoughness.roughnessFactor = 1.0;
   if (light == DicedLight::given) {
     material.extensions[kUnlit] = tinygltf::Value(tinygltf::Value::Object());
-    file.model().extensionsUsed.emplace_back(kUnlit);
+    file.use(kUnlit);
   }
   file.model().materials.push_back(std::move(material));
 }

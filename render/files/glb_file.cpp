@@ -135,12 +135,22 @@ int GlbFile::positions(std::span<const sim::Vec3f> data) {
   return index;
 }
 
+namespace {
+
+void addOnce(std::vector<std::string>& names, const std::string& name) {
+  const auto at = std::lower_bound(names.begin(), names.end(), name);
+  if (at == names.end() || *at != name) names.insert(at, name);
+}
+
+}  // namespace
+
 void GlbFile::require(const std::string& extension) {
-  std::vector<std::string>& required = model_.extensionsRequired;
-  if (std::find(required.begin(), required.end(), extension) != required.end()) return;
-  required.push_back(extension);
-  std::sort(required.begin(), required.end());
-  model_.extensionsUsed = required;
+  addOnce(model_.extensionsRequired, extension);
+  use(extension);
+}
+
+void GlbFile::use(const std::string& extension) {
+  addOnce(model_.extensionsUsed, extension);
 }
 
 int GlbFile::uvs(std::span<const glm::vec2> data, bool blades) {

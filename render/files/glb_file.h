@@ -58,6 +58,8 @@ class GlbFile {
               bool repeat = false);
   /// Readers that do not know an extension that is required refuse the file.
   void require(const std::string& extension);
+  /// Readers that do not know one that is used show the rest.
+  void use(const std::string& extension);
   /// Adds a buffer view of bytes as they are.
   int bytes(std::string_view data);
   /// Adds a node; without a mesh: -1.

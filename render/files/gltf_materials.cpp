@@ -52,8 +52,16 @@ int GltfMaterials::of(const sim::Material& material, int texture) {
   looks.metallicFactor = factorOf(material.metallic);
   looks.roughnessFactor = factorOf(material.roughness);
   if (material.emissive != sim::Colour(0.0f)) {
-    result.emissiveFactor = {factorOf(material.emissive.r), factorOf(material.emissive.g),
-                             factorOf(material.emissive.b)};
+    const sim::Colour emissive = material.emissive;
+    const float strength = std::max({1.0f, emissive.r, emissive.g, emissive.b});
+    result.emissiveFactor = {factorOf(emissive.r / strength), factorOf(emissive.g / strength),
+                             factorOf(emissive.b / strength)};
+    if (strength > 1.0f) {
+      constexpr const char* kStrength = "KHR_materials_emissive_strength";
+      result.extensions[kStrength] =
+          tinygltf::Value(tinygltf::Value::Object{{"emissiveStrength", tinygltf::Value(double{strength})}});
+      file_.use(kStrength);
+    }
   }
   if (material.alpha_mode != sim::Material::Alpha::opaque) result.alphaMode = nameOf(material.alpha_mode);
   if (material.alpha_mode == sim::Material::Alpha::mask) result.alphaCutoff = factorOf(material.alpha_cutoff);

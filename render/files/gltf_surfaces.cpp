@@ -26,6 +26,7 @@ int plantMaterial(GltfMaterials& materials, const ModelMesh& mesh, const std::st
   sim::Material material;
   material.name = name;
   material.colour = scale * (mesh.picture == nullptr ? mesh.base_colour : sim::Colour(1.0f));
+  material.emissive = mesh.emits;
   material.roughness = kind == PlantSurface::blades ? kLeafRoughness : kStemRoughness;
   material.double_sided = kind == PlantSurface::blades;
   if (mesh.picture == nullptr) return materials.of(material, -1);

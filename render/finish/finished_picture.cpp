@@ -74,11 +74,17 @@ Vec3f raised(const ModelMesh& mesh, const std::array<std::uint32_t, 3>& t, const
   return sum;
 }
 
+/// Of the ground around, which sees all of the sky.
+Colour groundLight(const Ground& ground, const Daylight& light) {
+  return ground.colour * (0.45f * std::max(light.to_sun.y, 0.0f) * light.sun + 0.5f * light.zenith_light);
+}
+
 class Painter {
  public:
   Painter(const FinishedScene& scene, const Camera& camera, int width, int height)
       : rays_(scene.model, scene.pictures),
         sky_(scene.frame, *scene.occupied, *scene.sky),
+        bounced_(scene.bounced),
         ground_(groundOf(scene.model.meshes, scene.frame.voxel_m)),
         camera_(camera, static_cast<double>(width) / height),
         voxel_m_(static_cast<float>(scene.frame.voxel_m)),
@@ -92,8 +98,7 @@ class Painter {
     diagonal_m_ = static_cast<float>(glm::length(extent));
     pixel_ = static_cast<float>(
         glm::distance(camera_.direction(0.5, 0.5), camera_.direction(0.5, 0.5 + 1.0 / height)));
-    const float up = std::max(light_.to_sun.y, 0.0f);
-    bounce_ = ground_.colour * (0.45f * up * light_.sun + 0.5f * light_.zenith_light);
+    bounce_ = groundLight(ground_, light_);
     sun_across_ = glm::normalize(
         glm::cross(light_.to_sun, std::abs(light_.to_sun.y) < 0.9f ? Vec3f(0, 1, 0) : Vec3f(1, 0, 0)));
     sun_up_ = glm::cross(light_.to_sun, sun_across_);
@@ -117,6 +122,7 @@ class Painter {
 
   RayScene rays_;
   SkyView sky_;
+  const std::function<Colour(Vec3, Vec3f)>& bounced_;
   Ground ground_;
   CameraRays camera_;
   Noise noise_;
@@ -157,10 +163,12 @@ void Painter::meet(const SurfaceHit& hit, Vec3f direction, Fragment& f) const {
   f.normal = f.flat;
   if (surface.kind == SurfaceKind::scene) {
     f.look = sceneLook(noise_, surface, hit, f.p_m, pixel_ * hit.distance_m);
+    f.look.emits = surface.mesh->materials[surface.mesh->material[hit.triangle]].emissive;
     return;
   }
   if (surface.kind == SurfaceKind::body) {
     f.look = bodyLook(noise_, surface, hit, f.p_m, pixel_ * hit.distance_m);
+    f.look.emits = surface.model->emits;
     return;
   }
   const ModelMesh& mesh = *surface.model;
@@ -178,6 +186,7 @@ void Painter::meet(const SurfaceHit& hit, Vec3f direction, Fragment& f) const {
   }
   f.look = f.blade ? bladeLook(surface, hit, pixel_ * hit.distance_m)
                    : barkLook(noise_, surface, hit, f.p_m, pixel_ * hit.distance_m);
+  f.look.emits = mesh.emits;
 }
 
 Vec3f Painter::sunPoint(glm::vec2 disc) const {
@@ -191,12 +200,13 @@ Colour Painter::lit(const Fragment& f, Vec3f direction, float sun_seen) const {
   const float up = f.normal.y;
   const Colour sky_light =
       glm::mix(light_.side_light, light_.zenith_light, std::max(up, 0.0f)) * (0.75f + 0.25f * up);
-  const Colour bounced = bounce_ * (0.5f - 0.5f * up) * (0.35f + 0.65f * open);
-  const Colour corners = 0.05f * light_.side_light;  // light that has bounced more than once
+  const Colour bounced = bounced_ ? bounced_(Vec3(f.p_m), f.normal)
+                                  : bounce_ * (0.5f - 0.5f * up) * (0.35f + 0.65f * open) +
+                                        0.05f * light_.side_light;  // the last: bounced more than once
   const float facing = glm::dot(f.normal, light_.to_sun);
 
-  Colour result =
-      f.look.albedo * (open * sky_light + bounced + corners + sun_seen * std::max(facing, 0.0f) * light_.sun);
+  Colour result = f.look.emits + f.look.albedo * (open * sky_light + bounced +
+                                                  sun_seen * std::max(facing, 0.0f) * light_.sun);
   if (f.blade) {
     result += f.look.through *
               (sun_seen * std::max(-facing, 0.0f) * light_.sun + 0.35f * open * light_.zenith_light);
@@ -280,6 +290,13 @@ Colour Painter::pixel(int x, int y) const {
 }
 
 }  // namespace
+
+OutdoorLight outdoorLight(const std::vector<const sim::Mesh*>& meshes, double voxel_m, Vec3 to_sun) {
+  Daylight light;
+  light.to_sun = Vec3f(glm::normalize(to_sun));
+  if (light.to_sun.y <= 0.0f) light.sun = Colour(0.0f);
+  return {light.zenith_light, groundLight(groundOf(meshes, voxel_m), light), light.sun};
+}
 
 Image finishedPicture(const FinishedScene& scene, const Camera& camera, int width, int height) {
   if (!scene.occupied || !scene.sky || scene.occupied->size() != scene.frame.size ||

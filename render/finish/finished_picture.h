@@ -1,4 +1,7 @@
 #pragma once
+#include <functional>
+#include <vector>
+
 #include "render/files/gltf.h"
 #include "render/finish/ray_scene.h"
 #include "render/image/camera.h"
@@ -9,6 +12,13 @@
 
 namespace espalier::render {
 
+/// Light that a finished picture has: of the whole sky on level ground, of the ground all around on what looks
+/// down to it alone, and of the sun on what is square to it.
+struct OutdoorLight {
+  sim::Colour sky, ground, sun;
+};
+OutdoorLight outdoorLight(const std::vector<const sim::Mesh*>& meshes, double voxel_m, sim::Vec3 to_sun);
+
 /// What the finished picture is made of. Borrowed: everything must outlive the call.
 struct FinishedScene {
   ModelScene model;
@@ -16,6 +26,9 @@ struct FinishedScene {
   sim::Frame frame;
   const sim::BitVolume* occupied = nullptr;  ///< scene and plants, as tiled
   const sim::ExposureField* sky = nullptr;   ///< sky_exposure of every free voxel
+  /// Light that has bounced and falls onto a place with a unit normal, outdoorLight's ground included; without
+  /// it a guess.
+  std::function<sim::Colour(sim::Vec3 p_m, sim::Vec3f normal)> bounced = {};
   sim::Vec3 to_sun{0.4, 0.75, 0.5};  ///< need not be of unit length; below the horizon there is no sun
 };
 

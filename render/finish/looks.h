@@ -10,6 +10,7 @@ struct Look {
   sim::Colour albedo{0.5f};
   sim::Colour through{0.0f};  ///< share of the light from behind that comes through: thin blades only
   float gloss = 0.0f;         ///< strength of the waxy sheen
+  sim::Colour emits{0.0f};    ///< light of its own
 };
 
 /// A scene's surface: by its texture where it has one, else in its material's colour, weathered a little. p

@@ -128,6 +128,7 @@ PlantModel modelPlant(const sim::Plant& plant, const sim::Frame& frame, const Mo
   model.name = plant.name;
   model.stems.name = plant.name + " stems";
   model.stems.base_colour = plant.stem_colour;
+  model.stems.emits = plant.stem_emits;
   model.stems.picture = plant.bark.empty() ? plant.bark_picture : drawnBark(plant.stem_colour);
   sim::throwIfStopped();
 
@@ -139,6 +140,7 @@ PlantModel modelPlant(const sim::Plant& plant, const sim::Frame& frame, const Mo
     model.elements.push_back({});
     model.elements.back().name = plant.name + " " + shape.name;
     model.elements.back().base_colour = shape.colour;
+    model.elements.back().emits = shape.emits;
     model.elements.back().picture = shape.picture;
     model.elements.back().body = shape.body;
     if (!shape.drawn.empty()) model.elements.back().picture = drawnLeaf(shape.drawn, shape.colour);

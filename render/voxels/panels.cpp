@@ -94,8 +94,13 @@ Colour skyColour(sim::Vec3 direction) {
                         : glm::mix(horizon, ground, powf(-height, 0.8f));
 }
 
+FirstPassLight firstPassLight() {
+  return {Colour(0.28f, 0.32f, 0.38f), Colour(1.15f, 1.0f, 0.78f)};
+}
+
 Colour firstPass(Colour surface, float sky, float sun) {
-  return surface * (sky * Colour(0.28f, 0.32f, 0.38f) + sun * Colour(1.15f, 1.0f, 0.78f));
+  const FirstPassLight light = firstPassLight();
+  return surface * (sky * light.sky + sun * light.sun);
 }
 
 PanelPainter::PanelPainter(const Visibility& seen, const PanelWorld& world, PanelLook look,
@@ -110,11 +115,16 @@ PanelPainter::PanelPainter(const Visibility& seen, const PanelWorld& world, Pane
     quantities.emplace_back(&world.sky, &sky_);
   if (wanted({Panel::sun_hours})) quantities.emplace_back(&world.sun_hours, &hours_);
   const bool colours = wanted({Panel::surface_colour, Panel::first_pass});
+  const bool bounced = wanted({Panel::first_pass}) && world.ambient[0];
+  for (std::size_t c = 0; bounced && c < ambient_.size(); ++c)
+    quantities.emplace_back(&world.ambient[c], &ambient_[c]);
+  const bool emitting = wanted({Panel::first_pass}) && world.emitted;
 
   const std::size_t count = seen.fragments.size();
   samples_.resize(count);
   relief_.resize(count);
   if (colours) colour_.resize(count);
+  if (emitting) emitted_.resize(count);
   for (const auto& [value, shown] : quantities) {
     shown->pure.resize(count);
     shown->smooth.resize(count);
@@ -123,7 +133,7 @@ PanelPainter::PanelPainter(const Visibility& seen, const PanelWorld& world, Pane
     NearFaces near(world.occupied);
     std::vector<NearValues> values;
     for (const auto& quantity : quantities) values.emplace_back(*quantity.first, near);
-    Colour colour(0.0f);
+    Colour colour(0.0f), emitted(0.0f);
     for (std::size_t i = begin; i < end; ++i) {
       const Fragment& f = seen.fragments[i];
       samples_[i] = static_cast<std::int8_t>(f.face == kSky ? -f.samples : f.samples);
@@ -131,9 +141,11 @@ PanelPainter::PanelPainter(const Visibility& seen, const PanelWorld& world, Pane
       if (near.goTo(f)) {
         for (NearValues& value : values) value.forget();
         if (colours) colour = world.colour(f.voxel);
+        if (emitting) emitted = world.emitted(f.voxel);
       }
       relief_[i] = near.relief(f.at);
       if (colours) colour_[i] = colour;
+      if (emitting) emitted_[i] = emitted;
       for (std::size_t q = 0; q < values.size(); ++q) {
         quantities[q].second->pure[i] = values[q].here();
         quantities[q].second->smooth[i] = values[q].smooth(f.at);
@@ -205,7 +217,10 @@ PanelPicture PanelPainter::paint(Panel panel, const LightNeeds& needs) const {
   const auto light = [&](std::size_t i) {
     const float slant = static_cast<float>(
         std::max(0.0, glm::dot(sim::Vec3(kFaceNormals[seen_.fragments[i].face]), look_.to_sun)));
-    return firstPass(colour_[i], sky_.smooth[i], lit_[i] * slant);
+    const Colour own = emitted_.empty() ? Colour(0.0f) : emitted_[i];
+    if (ambient_[0].smooth.empty()) return own + firstPass(colour_[i], sky_.smooth[i], lit_[i] * slant);
+    const Colour ambient(ambient_[0].smooth[i], ambient_[1].smooth[i], ambient_[2].smooth[i]);
+    return own + colour_[i] * (ambient + lit_[i] * slant * firstPassLight().sun);
   };
   const auto shade = [&](std::size_t i) {
     const Colour c = light(i);

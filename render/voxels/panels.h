@@ -1,4 +1,5 @@
 #pragma once
+#include <array>
 #include <cstdint>
 #include <functional>
 #include <span>
@@ -34,6 +35,9 @@ struct PanelWorld {
   FaceValue sky;                                  ///< 0..1
   std::function<sim::Colour(sim::Voxel)> colour;  ///< linear, of an occupied voxel
   FaceValue sun_hours = {};
+  /// All light on a face but the sun's own, linear, red, green and blue; without it the sky's alone.
+  std::array<FaceValue, 3> ambient = {};
+  std::function<sim::Colour(sim::Voxel)> emitted = {};  ///< what a voxel sends out by itself; none: nothing
 };
 
 /// The light that a plant asks for.
@@ -80,9 +84,16 @@ class PanelPainter {
     std::vector<float> pure, smooth;  ///< as it is, and smoothed over faces side by side
   };
   Shown sun_, sky_, hours_;
+  std::array<Shown, 3> ambient_;  ///< if it is given
   std::vector<float> lit_;
-  std::vector<sim::Colour> colour_;
+  std::vector<sim::Colour> colour_, emitted_;
 };
+
+/// The light of first passes: of the whole sky on level ground, and of the sun on what is square to it.
+struct FirstPassLight {
+  sim::Colour sky, sun;
+};
+FirstPassLight firstPassLight();
 
 /// Light that a surface of a colour sends on, linear: Greene blends the shadow matte with sky_exposure to
 /// approximate the light that falls on it, and mats its colour through that. `sky`: what it receives of the

@@ -81,7 +81,8 @@ std::vector<sim::ElementShape> shapesOf(const RuleSet& rules) {
   std::vector<sim::ElementShape> shapes;
   for (const Element& element : rules.elements) {
     shapes.push_back({element.name, element.polygons, element.colour, element.varies,
-                      element.picture ? "" : element.texture, element.picture, element.body});
+                      element.picture ? "" : element.texture, element.picture, element.body,
+                      element.emits ? element.emits->light() : sim::Colour(0.0f)});
   }
   return shapes;
 }

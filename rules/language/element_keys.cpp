@@ -1,5 +1,6 @@
 #include "rules/language/element_keys.h"
 
+#include "rules/language/emission_keys.h"
 #include "rules/language/key_builder.h"
 
 namespace espalier::rules {
@@ -52,6 +53,9 @@ std::shared_ptr<const Table> stemKeys() {
   using By = sim::StemGirth::By;
   return TableOf<Stem>()
       .colour("colour", &Stem::colour, {.meaning = "Colour of the bark."})
+      .section("emits", &Stem::emits, emissionKeys(),
+               {.meaning = "Light that it sends out, in pictures with interreflection; a colour stands for its own."},
+               "colour")
       .file(
           "texture", &Stem::texture,
           {.meaning = "What is painted on it, side by side: bark, which is drawn in `colour`, or a PNG file "
@@ -118,6 +122,9 @@ std::shared_ptr<const Table> elementKeys() {
           {.meaning = "Hanging or standing upright, facing the brightest sky, or flat on the nearest "
                       "surface; free: by face and pitch."})
       .colour("colour", &Element::colour, {.meaning = "Colour of its polygons."})
+      .section("emits", &Element::emits, emissionKeys(),
+               {.meaning = "Light that it sends out, in pictures with interreflection; a colour stands for its own."},
+               "colour")
       .custom(
           "polygons", Kind::polygons,
           [](Element& e, const Datum& d) {

@@ -9,6 +9,7 @@
 #include <string_view>
 #include <vector>
 
+#include "rules/language/emission.h"
 #include "rules/language/envelope_spec.h"
 #include "rules/language/value.h"
 #include "sim/base/vec.h"
@@ -281,6 +282,7 @@ struct Element {
   Value share = 1.0;     ///< diffusion: how often it is tried before the others, as a weight
   double opacity = 1.0;  ///< share of the polygons' area that the texture leaves; who reads it puts it here
   sim::ColourVariation varies;
+  std::optional<Emission> emits;
 };
 
 /// What a plant's stems are like: see sim::StemGirth.
@@ -293,6 +295,7 @@ struct Stem {
   Distance thickest{kNoLimit};
   std::string texture;                          ///< as Element::texture
   std::shared_ptr<const sim::Picture> picture;  ///< of a file; who reads it puts it here
+  std::optional<Emission> emits;
 };
 
 struct RuleSet;

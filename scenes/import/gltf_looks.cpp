@@ -68,6 +68,8 @@ class Reader {
     material.metallic = share(numberIn(surface, "metallicFactor", 1.0));
     const auto emissive = numbersIn(json, "emissiveFactor", {0, 0, 0});
     material.emissive = {share(emissive[0]), share(emissive[1]), share(emissive[2])};
+    const Json& stronger = memberOf(memberOf(json, "extensions"), "KHR_materials_emissive_strength");
+    material.emissive *= static_cast<float>(std::clamp(numberIn(stronger, "emissiveStrength", 1.0), 0.0, 1000.0));
     const std::string mode = json.contains("alphaMode") ? requiredText(json, "alphaMode") : "OPAQUE";
     using Alpha = sim::Material::Alpha;
     material.alpha_mode = mode == "MASK" ? Alpha::mask : mode == "BLEND" ? Alpha::blend : Alpha::opaque;

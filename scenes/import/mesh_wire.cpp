@@ -81,7 +81,11 @@ sim::Material getMaterial(Unpacker& in, const std::vector<std::shared_ptr<const 
   material.colour = in.get<sim::Colour>();
   for (float* number : {&material.alpha, &material.roughness, &material.metallic, &material.alpha_cutoff})
     *number = getShare(in);
-  for (int c = 0; c < 3; ++c) material.emissive[c] = getShare(in);
+  for (int c = 0; c < 3; ++c) {
+    material.emissive[c] = in.get<float>();
+    if (!(material.emissive[c] >= 0.0f && std::isfinite(material.emissive[c])))
+      throw std::runtime_error("a material sends out no light that is a number");
+  }
   material.alpha_mode = getOneOf(in, sim::Material::Alpha::blend);
   material.double_sided = getOneOf(in, 1u) != 0;
   const auto texture = in.get<std::uint32_t>();

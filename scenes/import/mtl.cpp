@@ -77,6 +77,21 @@ void readPicture(std::string_view rest, MtlMaterial& material) {
   std::replace(material.picture.begin(), material.picture.end(), '\\', '/');
 }
 
+struct NamedColour {
+  std::string_view keyword, other;
+  sim::Colour sim::Material::* member;
+};
+
+/// The colour of a material that a keyword gives.
+const NamedColour* colourNamed(std::string_view keyword) {
+  static constexpr std::array<NamedColour, 2> kColours{
+      {{"Kd", "kd", &sim::Material::colour}, {"Ke", "ke", &sim::Material::emissive}}};
+  const auto at = std::find_if(kColours.begin(), kColours.end(), [&](const NamedColour& named) {
+    return named.keyword == keyword || named.other == keyword;
+  });
+  return at == kColours.end() ? nullptr : &*at;
+}
+
 }  // namespace
 
 sim::Material unknownMaterial(const std::string& name) {
@@ -91,14 +106,14 @@ int readMtl(std::string_view mtl, MtlMaterials& materials) {
       const std::string name(statement.rest());
       material =
           &materials.try_emplace(name, MtlMaterial{unknownMaterial(cleanText(name)), {}}).first->second;
-    } else if ((statement.keyword() == "Kd" || statement.keyword() == "kd") && material != nullptr) {
+    } else if (const auto* const own = colourNamed(statement.keyword()); own && material != nullptr) {
       const auto colour = colourOf(statement);
       if (!colour) {
         if (wrong_line == 0) wrong_line = statement.line();
         continue;
       }
       for (int c = 0; c < 3; ++c)
-        material->material.colour[c] = sim::linearFromSrgb(std::clamp((*colour)[c], 0.0f, 1.0f));
+        (material->material.*own->member)[c] = sim::linearFromSrgb(std::clamp((*colour)[c], 0.0f, 1.0f));
     } else if ((statement.keyword() == "map_Kd" || statement.keyword() == "map_kd") && material != nullptr) {
       readPicture(statement.rest(), *material);
     }

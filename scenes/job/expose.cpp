@@ -11,6 +11,7 @@
 #include "scenes/foretell/foretell.h"
 #include "scenes/job/stages.h"
 #include "scenes/job/warnings.h"
+#include "scenes/lights.h"
 #include "scenes/prepare/in_scene.h"
 #include "scenes/prepare/site.h"
 #include "scenes/show/expose_pictures.h"
@@ -69,7 +70,10 @@ PicturesWanted exposurePictures(const Scene& scene, const RunOptions& options) {
 Site exposureSite(const Scene& scene, const RunOptions& options, Report& report, Stages& stages) {
   Site site = stages.run("tiling", [&] {
     Site made = makeSiteForLight(scene);
-    requireCamerasInTheOpen(scene, made.world);
+    Gathering wrong(scene.file);
+    wrong.part([&] { requireCamerasInTheOpen(scene, made.world); });
+    wrong.part([&] { requireLampsInTheOpen(scene, made); });
+    wrong.end();
     return made;
   });
   describeWorld(report, scene, site);
@@ -127,7 +131,7 @@ ExposeResult exposeScene(const Scene& scene, const RunOptions& options) {
   output.protect(site.mesh_paths);
 
   std::shared_ptr<const sim::VoxelSet> space;
-  const sim::Lighting light = stages.run("lighting", [&] {
+  sim::Lighting light = stages.run("lighting", [&] {
     space = fittingSpace(scene, site);
     if (options.on_foretold) {
       report.run.foretold = foretellExposure(site, space.get(), pictures, stages.began());
@@ -138,8 +142,16 @@ ExposeResult exposeScene(const Scene& scene, const RunOptions& options) {
     wanted.space = space;
     wanted.space_hours = true;
     wanted.random_sky = site.random_sky;
+    if (scene.interreflection && options.pictures) wanted.to_sun = shadowDirection(scene.sun);
     return sim::lightOf(site.world, site.sky, site.sun, wanted);
   });
+  PictureLight lit;
+  if (scene.interreflection && options.pictures) {
+    lit = stages.run("bouncing light", [&] {
+      return pictureLight(scene, site.meshes, site.world, {}, light, litKinds(pictures.images),
+                          shadowDirection(scene.sun));
+    });
+  }
   report.light = light.about;
   report.exposure = {light.surfaces.size(), light.gaps->count(), space ? space->count() : 0};
 
@@ -165,7 +177,7 @@ ExposeResult exposeScene(const Scene& scene, const RunOptions& options) {
         wanted.cameras.push_back(overview(site.world.frame(), light.surfaces, site.sun, aspect));
       }
       wanted.images = exposureImages(scene, wanted.cameras, !site.sun.directions.empty());
-      const Finished finished{site.meshes, site.world, site.world.occupied(), no_growth, light, no_models};
+      const Finished finished{site.meshes, site.world, site.world.occupied(), no_growth, light, no_models, {}, {}, lit};
       auto drawn = inScene(scene, [&] { return drawPictures(wanted, finished); });
       for (OutputFile& file : drawn) files.push_back(std::move(file));
     });

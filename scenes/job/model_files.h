@@ -8,6 +8,7 @@
 #include "render/files/gltf.h"
 #include "render/model/plant_model.h"
 #include "scenes/prepare/site.h"
+#include "scenes/show/bounced_light.h"
 #include "scenes/scene.h"
 #include "scenes/write/output_folder.h"
 #include "sim/base/bits.h"
@@ -35,6 +36,7 @@ struct ModelSources {
   const std::vector<render::PlantModel>& in_memory;  ///< where pictures need them; else made while written
   const sim::Provenance& made_by;
   const sim::Lighting& light;       ///< with sun_now, where first_pass is wanted
+  const PictureLight& lit;          ///< beside it
   sim::Vec3 to_sun{0.0, 1.0, 0.0};  ///< of that
 };
 

@@ -52,7 +52,7 @@ sim::VoxelSet openLayers(const sim::BitVolume& scene, const sim::World& grown) {
 sim::Lighting lightFor(const Scene& scene, const Site& site, bool vines, const sim::BitVolume& bare,
                        std::shared_ptr<const sim::VoxelSet> layers, const ModelsWanted& models = {}) {
   sim::LightWanted wanted;
-  if (models.diced == ImageKind::first_pass) wanted.to_sun = shadowDirection(scene.sun);
+  if (models.diced == ImageKind::first_pass || scene.interreflection) wanted.to_sun = shadowDirection(scene.sun);
   wanted.space = std::move(layers);
   wanted.dense = vines;
   if (vines && std::any_of(scene.images.begin(), scene.images.end(), showsNoPlant)) wanted.bare = &bare;
@@ -62,10 +62,22 @@ sim::Lighting lightFor(const Scene& scene, const Site& site, bool vines, const s
   return sim::lightOf(site.world, site.sky, site.sun, wanted);
 }
 
+/// How pictures of what has grown, and models that look like them, are lit.
+PictureLight litFor(const Scene& scene, const Site& site, const std::vector<sim::Plant>& plants,
+                    sim::Lighting& light, bool pictures, const ModelsWanted& models, Stages& stages) {
+  LitKinds kinds = pictures ? litKinds(scene.images) : LitKinds();
+  kinds.first_pass = kinds.first_pass || models.diced == ImageKind::first_pass;
+  const auto find = [&] {
+    return pictureLight(scene, site.meshes, site.world, plants, light, kinds, shadowDirection(scene.sun));
+  };
+  return scene.interreflection && kinds.any() ? stages.run("bouncing light", find) : find();
+}
+
 /// For pictures of what has grown on a site. Borrows all but the textures.
 Finished finishedOn(const Scene& scene, const Site& site, const sim::BitVolume& bare,
                     const sim::Growth& growth, const sim::Lighting& light,
-                    const std::vector<render::PlantModel>& models, render::KnownPictures textures) {
+                    const PictureLight& lit, const std::vector<render::PlantModel>& models,
+                    render::KnownPictures textures) {
   return {site.meshes,
           site.world,
           bare,
@@ -73,7 +85,8 @@ Finished finishedOn(const Scene& scene, const Site& site, const sim::BitVolume& 
           light,
           models,
           std::move(textures),
-          growthSettings(scene, site, {}).sky_table};
+          growthSettings(scene, site, {}).sky_table,
+          lit};
 }
 
 /// A scene's site, and what shall grow on it or has grown there.
@@ -93,6 +106,7 @@ Prepared prepare(const Scene& scene, const RunOptions& options, Report& report, 
     Gathering wrong(scene.file);
     wrong.part([&] { plantings = makePlantings(scene, site); });
     wrong.part([&] { requireCamerasInTheOpen(scene, site.world); });
+    wrong.part([&] { requireLampsInTheOpen(scene, site); });
     wrong.part([&] { attractors = attractorsOf(scene, site, &of_attractors); });
     wrong.end();
     for (NamedPoints& crown : crownsOf(scene, site, plantings, &of_attractors))
@@ -243,10 +257,11 @@ Report runScene(const Scene& scene, const RunOptions& options, const Keeping& ke
   report.occupied_voxels = world.occupied().count();
 
   std::shared_ptr<const sim::VoxelSet> layers;
-  const sim::Lighting light = stages.run("lighting", [&] {
+  sim::Lighting light = stages.run("lighting", [&] {
     layers = std::make_shared<const sim::VoxelSet>(openLayers(bare, world));
     return lightFor(scene, site, options.pictures && drawsVines(scene.images), bare, layers, options.models);
   });
+  const PictureLight lit = litFor(scene, site, growth.plants, light, options.pictures, options.models, stages);
   report.light = light.about;
   std::vector<render::PlantModel> models;  // for pictures; else they are made while they are written
   if (options.pictures)
@@ -255,7 +270,7 @@ Report runScene(const Scene& scene, const RunOptions& options, const Keeping& ke
   for (const render::VdbField& field : guides.fields)
     report.growth->fields.push_back({field.name, guides.near->count()});
   const ModelSources sources{
-      site, growth.plants, bare, models, report.made_by, light, shadowDirection(scene.sun)};
+      site, growth.plants, bare, models, report.made_by, light, lit, shadowDirection(scene.sun)};
   std::vector<OutputFile> files = modelFiles(
       options.models, sources,
       [&](std::size_t plant, std::size_t limbs) { report.growth->plants[plant].meeting_limbs = limbs; });
@@ -281,7 +296,7 @@ Report runScene(const Scene& scene, const RunOptions& options, const Keeping& ke
       ReadTextures textures = texturesFor(drawsVines(scene.images), scene, site.meshes, options, report);
       for (const Problem& unread : textures.unread) late_warnings.push_back(unread.text);
       const Finished finished =
-          finishedOn(scene, site, bare, growth, light, models, std::move(textures.pictures));
+          finishedOn(scene, site, bare, growth, light, lit, models, std::move(textures.pictures));
       auto pictures =
           inScene(scene, [&] { return drawPictures(picturesOf(scene, report.made_by), finished); });
       for (OutputFile& file : pictures) files.push_back(std::move(file));
@@ -344,7 +359,7 @@ Report renderScene(Scene scene, const std::filesystem::path& from, const RunOpti
   const sim::Growth growth = takeUp(std::move(*state), from, scene, site, prepared.plantings, Same::plants);
   report.growth = growthReport(scene, site, bare, growth, prepared.seed_lights);
   report.occupied_voxels = site.world.occupied().count();
-  const sim::Lighting light = stages.run("lighting", [&] {
+  sim::Lighting light = stages.run("lighting", [&] {
     if (options.on_foretold) {
       report.run.foretold = foretellPictures(site, prepared.plantings, grownIn(growth.plants),
                                              picturesOf(scene), stages.began());
@@ -352,6 +367,7 @@ Report renderScene(Scene scene, const std::filesystem::path& from, const RunOpti
     }
     return lightFor(scene, site, drawsVines(scene.images), bare, nullptr);
   });
+  const PictureLight lit = litFor(scene, site, growth.plants, light, true, {}, stages);
   report.light = light.about;
   const auto models =
       stages.run("modelling", [&] { return modelPlants(site.world.frame(), growth.plants, bare); });
@@ -360,7 +376,7 @@ Report renderScene(Scene scene, const std::filesystem::path& from, const RunOpti
     ReadTextures textures = texturesFor(drawsVines(scene.images), scene, site.meshes, options, report);
     for (const Problem& one : textures.unread) unread.push_back(one.text);
     const Finished finished =
-        finishedOn(scene, site, bare, growth, light, models, std::move(textures.pictures));
+        finishedOn(scene, site, bare, growth, light, lit, models, std::move(textures.pictures));
     return inScene(scene, [&] { return drawPictures(picturesOf(scene, report.made_by), finished); });
   });
   stages.run("writing", [&] { output.write(files); });

@@ -13,7 +13,9 @@
 #include "scenes/prepare/in_scene.h"
 #include "scenes/prepare/unit_hints.h"
 #include "sim/base/error.h"
+#include "sim/base/faces.h"
 #include "sim/base/parallel.h"
+#include "sim/tile/emission.h"
 
 namespace espalier::scenes {
 namespace {
@@ -169,6 +171,30 @@ void requireCamerasInTheOpen(const Scene& scene, const sim::World& world) {
         camera.eye_place, scene.file,
         fmt::format("camera '{}' stands inside '{}' ({}); move its eye into the open{}", camera.name,
                     world.part(part).object, world.part(part).region, sim::orLeaveHollow(world.part(part)))));
+  }
+  wrong.end();
+}
+
+void requireLampsInTheOpen(const Scene& scene, const Site& site) {
+  const sim::BitVolume& occupied = site.world.occupied();
+  const auto isOpen = [&](sim::Voxel v) {
+    return std::any_of(sim::kFaceNormals.begin(), sim::kFaceNormals.begin() + sim::kFaces,
+                       [&](sim::Voxel normal) { return !occupied.at(v + normal); });
+  };
+  Gathering wrong(scene.file);
+  for (const SceneMesh& spec : scene.meshes) {
+    const auto tiled = std::find_if(site.meshes.begin(), site.meshes.end(),
+                                    [&](const sim::TiledMesh& mesh) { return mesh.mesh.name == spec.name; });
+    if (tiled == site.meshes.end()) continue;
+    const auto lamps =
+        sim::emissionOf(site.world.frame(), std::span(&*tiled, 1), [](sim::Voxel) { return 1.0f; });
+    const auto opens = [&](const sim::EmittingVoxel& lamp) { return isOpen(lamp.voxel); };
+    if (lamps.empty() || std::any_of(lamps.begin(), lamps.end(), opens)) continue;
+    const sim::PartId part = site.world.partAt(lamps.front().voxel);
+    wrong.add(problemAt(spec.place, scene.file,
+                        fmt::format("mesh '{}' sends out light, and none gets out: it lies inside of '{}'; "
+                                    "expected it in the open",
+                                    spec.name, site.world.part(part).object)));
   }
   wrong.end();
 }

@@ -48,5 +48,7 @@ int layersFor(const Scene& scene, const sim::Frame& frame);
 
 /// Throws PlacedError where a camera's eye lies in an occupied voxel.
 void requireCamerasInTheOpen(const Scene& scene, const sim::World& world);
+/// Throws PlacedError where no light gets out of a mesh that sends it out, as it lies in a solid.
+void requireLampsInTheOpen(const Scene& scene, const Site& site);
 
 }  // namespace espalier::scenes

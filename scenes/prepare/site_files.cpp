@@ -53,6 +53,9 @@ sim::Mesh readMesh(const SceneMesh& spec, SiteFiles& to) {
       material.texture.reset();
     }
   }
+  if (spec.emits) {
+    for (sim::Material& material : mesh.materials) material.emissive = spec.emits->light();
+  }
   return mesh;
 }
 

@@ -10,6 +10,7 @@
 #include "scenes/lights.h"
 #include "scenes/read/units.h"
 #include "sim/base/error.h"
+#include "sim/light/interreflection.h"
 
 namespace espalier::scenes {
 namespace {
@@ -224,6 +225,27 @@ std::shared_ptr<const Table> sunKeys() {
       .shared();
 }
 
+std::shared_ptr<const Table> interreflectionKeys() {
+  using Spec = InterreflectionSpec;
+  return TableOf<Spec>()
+      .whole("passes", &Spec::passes,
+             {.unit = "passes",
+              .limits = {1.0, sim::kMostPasses},
+              .meaning = "At most: on the first, rays that meet something bring nothing; 2 is one bounce."})
+      .number("tolerance", &Spec::tolerance,
+              {.limits = {0.0, 1.0},
+               .meaning = "They end when no surface changes by more of the brightest; at 0 all are made."})
+      .whole("directions", &Spec::directions,
+             {.unit = "directions",
+              .limits = {1.0, sim::kMostSkyDirections},
+              .meaning = "Over each half of the sphere, above the horizon and below."})
+      .choice<BounceWeighting>("weighting", &Spec::weighting,
+                               {{"lambert", BounceWeighting::lambert}, {"equal", BounceWeighting::equal}},
+                               {.meaning = "By the cosine with the surface's normal, or all directions before "
+                                           "it alike, as Greene had them."})
+      .shared();
+}
+
 void checkSky(const Scene& scene, const Given& given, const Complain& complain) {
   const bool random = scene.sky.sampling == Sampling::random;
   if (!random && given("sky.rays"))
@@ -232,6 +254,10 @@ void checkSky(const Scene& scene, const Given& given, const Complain& complain) 
     const std::string path = std::string("sky.") + key;
     if (random && given(path))
       complain(path, fmt::format("{} means nothing to sampling: random; expected rays", key));
+  }
+  if (random && scene.interreflection) {
+    complain("interreflection",
+             "light bounces along lattice directions, not along sampling: random; expected one of the two");
   }
   if (given("sky.accuracy") && given("sky.directions")) {
     complain("sky.directions", "both accuracy and directions are given; expected one of them");

@@ -4,11 +4,12 @@
 #include "rules/language/key.h"
 #include "scenes/scene.h"
 
-/// The keys `sky` and `sun` of scene files.
+/// The keys `sky`, `sun` and `interreflection` of scene files.
 namespace espalier::scenes {
 
 std::shared_ptr<const rules::Table> skyKeys();
 std::shared_ptr<const rules::Table> sunKeys();
+std::shared_ptr<const rules::Table> interreflectionKeys();
 
 /// What must hold between them.
 void checkSky(const Scene& scene, const rules::Check::Given& given, const rules::Check::Complain& complain);

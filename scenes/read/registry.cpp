@@ -1,5 +1,6 @@
 #include "scenes/read/registry.h"
 
+#include "rules/language/emission_keys.h"
 #include "rules/language/envelope_keys.h"
 #include "rules/language/key_builder.h"
 #include "scenes/read/field_keys.h"
@@ -84,6 +85,9 @@ std::shared_ptr<const Table> meshKeys() {
                .meaning = "Of lines and points, where they are drawn."});
   addPlacement(table);
   return table.colour("colour", &SceneMesh::colour, {.meaning = "Instead of the file's own colours."})
+      .section("emits", &SceneMesh::emits, rules::emissionKeys(),
+               {.meaning = "Light that it sends out, instead of the file's own; a colour stands for its own."},
+               "colour")
       .oneOf({"file", "lines"})
       .shared();
 }
@@ -307,6 +311,9 @@ Table makeTable() {
       .section("sky", &Scene::sky, skyKeys(), {.meaning = "How sky_exposure is found."})
       .section("sun", &Scene::sun, sunKeys(),
                {.meaning = "How sun_exposure is found: Greene's inclined arc, or with a place the real sun."})
+      .section("interreflection", &Scene::interreflection, interreflectionKeys(),
+               {.meaning = "Light that bounces from surface to surface, in images of kinds first_pass and vines."},
+               "passes")
       .section("exposure", &Scene::exposure, exposureKeys(),
                {.meaning =
                     "What espalier expose finds beside the exposure of surfaces, and what its tables count."})

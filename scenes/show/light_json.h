@@ -17,6 +17,7 @@ inline nlohmann::ordered_json lightJson(const sim::LightAbout& about) {
     json["sun_error_deg"] = about.sun_error_deg;
     json["sun_hours"] = about.sun_hours;
   }
+  if (!about.interreflection.empty()) json["interreflection"] = about.interreflection;
   json["voxel_m"] = about.voxel_m;
   return json;
 }

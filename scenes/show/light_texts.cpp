@@ -14,6 +14,7 @@ std::vector<std::pair<std::string, std::string>> texts(const sim::LightAbout& ab
     texts.emplace_back("sun_directions", std::to_string(about.sun_directions));
     texts.emplace_back("sun_error_deg", fmt::format("{:.2g}", about.sun_error_deg));
   }
+  if (!about.interreflection.empty()) texts.emplace_back("interreflection", about.interreflection);
   return texts;
 }
 

@@ -154,6 +154,15 @@ Studio::Studio(const PicturesWanted& wanted, const Finished& finished)
                return surface ? surface->colour : sim::Colour(0.0f);
              },
              faces(finished.light.sun_hours)} {
+  if (const auto& bounced = finished.lit.first_pass) {
+    for (std::size_t c = 0; c < world_.ambient.size(); ++c) {
+      world_.ambient[c] = [&bounced, c](sim::Voxel v, std::uint8_t face) {
+        return bounced->ambientAtFace(v, face, c);
+      };
+    }
+  }
+  if (const auto& emitted = finished.lit.emitted)
+    world_.emitted = [&emitted](sim::Voxel v) { return emitted->at(v); };
   look_.most_hours = std::max(0.01f, static_cast<float>(finished.light.about.sun_hours));
   look_.to_sun = wanted.to_sun;
 }

@@ -7,6 +7,7 @@
 #include "render/model/plant_model.h"
 #include "render/voxels/panels.h"
 #include "scenes/scene.h"
+#include "scenes/show/bounced_light.h"
 #include "scenes/show/shown_field.h"
 #include "scenes/write/output_folder.h"
 #include "sim/base/provenance.h"
@@ -52,6 +53,7 @@ struct Finished {
   const std::vector<render::PlantModel>& models;  ///< one a plant
   render::KnownPictures textures = {};            ///< of the meshes' materials, for images of vines
   std::function<sim::SkyTable()> sky_table = {};  ///< as growth has it, for images of sky tables
+  PictureLight lit = {};                          ///< beside `light`
 };
 
 /// Whether it is one of the panels of render/voxels/panels.h.

@@ -20,9 +20,10 @@ sim::BitVolume without(sim::BitVolume set, const sim::BitVolume& other) {
 }  // namespace
 
 VoxelColours::VoxelColours(const sim::World& world, const sim::BitVolume& bare, const sim::Lighting& light,
-                           ImageKind kind, sim::Vec3 to_sun)
+                           const PictureLight& lit, ImageKind kind, sim::Vec3 to_sun)
     : world_(world),
       light_(light),
+      lit_(lit),
       kind_(kind),
       to_sun_(to_sun),
       kinds_{Kind{bare, {}}, Kind{without(world.solid(), bare), {}},
@@ -31,12 +32,19 @@ VoxelColours::VoxelColours(const sim::World& world, const sim::BitVolume& bare, 
     if (one.occupied.count() == 0) one.occupied = world.occupied();
   }
   if (kind == ImageKind::surface_colour) return;
-  sim::BitVolume lit = light.where->bits();
-  lit.add(light.gaps->bits());
+  sim::BitVolume judged = light.where->bits();
+  judged.add(light.gaps->bits());
   for (Kind& one : kinds_) {
     one.lit = one.occupied;
-    one.lit.keep(lit);
+    one.lit.keep(judged);
   }
+}
+
+sim::Colour VoxelColours::ambientAtFace(sim::Voxel voxel, std::uint8_t face) const {
+  if (!lit_.first_pass) return light_.atFace(light_.sky, voxel, face) * render::firstPassLight().sky;
+  const BouncedLight& bounced = *lit_.first_pass;
+  return {bounced.ambientAtFace(voxel, face, 0), bounced.ambientAtFace(voxel, face, 1),
+          bounced.ambientAtFace(voxel, face, 2)};
 }
 
 VoxelColours::Light VoxelColours::lightOf(sim::Voxel v) const {
@@ -47,21 +55,24 @@ VoxelColours::Light VoxelColours::lightOf(sim::Voxel v) const {
   };
   const auto own = [&](float slant) -> Light {
     const std::size_t number = light_.where->number(v);
-    return {light_.sky.values[number], slant * light_.sun_now.values[number]};
+    const sim::Colour ambient = lit_.first_pass ? lit_.first_pass->ambientOf(number)
+                                                : light_.sky.values[number] * render::firstPassLight().sky;
+    return {ambient, slant * light_.sun_now.values[number]};
   };
   if (kinds_[0].occupied.at(v) && light_.where->has(v))
     return own(slantOf(sim::Vec3(light_.surfaces[light_.where->number(v)].surface.normal)));
-  float sky = 0.0f, faces = 0.0f, sun = 0.0f, slants = 0.0f;
+  sim::Colour ambient(0.0f);
+  float faces = 0.0f, sun = 0.0f, slants = 0.0f;
   for (std::uint8_t face = 0; face < sim::kFaces; ++face) {
     if (world_.occupied().at(v + sim::kFaceNormals[face])) continue;
-    sky += light_.atFace(light_.sky, v, face);
+    ambient += ambientAtFace(v, face);
     faces += 1.0f;
     const float slant = slantOf(sim::Vec3(sim::kFaceNormals[face]));
     if (slant > 0.0f) sun += slant * light_.atFace(light_.sun_now, v, face);
     slants += slant;
   }
   if (faces == 0.0f) return own(kMeanSlant);  // a leaf among leaves, with free space before these
-  return {sky / faces, slants > 0.0f ? kMeanSlant * sun / slants : 0.0f};
+  return {ambient / faces, slants > 0.0f ? kMeanSlant * sun / slants : 0.0f};
 }
 
 sim::Colour VoxelColours::at(sim::Voxel voxel, sim::PartKind kind) const {
@@ -72,7 +83,8 @@ sim::Colour VoxelColours::at(sim::Voxel voxel, sim::PartKind kind) const {
   if (kind_ == ImageKind::surface_colour) return colour;
   const auto lit_at = sim::nearestSet(own.lit, *occupied);
   const Light light = lit_at ? lightOf(*lit_at) : Light();
-  const sim::Colour lit = render::firstPass(colour, light.sky, light.sun);
+  const sim::Colour emitted = lit_.emitted ? lit_.emitted->at(*occupied) : sim::Colour(0.0f);
+  const sim::Colour lit = emitted + colour * (light.ambient + light.sun * render::firstPassLight().sun);
   const render::ToneCurve tone;
   return {tone(lit.r), tone(lit.g), tone(lit.b)};
 }

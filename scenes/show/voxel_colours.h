@@ -2,6 +2,7 @@
 #include <array>
 
 #include "scenes/scene.h"
+#include "scenes/show/bounced_light.h"
 #include "sim/base/bits.h"
 #include "sim/light/lighting.h"
 #include "sim/world/world.h"
@@ -16,9 +17,9 @@ class VoxelColours {
   /// that kind shows it, by what the voxel's own surface receives, or where it has none, as stems and leaves,
   /// by the mean of its open faces. Then `light` must know sun_now of `to_sun`. A voxel without open faces,
   /// among leaves, is lit as the nearest one that has some. `bare`: what the scene alone occupies. Borrows
-  /// the world and the light.
+  /// the world and both lights.
   VoxelColours(const sim::World& world, const sim::BitVolume& bare, const sim::Lighting& light,
-               ImageKind kind, sim::Vec3 to_sun);
+               const PictureLight& lit, ImageKind kind, sim::Vec3 to_sun);
 
   /// For what lies in a voxel of the world and is of that kind of part: the voxel's colour, where such a part
   /// occupies it; else that of the nearest voxel where one does. A leaf in a stem's voxel is no less green.
@@ -27,12 +28,15 @@ class VoxelColours {
 
  private:
   struct Light {
-    float sky = 0.0f, sun = 0.0f;  // as render::firstPass has them
+    sim::Colour ambient{0.0f};  // all but the sun's
+    float sun = 0.0f;           // as render::firstPass has it
   };
   Light lightOf(sim::Voxel lit) const;
+  sim::Colour ambientAtFace(sim::Voxel voxel, std::uint8_t face) const;
 
   const sim::World& world_;
   const sim::Lighting& light_;
+  const PictureLight& lit_;
   ImageKind kind_;
   sim::Vec3 to_sun_;
   struct Kind {

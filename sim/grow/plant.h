@@ -62,6 +62,7 @@ struct ElementShape {
   std::string drawn = {};
   std::shared_ptr<const Picture> picture = nullptr;
   bool body = false;  ///< its polygons close a body, such as a stone: no light comes through it
+  Colour emits{0.0f};  ///< light that it sends out by itself, linear; growth does not look at it
 };
 
 struct PlacedElement {
@@ -87,6 +88,7 @@ struct Plant {
   std::string bark =
       {};  ///< what is painted on its stems, as on ElementShape: a kind of bark, or a picture that tiles
   std::shared_ptr<const Picture> bark_picture = nullptr;
+  Colour stem_emits{0.0f};  ///< as ElementShape::emits
   StemGirth girth;
   PartId stem_part = kFree;
   std::vector<PartId> element_parts;  ///< a part for each shape

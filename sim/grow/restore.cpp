@@ -113,6 +113,9 @@ Growth restore(State state, World& world, const std::vector<Planting>& plantings
       plant.name = planting.seeds.size() == 1 ? planting.name : fmt::format("{} {}", planting.name, k + 1);
       plant.shapes = seedling.shapes;
       plant.stem_colour = seedling.stem_colour;
+      plant.stem_emits = seedling.stem_emits;
+      plant.bark = seedling.bark;
+      plant.bark_picture = seedling.bark_picture;
       plant.girth = seedling.girth;
       plant.stem_part = part_of(plant.name, "stem", PartKind::stem, number);
       for (const ElementShape& shape : plant.shapes)

@@ -53,9 +53,11 @@ std::vector<float> seenOf(const Lighting& light, const SurfaceSensors& sensors, 
   return seen;
 }
 
-class Passes {
+}  // namespace
+
+class Interreflection::Seen {
  public:
-  Passes(const World& world, const Lighting& light, const BounceSettings& settings)
+  Seen(const World& world, const Lighting& light, const BounceSettings& settings)
       : settings_(settings),
         light_(light),
         sensors_(sensorsOf(world, light)),
@@ -67,10 +69,10 @@ class Passes {
     const OpenTable open = sweepOpen(world.opaque(), up.directions, sensors_.places);
     sky_ = seenOf(light, sensors_, open, up);
     const OpenTable open_below = sweepOpen(world.opaque(), down.directions, sensors_.places);
-    const std::vector<float> below = seenOf(light, sensors_, open_below, down);
+    below_ = seenOf(light, sensors_, open_below, down);
     covered_.resize(sky_.size());
     for (std::size_t i = 0; i < sky_.size(); ++i)
-      covered_[i] = sensors_.of(i).empty() ? 0.0f : std::clamp(1.0f - sky_[i] - below[i], 0.0f, 1.0f);
+      covered_[i] = sensors_.of(i).empty() ? 0.0f : std::clamp(1.0f - sky_[i] - below_[i], 0.0f, 1.0f);
     directions_ = up.directions;
     directions_.insert(directions_.end(), down.directions.begin(), down.directions.end());
     if (!settings.overcast) return;
@@ -79,7 +81,9 @@ class Passes {
   }
 
   const std::vector<float>& sky() const { return sky_; }
+  const std::vector<float>& below() const { return below_; }
   const std::vector<float>& covered() const { return covered_; }
+  const BounceSettings& settings() const { return settings_; }
 
   /// What each receiver gets of these radiosities.
   std::vector<Colour> pass(const std::vector<Colour>& radiosities);
@@ -90,18 +94,18 @@ class Passes {
   void add(const Met& met, std::size_t first, std::size_t count, const std::vector<Whole>& whole,
            std::vector<Sums>& sums) const;
 
-  const BounceSettings& settings_;
+  const BounceSettings settings_;
   const Lighting& light_;
   double standard_error_ = 0.0;  // of a share of the half-space
   SurfaceSensors sensors_;
   std::vector<Voxel> viewpoints_;
   Stops<std::uint32_t> stops_;
   DirectionSet directions_;
-  std::vector<float> sky_, covered_;
+  std::vector<float> sky_, below_, covered_;
   Met kept_;  // of all directions, if there is room for it
 };
 
-void Passes::add(const Met& met, std::size_t first, std::size_t count, const std::vector<Whole>& whole,
+void Interreflection::Seen::add(const Met& met, std::size_t first, std::size_t count, const std::vector<Whole>& whole,
                  std::vector<Sums>& sums) const {
   const Givers givers = giversOf(directions_, settings_.lambert);
   constexpr std::size_t kGrain = 2048;
@@ -132,7 +136,7 @@ void Passes::add(const Met& met, std::size_t first, std::size_t count, const std
   });
 }
 
-std::vector<Colour> Passes::pass(const std::vector<Colour>& radiosities) {
+std::vector<Colour> Interreflection::Seen::pass(const std::vector<Colour>& radiosities) {
   const std::size_t count = radiosities.size();
   float most = 0.0f;
   for (const Colour& c : radiosities) most = std::max({most, c.r, c.g, c.b});
@@ -173,7 +177,7 @@ std::vector<Colour> Passes::pass(const std::vector<Colour>& radiosities) {
   return brought;
 }
 
-void Passes::evenOut(std::vector<Colour>& brought) const {
+void Interreflection::Seen::evenOut(std::vector<Colour>& brought) const {
   float most = 0.0f;
   for (const Colour& c : brought) most = std::max({most, c.r, c.g, c.b});
   if (most <= 0.0f) return;
@@ -185,7 +189,9 @@ void Passes::evenOut(std::vector<Colour>& brought) const {
   }
 }
 
-void check(const BounceSources& sources, std::size_t receivers, const BounceSettings& settings) {
+namespace {
+
+const BounceSettings& checked(const BounceSettings& settings) {
   if (settings.directions < 1 || settings.directions > kMostSkyDirections) {
     throw InputError(fmt::format("interreflection by {} directions; expected 1 to {}", settings.directions,
                                  kMostSkyDirections));
@@ -194,6 +200,10 @@ void check(const BounceSources& sources, std::size_t receivers, const BounceSett
     throw InputError(fmt::format("{} passes of light; expected 1 to {}", settings.passes, kMostPasses));
   if (!(settings.tolerance >= 0.0))
     throw InputError(fmt::format("a tolerance of {:g}; expected at least 0", settings.tolerance));
+  return settings;
+}
+
+void check(const BounceSources& sources, std::size_t receivers) {
   const bool emitted = !sources.emitted.empty();
   if (sources.sun.size() != receivers || sources.albedo.size() != receivers ||
       (emitted && sources.emitted.size() != receivers))
@@ -207,19 +217,24 @@ void check(const BounceSources& sources, std::size_t receivers, const BounceSett
   };
   if (!allWithin(sources.albedo, 1.0f))
     throw InputError("a surface reflects more light than falls onto it; expected colours of 0 to 1");
-  if (!within(sources.sky, kAnything) || !allWithin(sources.sun, kAnything) ||
+  if (!within(sources.sky, kAnything) || !within(sources.below, kAnything) || !allWithin(sources.sun, kAnything) ||
       !allWithin(sources.emitted, kAnything))
     throw InputError("light below 0 or without end; expected 0 or more");
 }
 
 }  // namespace
 
-Bounced interreflection(const World& world, const Lighting& light, const BounceSources& sources,
-                        const BounceSettings& settings) {
-  const std::size_t count = light.surfaces.size() + light.faces.size();
-  check(sources, count, settings);
-  Passes passes(world, light, settings);
-  Bounced bounced{passes.sky(), passes.covered(), std::vector<Colour>(count, Colour(0.0f)), 1, 0.0};
+Interreflection::Interreflection(const World& world, const Lighting& light, const BounceSettings& settings)
+    : seen_(std::make_unique<Seen>(world, light, checked(settings))) {}
+Interreflection::Interreflection(Interreflection&&) noexcept = default;
+Interreflection::~Interreflection() = default;
+
+Bounced Interreflection::of(const BounceSources& sources) {
+  Seen& passes = *seen_;
+  const BounceSettings& settings = passes.settings();
+  const std::size_t count = passes.sky().size();
+  check(sources, count);
+  Bounced bounced{passes.sky(), passes.below(), passes.covered(), std::vector<Colour>(count, Colour(0.0f)), 1, 0.0};
   std::vector<Colour> sent(count);
   const auto send = [&] {
     double change = 0.0, most = 0.0;

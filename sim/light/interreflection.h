@@ -1,6 +1,7 @@
 #pragma once
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 #include "sim/light/lighting.h"
@@ -13,7 +14,7 @@
 ///
 /// What a surface meets and what it sees of the open sky add up to the whole half-space before it, so a pass
 /// never makes light: what it brings is a mean of radiosities, times the share of the half-space that is
-/// taken by what is met. Rays that leave the world below the horizon bring nothing.
+/// taken by what is met.
 namespace espalier::sim {
 
 inline constexpr int kMostPasses = 1000;
@@ -34,6 +35,7 @@ struct BounceSettings {
 /// was white; radiosity is what the surface sends on, emitted or reflected.
 struct BounceSources {
   Colour sky{1.0f};             ///< light of the whole sky on level ground
+  Colour below{0.0f};           ///< light of rays that leave the world below the horizon, if all of them did
   std::vector<Colour> sun;      ///< light of the sun
   std::vector<Colour> albedo;   ///< 0..1
   std::vector<Colour> emitted;  ///< radiosity of its own; empty: nothing shines
@@ -42,21 +44,35 @@ struct BounceSources {
 /// Light of every receiver.
 struct Bounced {
   std::vector<float> sky;      ///< share of the sky's light, 0..1
-  std::vector<float> covered;  ///< share of the half-space before it in which it meets something
+  std::vector<float> below;    ///< share of the half-space before it that leaves the world below the horizon
+  std::vector<float> covered;  ///< share of it in which something is met; none where it has no free place
   std::vector<Colour> light;   ///< that comes from what is met
   int passes = 0;              ///< that were made
   double change = 0.0;         ///< of the last, as settings.tolerance has it
 };
 
-/// Throws InputError for settings or sources that make no sense. `sources` are of `light`'s receivers.
-Bounced interreflection(const World& world, const Lighting& light, const BounceSources& sources,
-                        const BounceSettings& settings);
+/// A world made ready for light that bounces: what its receivers see of the sky and of each other.
+class Interreflection {
+ public:
+  /// Throws InputError for settings that make no sense. Borrows the light.
+  Interreflection(const World& world, const Lighting& light, const BounceSettings& settings);
+  Interreflection(Interreflection&&) noexcept;
+  ~Interreflection();
+
+  /// `sources` are of the light's receivers. Throws InputError for those that make no sense.
+  Bounced of(const BounceSources& sources);
+
+ private:
+  class Seen;
+  std::unique_ptr<Seen> seen_;
+};
 
 /// The radiosity of a receiver.
 inline Colour radiosity(const BounceSources& sources, const Bounced& bounced, std::size_t receiver) {
   const Colour own = sources.emitted.empty() ? Colour(0.0f) : sources.emitted[receiver];
   return own + sources.albedo[receiver] *
-                   (bounced.sky[receiver] * sources.sky + sources.sun[receiver] + bounced.light[receiver]);
+                   (bounced.sky[receiver] * sources.sky + bounced.below[receiver] * sources.below +
+                    sources.sun[receiver] + bounced.light[receiver]);
 }
 
 }  // namespace espalier::sim

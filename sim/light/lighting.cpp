@@ -180,6 +180,10 @@ std::uint64_t Lighting::faceKey(Voxel v, std::uint8_t face) const {
   return (row * static_cast<std::uint64_t>(size.x) + static_cast<std::uint64_t>(v.x)) * kFaces + face;
 }
 
+Voxel Lighting::voxelOf(std::uint64_t face_key) const {
+  return voxelOfKey(face_key, where->bits().size());
+}
+
 float Lighting::atFace(const Received& light, Voxel voxel, std::uint8_t face) const {
   if (where->has(voxel)) {
     const std::size_t number = where->number(voxel);
@@ -201,7 +205,7 @@ std::vector<float> Lighting::ofGaps(const Received& light) const {
       sum += light.values[surfaces.size() + i];
       count += 1.0f;
     }
-    if (!where->has(voxelOfKey(voxel * kFaces, where->bits().size()))) means.push_back(sum / count);
+    if (!where->has(voxelOf(voxel * kFaces))) means.push_back(sum / count);
   }
   return means;
 }

@@ -40,6 +40,7 @@ struct LightAbout {
   double sun_error_deg = 0.0;
   double sun_hours = 0.0;  ///< a day, where nothing obstructs
   double voxel_m = 0.0;
+  std::string interreflection;  ///< of light that bounces, in words; empty: none was found
 };
 
 /// What surfaces receive of one kind of light: the values of Lighting::surfaces, then of Lighting::faces.
@@ -75,6 +76,8 @@ struct Lighting {
 
   /// By voxel, in (y, z, x) order, then face, as sim/base/faces.h numbers them.
   std::uint64_t faceKey(Voxel voxel, std::uint8_t face) const;
+  /// The voxel of such a key.
+  Voxel voxelOf(std::uint64_t face_key) const;
   /// Of a face of an occupied voxel with no occupied voxel before it.
   float atFace(const Received& light, Voxel voxel, std::uint8_t face) const;
   /// Of each voxel of `gaps` the mean over its faces.

@@ -27,7 +27,7 @@ struct Material {
   Colour colour{0.6f};                      ///< linear RGB base colour
   float alpha = 1.0f;                       ///< 0..1
   float roughness = 0.9f, metallic = 0.0f;  ///< 0..1
-  Colour emissive{0.0f};                    ///< linear RGB, 0..1
+  Colour emissive{0.0f};                    ///< linear RGB, at least 0
   Alpha alpha_mode = Alpha::opaque;
   float alpha_cutoff = 0.5f;  ///< where masked: alpha below it is cut out
   bool double_sided = true;   ///< meshes may be inside out: a wall must not vanish from behind

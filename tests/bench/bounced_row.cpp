@@ -156,8 +156,9 @@ void benchSurfacesLit(const sim::World& world, const sim::Lighting& light, const
   sim::Bounced one, four;
   std::vector<float> theirs;
   const auto bounced = [&](int passes) {
-    return sim::interreflection(world, light, sources,
-                                {.directions = kDirections, .passes = passes, .tolerance = 0.0});
+    return sim::Interreflection(world, light,
+                                {.directions = kDirections, .passes = passes, .tolerance = 0.0})
+        .of(sources);
   };
   const std::vector<double> seconds =
       medianSeconds({[&] { one = bounced(2); }, [&] { four = bounced(4); },

@@ -9,7 +9,6 @@
 
 #include "sim/base/error.h"
 #include "sim/base/parallel.h"
-#include "sim/light/lit_faces.h"
 #include "sim/light/met.h"
 #include "sim/tile/build_world.h"
 #include "tests/support/levels.h"
@@ -32,7 +31,7 @@ struct Lit {
   std::size_t count() const { return sources.sun.size(); }
   Voxel voxelOf(std::size_t i) const {
     return i < light.surfaces.size() ? light.surfaces[i].voxel
-                                     : voxelOfKey(light.faces[i - light.surfaces.size()], world.frame().size);
+                                     : light.voxelOf(light.faces[i - light.surfaces.size()]);
   }
   const std::string& object(std::size_t i) const { return world.part(world.partAt(voxelOf(i))).object; }
   void everywhere(std::vector<Colour>& of, float value) const { of.assign(count(), Colour(value)); }
@@ -42,7 +41,7 @@ struct Lit {
     }
   }
   Bounced bounced(const BounceSettings& settings) const {
-    return interreflection(world, light, sources, settings);
+    return Interreflection(world, light, settings).of(sources);
   }
   /// Over the surfaces of an object, by their area.
   double mean(const std::string& name, const std::function<double(std::size_t)>& value) const {
@@ -207,7 +206,7 @@ Lit court(double n = 1.0) {
 }
 
 bool same(const Bounced& a, const Bounced& b) {
-  return a.light == b.light && a.sky == b.sky && a.covered == b.covered && a.passes == b.passes &&
+  return a.light == b.light && a.sky == b.sky && a.below == b.below && a.covered == b.covered && a.passes == b.passes &&
          a.change == b.change;
 }
 
@@ -286,7 +285,7 @@ TEST(Interreflection, NoPassMakesLight) {
       most_sent = std::max(most_sent, radiosity(lit.sources, now, i).r);
       most_brought = std::max(most_brought, now.light[i].r);
       sum += (now.light[i] - before.light[i]).r;
-      ASSERT_LE(now.sky[i] + now.covered[i], 1.0f + 1e-5f);
+      ASSERT_LE(now.sky[i] + now.below[i] + now.covered[i], 1.0f + 1e-5f);
     }
     EXPECT_LE(most_brought, most_sent);
     added.push_back(sum);

@@ -1,0 +1,28 @@
+#pragma once
+#include <utility>
+#include <vector>
+
+#include "sim/grow/plant.h"
+#include "sim/tile/emission.h"
+#include "sim/world/world.h"
+
+namespace espalier::scenes {
+
+/// What the voxels of a finished world send out by themselves: lamps of its meshes, stems and elements.
+class EmittedLight {
+ public:
+  /// Borrows the world.
+  EmittedLight(const std::vector<sim::TiledMesh>& meshes, const sim::World& world,
+               const std::vector<sim::Plant>& plants);
+
+  bool any() const { return !lamps_.empty() || !parts_.empty(); }
+  /// Linear light of an occupied voxel.
+  sim::Colour at(sim::Voxel voxel) const;
+
+ private:
+  const sim::World& world_;
+  std::vector<sim::EmittingVoxel> lamps_;                      // in rows
+  std::vector<std::pair<sim::PartId, sim::Colour>> parts_;  // of plants
+};
+
+}  // namespace espalier::scenes

@@ -97,6 +97,8 @@ const std::map<std::string, Datum>& otherValues() {
       {"elements[].varies.height", 0.2},
       {"elements[].name", std::string("thorn")},
       {"elements[].colour", sim::Colour(0.9f, 0.1f, 0.1f)},
+      {"elements[].emits.colour", sim::Colour(0.9f, 0.1f, 0.1f)},
+      {"elements[].emits.strength", 7.0},
   };
   return values;
 }
@@ -109,6 +111,8 @@ const std::map<std::string, std::string> kWithoutEffect = {
     {"propagate", "one for all sets of a plant"},
     {"stem.colour", "a plant has one stem: that of the top rule set"},
     {"stem.texture", "the same"},
+    {"stem.emits.colour", "the same"},
+    {"stem.emits.strength", "the same"},
     {"stem.radius", "the same"},
     {"stem.by", "girth is for models alone"},
     {"stem.exponent", "the same"},
@@ -223,6 +227,7 @@ Result resultOf(const RuleSet& book, int iterations = 7) {
     for (const auto& shape : plant.shapes) {
       result.shapes.insert(result.shapes.end(), {shape.name, shape.drawn});
       colour(shape.colour);
+      colour(shape.emits);
       colour({static_cast<float>(shape.varies.by_chance), static_cast<float>(shape.varies.by_age),
               static_cast<float>(shape.varies.by_light)});
       result.colours.push_back(static_cast<float>(shape.varies.by_height));
@@ -294,7 +299,8 @@ TEST_P(EveryKey, ChangesWhatGrows) {
     if (path == "elements[].name" || path == "elements[].texture") {
       EXPECT_NE(result.shapes, plain.shapes);
       EXPECT_EQ(result.state, plain.state);
-    } else if (path == "elements[].colour" || path.starts_with("elements[].varies.")) {
+    } else if (path == "elements[].colour" || path.starts_with("elements[].emits.") ||
+               path.starts_with("elements[].varies.")) {
       EXPECT_NE(result.colours, plain.colours);
       EXPECT_EQ(result.state, plain.state);
     } else {

@@ -75,6 +75,7 @@ inline const std::map<std::string, Change>& changes() {
                    "{kind: surface_colour, name: s, caption: one}\n  - {kind: sky_exposure, name: t}\n"
                    "  - {kind: contact_sheet, name: a, of: [s]}"};
   const Edit day = realSun("date: 06-21");
+  const Edit bounced{"seed: 5", "seed: 5\ninterreflection: {passes: 4, tolerance: 0, directions: 12}"};
   const Edit wire{"regions: group}\n",
                   "regions: group}\n  - {lines: [[[-0.5, 0.5, 0.5], [-0.5, 1, 0.5]]], name: wire}\n"};
   const Edit seeks{"rules: vine.yaml", "rules: {base: vine.yaml, bias: {light: 0.8}}"};
@@ -96,6 +97,14 @@ inline const std::map<std::string, Change>& changes() {
       {"meshes[].translate",
        {"world.vdb", {}, {"regions: group", "regions: group, translate: [0, 10 cm, 0]"}}},
       {"meshes[].colour", {"a.png", {}, {"regions: group", "regions: group, colour: \"#ff0000\""}}},
+      {"meshes[].emits.colour",
+       {"a.png",
+        {{"regions: group", "regions: group, emits: \"#ff0000\""}},
+        {"emits: \"#ff0000\"", "emits: \"#0000ff\""}}},
+      {"meshes[].emits.strength",
+       {"a.png",
+        {{"regions: group", "regions: group, emits: {strength: 0.1}"}},
+        {"strength: 0.1", "strength: 0.3"}}},
       {"meshes[].lines", {"world.vdb", {wire}, {"[-0.5, 1, 0.5]", "[-0.5, 1, 0.9]"}}},
       {"meshes[].guide", {"world.vdb", {wire}, {"name: wire", "name: wire, guide: true"}}},
       {"meshes[].thickness", {"plant.glb", {wire}, {"name: wire", "name: wire, thickness: 9 cm"}}},
@@ -147,6 +156,11 @@ inline const std::map<std::string, Change>& changes() {
       {"sun.north", {sun, {day}, {"step: 60", "step: 60, north: 90"}}},
       {"sun.accuracy", {sun, {}, {"tilt: 20", "tilt: 20, accuracy: 10"}}},
       {"sun.shadow_hour", {"a.png", {shadows}, {"tilt: 20", "tilt: 20, shadow_hour: 8"}}},
+      {"interreflection.passes",
+       {"a.png", {bounced}, {"passes: 4, tolerance: 0", "passes: 2, tolerance: 0"}}},
+      {"interreflection.tolerance", {"report.json", {bounced}, {"tolerance: 0", "tolerance: 0.5"}}},
+      {"interreflection.directions", {"a.png", {bounced}, {"directions: 12}", "directions: 20}"}}},
+      {"interreflection.weighting", {"a.png", {bounced}, {"passes: 4", "weighting: equal, passes: 4"}}},
       {"exposure.where", {"expose: exposure.vdb", {}, {"seed: 5", "seed: 5\nexposure: {where: band}"}}},
       {"exposure.band",
        {"expose: exposure.vdb",

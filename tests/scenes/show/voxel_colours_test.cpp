@@ -48,7 +48,7 @@ class Coloured : public testing::Test {
     wanted.to_sun = kToSun;
     light_ = sim::lightOf(world_, sim::makeSky({sim::Weighting::cosine, 0.005, 96}), {}, wanted);
   }
-  VoxelColours colours(ImageKind kind) const { return {world_, bare_, light_, kind, kToSun}; }
+  VoxelColours colours(ImageKind kind) const { return {world_, bare_, light_, lit_, kind, kToSun}; }
   static sim::BitVolume bareOf(const sim::World& world) {
     sim::BitVolume bare(world.frame().size);
     for (int z = 0; z < 24; ++z)
@@ -59,6 +59,7 @@ class Coloured : public testing::Test {
   sim::World world_ = world();
   sim::BitVolume bare_ = bareOf(world_);
   sim::Lighting light_;
+  PictureLight lit_;
 };
 
 TEST_F(Coloured, AVoxelsColourIsThatOfTheNearestPartOfItsKind) {

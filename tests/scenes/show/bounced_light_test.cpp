@@ -1,0 +1,134 @@
+#include "scenes/show/bounced_light.h"
+
+#include <gtest/gtest.h>
+
+#include "render/voxels/panels.h"
+#include "scenes/prepare/site.h"
+#include "scenes/read/read_scene.h"
+#include "sim/base/faces.h"
+#include "tests/support/scratch.h"
+
+namespace espalier::scenes {
+namespace {
+
+using sim::Colour;
+using sim::Vec3;
+using sim::Vec3f;
+
+/// A white floor of 3 m with a red wall across it, and a lamp before the wall.
+class RedWall : public testing::Test {
+ protected:
+  static constexpr const char* kMesh =
+      "mtllib wall.mtl\nusemtl white\n"
+      "v 0 0 0\nv 3 0 0\nv 3 0 3\nv 0 0 3\nf 1 4 3 2\n"
+      "usemtl red\nv 0 0.05 1\nv 3 0.05 1\nv 3 1.5 1\nv 0 1.5 1\nf 5 6 7 8\n";
+  static constexpr const char* kLamp =
+      "mtllib wall.mtl\nusemtl lamp\nv 1.4 0.5 1.4\nv 1.6 0.5 1.4\nv 1.6 0.5 1.6\nv 1.4 0.5 1.6\n"
+      "v 1.4 0.7 1.4\nv 1.6 0.7 1.4\nv 1.6 0.7 1.6\nv 1.4 0.7 1.6\n"
+      "f 1 2 3 4\nf 5 8 7 6\nf 1 5 6 2\nf 2 6 7 3\nf 3 7 8 4\nf 4 8 5 1\n";
+
+  RedWall() {
+    folder_.write("wall.mtl",
+                 "newmtl white\nKd 0.9 0.9 0.9\nnewmtl red\nKd 0.9 0.1 0.1\nnewmtl lamp\nKd 0.5 0.5 0.5\nKe 1 1 1\n");
+    folder_.write("wall.obj", kMesh);
+    folder_.write("lamp.obj", kLamp);
+  }
+
+  Scene scene(const std::string& meshes, const std::string& more = "interreflection: {directions: 64}") {
+    folder_.write("scene.yaml",
+                 "espalier: scene\nmeshes: [" + meshes +
+                     "]\nworld: {voxel: 6 cm, margin: 12 cm}\nsky: {directions: 64}\n" + more + "\n");
+    auto read = readScene(folder_.path("scene.yaml"));
+    if (!read) throw std::runtime_error(format(read.problems()));
+    return *read;
+  }
+
+  struct Found {
+    Scene scene;
+    Site site;
+    sim::Lighting light;
+    PictureLight lit;
+  };
+  static std::unique_ptr<Found> find(Scene scene, Vec3 to_sun) {
+    auto found = std::make_unique<Found>(Found{scene, makeSite(scene), {}, {}});
+    sim::LightWanted wanted;
+    wanted.to_sun = to_sun;
+    found->light = sim::lightOf(found->site.world, found->site.sky, found->site.sun, wanted);
+    found->lit = pictureLight(found->scene, found->site.meshes, found->site.world, {}, found->light,
+                              {.first_pass = true, .vines = true}, to_sun);
+    return found;
+  }
+
+  tests::Scratch folder_;
+};
+
+const Vec3 kSun = glm::normalize(Vec3(0.1, 1.0, 0.7));
+
+TEST_F(RedWall, ReddensTheFloorBeforeItAndNotWhatIsFar) {
+  const auto found = find(scene("wall.obj"), kSun);
+  const sim::Frame& frame = found->site.world.frame();
+  const auto on_floor = [&](double z) {
+    return found->lit.vines->at(sim::voxelFromWorld(frame, Vec3(1.5, 0.0, z)), Vec3f(0, 1, 0));
+  };
+  const Colour near = on_floor(1.15), far = on_floor(2.9);
+  EXPECT_GT(near.r, 3.0f * near.b);
+  EXPECT_GT(near.r, 4.0f * far.r);
+  // The wall gets light from the sunlit floor, the more the lower.
+  const auto on_wall = [&](double y) {
+    return found->lit.vines->at(sim::voxelFromWorld(frame, Vec3(1.5, y, 1.0)), Vec3f(0, 0, 1));
+  };
+  EXPECT_GT(on_wall(0.2).g, 1.2f * on_wall(1.4).g);
+  // What a face receives is the sky's light and what has bounced.
+  const sim::Voxel v = sim::voxelAt(sim::voxelFromWorld(frame, Vec3(1.5, 0.0, 2.9)));
+  const render::FirstPassLight outdoors = render::firstPassLight();
+  EXPECT_NEAR(found->lit.first_pass->ambientAtFace(v, 3, 2), outdoors.sky.b, 0.1f * outdoors.sky.b);
+  EXPECT_FALSE(found->lit.emitted);
+  EXPECT_NE(found->light.about.interreflection.find("128 directions over the sphere"), std::string::npos);
+}
+
+TEST_F(RedWall, WithoutInterreflectionNothingBounces) {
+  const auto found = find(scene("wall.obj", ""), kSun);
+  EXPECT_FALSE(found->lit.first_pass);
+  EXPECT_FALSE(found->lit.vines);
+  EXPECT_EQ(found->light.about.interreflection, "");
+}
+
+TEST_F(RedWall, ALampLightsWhatIsNear) {
+  const std::string lamp = ", {file: lamp.obj, emits: {colour: \"#ffffff\", strength: 30}}";
+  const auto dark = find(scene("wall.obj"), kSun), lit = find(scene("wall.obj" + lamp), kSun);
+  const auto below = [](const Found& found) {
+    return found.lit.vines->at(sim::voxelFromWorld(found.site.world.frame(), Vec3(1.5, 0.0, 1.5)), Vec3f(0, 1, 0));
+  };
+  EXPECT_GT(below(*lit).g, below(*dark).g + 1.0f);
+  ASSERT_TRUE(lit->lit.emitted);
+  const sim::Frame& frame = lit->site.world.frame();
+  EXPECT_NEAR(lit->lit.emitted->at(sim::voxelAt(sim::voxelFromWorld(frame, Vec3(1.5, 0.5, 1.5)))).g, 30.0f, 0.5f);
+  EXPECT_EQ(lit->lit.emitted->at(sim::voxelAt(sim::voxelFromWorld(frame, Vec3(0.5, 0.0, 2.5)))), Colour(0.0f));
+  // Its own light, as the file has it.
+  const auto own = find(scene("wall.obj, lamp.obj"), kSun);
+  EXPECT_NEAR(own->lit.emitted->at(sim::voxelAt(sim::voxelFromWorld(frame, Vec3(1.5, 0.5, 1.5)))).g, 1.0f, 0.05f);
+}
+
+TEST_F(RedWall, ALampInsideOfAWallIsRefused) {
+  folder_.write("block.obj",
+               "v 1 0.2 1.1\nv 2 0.2 1.1\nv 2 0.2 2\nv 1 0.2 2\nv 1 1 1.1\nv 2 1 1.1\nv 2 1 2\nv 1 1 2\n"
+               "f 1 2 3 4\nf 5 8 7 6\nf 1 5 6 2\nf 2 6 7 3\nf 3 7 8 4\nf 4 8 5 1\n");
+  const Scene buried = scene("{file: block.obj, solid: true}, lamp.obj");
+  const Site site = makeSite(buried);
+  try {
+    requireLampsInTheOpen(buried, site);
+    FAIL() << "a lamp in a block was taken";
+  } catch (const PlacedError& error) {
+    ASSERT_EQ(error.problems().size(), 1u);
+    const std::string said = format(error.problems());
+    EXPECT_NE(said.find("scene.yaml:2:42: mesh 'lamp' sends out light, and none gets out: it lies inside of 'block'; "
+                        "expected it in the open"),
+              std::string::npos)
+        << said;
+  }
+  const Scene open = scene("wall.obj, lamp.obj");
+  EXPECT_NO_THROW(requireLampsInTheOpen(open, makeSite(open)));
+}
+
+}  // namespace
+}  // namespace espalier::scenes

@@ -47,6 +47,13 @@ for scene in paving cottage; do grow scenes/library/$scene.yaml; done
 small $work/paving/vines.png paving 900
 small $work/cottage/vines.png cottage 960
 small $work/courtyard/contact_sheet.png courtyard_panels 1100
+grow scenes/library/loggia.yaml
+small $work/loggia/vines.png loggia 480
+sed '/^interreflection/d' scenes/library/loggia.yaml >scenes/library/unbounced.yaml
+trap 'rm -f scenes/library/unbounced.yaml' EXIT
+grow scenes/library/unbounced.yaml
+oiiotool $work/unbounced/first_pass.png $work/loggia/first_pass.png --mosaic:pad=12 2x1 -o $work/bounced.png
+small $work/bounced.png bounced 1200
 if command -v blender >/dev/null; then  # the one picture that another program draws
   ${ESPALIER:-./run espalier} grow scenes/library/courtyard.yaml --diced first_pass --obj --no-pictures --quiet -o $work/diced
   blender -b -P docs/draw_diced.py -- $work/diced/diced.obj "$PWD/$work/diced/blender.png" 4.3 5.8 8.3 -0.1 0.85 -0.2 29

@@ -35,6 +35,10 @@ Givers giversOf(const DirectionSet& directions, bool lambert) {
   return {directions, amounts, Givers::Along::nothing};
 }
 
+/// How often what is brought is evened: few directions meet what is small and bright, so that it errs more than
+/// a sky does, and there is nothing in it with an edge.
+constexpr int kEvenings = 4;
+
 /// Radiosities in whole numbers, with a 1 behind them; the last is of what is not there, all zeros.
 using Whole = std::array<std::uint32_t, 4>;
 using Sums = std::array<std::uint64_t, 4>;
@@ -184,7 +188,7 @@ void Interreflection::Seen::evenOut(std::vector<Colour>& brought) const {
   std::vector<float> shares(brought.size());
   for (int c = 0; c < 3; ++c) {
     for (std::size_t i = 0; i < shares.size(); ++i) shares[i] = brought[i][c] / most;
-    even(light_, standard_error_, shares);
+    for (int round = 0; round < kEvenings; ++round) even(light_, standard_error_, shares);
     for (std::size_t i = 0; i < shares.size(); ++i) brought[i][c] = std::max(0.0f, shares[i]) * most;
   }
 }

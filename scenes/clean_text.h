@@ -22,8 +22,8 @@ Character characterAt(std::string_view rest);
 bool isControl(std::uint32_t code);
 
 /// The text with no character that a terminal obeys instead of showing it: control characters, line ends,
-/// those that turn the direction of what follows, and bytes that are no UTF-8 become escapes such as \n, \x1b
-/// and \u202e.
+/// those that turn the direction of what follows, and bytes that are no UTF-8 become escapes: a
+/// backslash and n, x1b or u202e.
 std::string printable(std::string_view text);
 
 /// Cut short in its middle to at most so many characters, where "..." then stands.

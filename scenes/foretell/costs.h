@@ -6,7 +6,7 @@
 #include "scenes/show/pictures.h"
 
 /// What the stages of a job take, by what they work on: figures measured on one machine (costs.cpp), which
-/// `./run bench` holds against whole runs.
+/// the benchmarks hold against whole runs.
 namespace espalier::scenes {
 
 struct StageCost {

@@ -25,6 +25,7 @@
 #include "scenes/prepare/site.h"
 #include "scenes/prepare/unknown_regions.h"
 #include "scenes/problem.h"
+#include "scenes/show/cube_pictures.h"
 #include "scenes/show/guide_volumes.h"
 #include "scenes/show/light_fields.h"
 #include "scenes/show/picture_memory.h"
@@ -93,6 +94,7 @@ Prepared prepare(const Scene& scene, const RunOptions& options, Report& report, 
     Gathering wrong(scene.file);
     wrong.part([&] { plantings = makePlantings(scene, site); });
     wrong.part([&] { requireCamerasInTheOpen(scene, site.world); });
+    wrong.part([&] { requireCubesSeen(scene, site.world.frame()); });
     wrong.part([&] { attractors = attractorsOf(scene, site, &of_attractors); });
     wrong.end();
     for (NamedPoints& crown : crownsOf(scene, site, plantings, &of_attractors))

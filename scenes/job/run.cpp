@@ -258,9 +258,11 @@ Report runScene(const Scene& scene, const RunOptions& options, const Keeping& ke
     report.growth->fields.push_back({field.name, guides.near->count()});
   const ModelSources sources{
       site, growth.plants, bare, models, report.made_by, light, shadowDirection(scene.sun)};
-  std::vector<OutputFile> files = modelFiles(
-      options.models, sources,
-      [&](std::size_t plant, std::size_t limbs) { report.growth->plants[plant].meeting_limbs = limbs; });
+  std::vector<OutputFile> files =
+      modelFiles(options.models, sources, [&](std::size_t plant, const render::PlantModel& model) {
+        report.growth->plants[plant].meeting_limbs = model.meeting_limbs;
+        report.growth->plants[plant].triangles = render::triangleCount(model);
+      });
   for (OutputFile& file : inScene(scene, [&] { return dicedFiles(options.models, sources); }))
     files.push_back(std::move(file));
   files.push_back({kSkeletonFile, [&](std::ostream& out) {

@@ -74,8 +74,8 @@ std::span<const GalleryFigure> galleryFigures() {
             "paper has is not told.",
             "The column stands on a base, and stems are modelled with thickness and bark; sizes and weights "
             "of the biases are ours.",
-            "Our layers are counted over the 26 neighbours, so that their corners are square; the paper says "
-            "adjacent and leaves open how."},
+            "Our layers are counted over all 26 neighbours of a voxel, so that they grow squarer outwards; "
+            "the paper says adjacent and leaves open how."},
        .numbers = {{"Boundary layers", "four", Measured::said, "four"},
                    {"Proximity of C and D", "two voxels on average", Measured::said, "two voxels on average"},
                    {"Voxels", "not told", Measured::world},

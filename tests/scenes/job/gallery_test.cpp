@@ -1,9 +1,12 @@
 #include "scenes/job/gallery.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cstdlib>
 #include <filesystem>
+#include <fstream>
 #include <nlohmann/json.hpp>
 #include <regex>
 #include <set>
@@ -64,6 +67,31 @@ TEST(GalleryFigures, AreCalledInThePapersOrderEachOnce) {
             (std::vector<std::string>{"courtyard"}))
       << "three figures of one run";
   EXPECT_THROW(figuresCalled({"figure_1", "figure_10"}), sim::InputError);
+}
+
+/// The figures as docs/gallery.md has them below its mark; ESPALIER_UPDATE_DOCS=1 writes them anew.
+TEST(GalleryFigures, StandInTheDocs) {
+  const std::string mark = "<!-- figures: made from that table by the test GalleryFigures -->\n";
+  std::string figures;
+  for (const GalleryFigure& figure : galleryFigures()) {
+    const std::string number(figure.name.substr(figure.name.find('_') + 1));
+    figures += fmt::format("\n## {}. {}\n\n![{}](gallery/{}.png)\n\n{}\n", number, figure.title, figure.title,
+                           figure.name, figure.paper);
+    for (const auto& [heading, items] :
+         {std::pair("What agrees", figure.agrees), {"What differs", figure.differs}}) {
+      figures += fmt::format("\n**{}**\n", heading);
+      for (const std::string_view item : items) figures += fmt::format("- {}\n", item);
+    }
+    EXPECT_TRUE(fs::exists(tests::sourceFolder() / "docs/gallery" / (std::string(figure.name) + ".png")));
+  }
+  const fs::path path = tests::sourceFolder() / "docs/gallery.md";
+  const std::string page = tests::fileText(path);
+  const auto at = page.find(mark);
+  ASSERT_NE(at, std::string::npos);
+  const std::string expected = page.substr(0, at + mark.size()) + figures;
+  if (std::getenv("ESPALIER_UPDATE_DOCS")) std::ofstream(path, std::ios::binary) << expected;
+  EXPECT_TRUE(tests::fileText(path) == expected)
+      << "the page is not what the table says; run this test once with ESPALIER_UPDATE_DOCS=1 and commit it";
 }
 
 /// The library's scenes as small as they still are what they are: a few iterations, small pictures, and where

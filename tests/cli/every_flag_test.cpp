@@ -375,62 +375,6 @@ TEST_F(EveryFlag, OfInspectAndInitChangesWhatIsMade) {
   EXPECT_TRUE(fs::exists(scratch_.path("project/scene.yaml")));
 }
 
-TEST_F(EveryFlag, OfGalleryChangesWhatComesOut) {
-  cli::addGallery(app_, status_);
-  const auto made = [&](const std::string& more, const std::string& folder) {
-    return tests::espalier("gallery " + more + " " + into(folder)).output;
-  };
-  const auto page = [&](const std::string& folder) { return bytes(folder + "/index.html"); };
-  const auto entries = [&](const std::string& folder) {
-    std::set<std::string> all;
-    if (fs::exists(scratch_.path(folder))) {
-      for (const auto& entry : fs::directory_iterator(scratch_.path(folder)))
-        all.insert(entry.path().filename().string());
-    }
-    std::string joined;
-    for (const std::string& name : all) joined += name + " ";
-    return joined;
-  };
-  const Effects effects = {
-      {"name",
-       [&] {
-         made("figure_1 --quiet", "a");
-         made("figure_2 --quiet", "b");
-         return Seen{entries("a"), entries("b")};
-       }},
-      {"output",
-       [&] {
-         const std::string before = entries("elsewhere");
-         made("figure_1 --quiet", "elsewhere");
-         return Seen{before, entries("elsewhere")};
-       }},
-      {"threads",
-       [&] {
-         made("figure_1 --quiet --threads 1", "a");
-         made("figure_1 --quiet --threads 3", "b");
-         return Seen{page("a").substr(page("a").find(" on 1 thread"), 13),
-                     page("b").substr(page("b").find(" on 3 threads"), 13)};
-       }},
-      {"quiet",
-       [&] {
-         return Seen{made("figure_1", "a"), made("figure_1 --quiet", "a")};
-       }},
-      {"json",
-       [&] {
-         const auto isJson = [&](const std::string& more) {
-           return std::to_string(nlohmann::json::accept(made("figure_1 " + more, "a")));
-         };
-         return Seen{isJson(""), isJson("--json")};
-       }},
-      {"library",
-       [&] {
-         return Seen{made("figure_1 --quiet", "a"),
-                     made("figure_1 --quiet --library " + scratch_.path("nowhere").string(), "a")};
-       }},
-  };
-  expectEffects("gallery", effects);
-}
-
 TEST_F(EveryFlag, OfTheProgramItselfAndEverySubcommandIsAmongThese) {
   const std::string help = tests::espalier("--help").output;
   EXPECT_NE(help, tests::espalier("--version").output);

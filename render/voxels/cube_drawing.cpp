@@ -67,7 +67,7 @@ class CubePainter {
         projection_(camera, width_px, height_px),
         near_m_(1e-3 * glm::length(camera.target_m - camera.eye_m)),
         eye_vx_(sim::voxelFromWorld(world.frame, camera.eye_m)),
-        pen_(std::max(0.8f, static_cast<float>(height_px) / 560.0f)),
+        pen_(penOf(world.frame, height_px)),
         picture_(paper(width_px, height_px)),
         taken_(world.frame.size) {
     for (const Cube& cube : world.cubes) taken_.set(cube.voxel);
@@ -89,6 +89,14 @@ class CubePainter {
   }
 
  private:
+  /// As suits the picture, but no thicker than small voxels allow.
+  float penOf(const sim::Frame& frame, int height_px) const {
+    const Vec3 middle_m = sim::worldFromVoxel(frame, 0.5 * Vec3(frame.size));
+    const double depth = std::max(projection_.depth_m(middle_m), near_m_);
+    const float voxel_px = static_cast<float>(frame.voxel_m * projection_.pixelsAt(depth));
+    return std::clamp(0.033f * voxel_px, 0.4f, std::max(0.8f, static_cast<float>(height_px) / 560.0f));
+  }
+
   std::size_t number(sim::Voxel v) const {
     const sim::Voxel size = world_.frame.size;
     return (static_cast<std::size_t>(v.y) * static_cast<std::size_t>(size.z) +

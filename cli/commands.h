@@ -19,5 +19,6 @@ void addRules(CLI::App& app, int& exit_status);
 void addSchema(CLI::App& app, int& exit_status);
 void addInit(CLI::App& app, int& exit_status);
 void addExplain(CLI::App& app, int& exit_status);
+void addGallery(CLI::App& app, int& exit_status);
 
 }  // namespace espalier::cli

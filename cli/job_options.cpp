@@ -63,8 +63,12 @@ int run(const JobOptions& options, const JobWork& work) {
 }  // namespace
 
 void addSceneOptions(CLI::App& command, JobOptions& options, const std::string& default_folder) {
-  options.threads = sim::threadCount();
   command.add_option("scene", options.scene, "Scene file")->required();
+  addRunOptions(command, options, default_folder);
+}
+
+void addRunOptions(CLI::App& command, JobOptions& options, const std::string& default_folder) {
+  options.threads = sim::threadCount();
   command.add_option("-o,--output", options.folder, "Folder to write to (default: " + default_folder + ")");
   rules::Key threads;
   threads.kind = rules::Kind::whole;

@@ -19,7 +19,9 @@ struct JobOptions {
   bool strict = false;  ///< of the commands that offer it
 };
 
-/// The scene, --output, --threads, --quiet and --json.
+/// --output, --threads, --quiet and --json.
+void addRunOptions(CLI::App& command, JobOptions& options, const std::string& default_folder);
+/// The same, and the scene.
 void addSceneOptions(CLI::App& command, JobOptions& options, const std::string& default_folder);
 /// The same, and --no-pictures: of commands that write more than pictures.
 void addJobOptions(CLI::App& command, JobOptions& options);

@@ -32,6 +32,7 @@ int parse(int argc, char** argv) {
   addSchema(app, exit_status);
   addInit(app, exit_status);
   addExplain(app, exit_status);
+  addGallery(app, exit_status);
   try {
     app.parse(argc, argv);
   } catch (const CLI::Success& asked) {  // --help and --version

@@ -82,6 +82,35 @@ small $work/shy_shrubs/vines.png shy_shrubs 960
 grow scenes/library/gable.yaml
 small $work/gable/gable.png gable 1200
 
+# Greene's figures, each one picture, and all on one sheet.
+beside() {  # beside INTO HEIGHT PICTURE...: side by side on white, each so high
+  local into=$1 height=$2 at=0 picture width
+  shift 2
+  oiiotool --pattern constant:color=1,1,1 4000x$height 3 -o "$into"
+  for picture in "$@"; do
+    oiiotool "$picture" --resize "0x$height" -o $work/part.png
+    width=$(oiiotool $work/part.png --echo '{TOP.width}' | tail -n 1)
+    oiiotool $work/part.png "$into" --paste +$at+0 -o "$into"
+    at=$((at + width + 10))
+  done
+  oiiotool "$into" --cut $((at - 10))x$height+0+0 -o "$into"
+  rm $work/part.png
+}
+$program gallery -o $work/gallery --quiet
+mkdir -p docs/gallery
+beside $work/figure_3_parts.png 640 $work/gallery/figure_3a/column_layers.png $work/gallery/figure_3/figure_3{b,c,d}.png
+beside $work/figure_7_parts.png 640 $work/gallery/tendril/{sky_tables,vines}.png
+small $work/gallery/figure_1/figure_1.png ../gallery/figure_1 560 128
+small $work/gallery/figure_2/figure_2.png ../gallery/figure_2 800 64
+small $work/figure_3_parts.png ../gallery/figure_3 900
+small $work/gallery/courtyard/limbs.png ../gallery/figure_4 560
+small $work/gallery/courtyard/vines.png ../gallery/figure_5 640
+small $work/gallery/courtyard/contact_sheet.png ../gallery/figure_6 840
+small $work/figure_7_parts.png ../gallery/figure_7 860 128
+small $work/gallery/clusters/vines.png ../gallery/figure_8 640
+small $work/gallery/gable/gable.png ../gallery/figure_9 840
+small $work/gallery/gallery.png ../gallery/gallery 900
+
 grow scenes/library/w_dome.yaml
 small $work/w_dome/steps.png colonization_steps 1600
 small $work/w_dome/vines.png w_dome 960

@@ -48,6 +48,8 @@ std::string_view nameOf(ImageKind kind) {
       return "field";
     case ImageKind::sky_tables:
       return "sky_tables";
+    case ImageKind::voxels:
+      return "voxels";
     case ImageKind::narrow_band:
       return "narrow_band";
     case ImageKind::contact_sheet:

@@ -263,6 +263,7 @@ enum class ImageKind {
   field,        // a guide field as arrows
   narrow_band,  // a cut through the level set of a mesh
   sky_tables,   // what a limb's tips saw of the sky (Greene's figure 7)
+  voxels,       // a small world's voxels as cubes, with what occupies them (his figure 1)
   contact_sheet
 };
 

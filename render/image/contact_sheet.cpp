@@ -74,7 +74,7 @@ Image contactSheet(std::span<const Captioned> pictures, const SheetLook& look) {
     glm::vec2 pen(static_cast<float>(x), static_cast<float>(y + height) + 1.4f * text);
     if (!p.letter.empty()) {
       drawText(sheet, pen, p.letter, {text, kLetter, Align::left, Font::bold});
-      pen.x += 1.5f * text;
+      pen.x += std::max(1.5f * text, textWidth(p.letter, text, Font::bold) + 0.6f * text);
     }
     drawText(sheet, pen, p.caption, {text, kCaption});
   }

@@ -4,6 +4,7 @@
 #include <sstream>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <sstream>
 #include <utility>
@@ -147,15 +148,29 @@ void drawSegment(Image& image, glm::vec2 a, glm::vec2 b, float width_px, Ink ink
 }
 
 void fillTriangle(Image& image, glm::vec2 a, glm::vec2 b, glm::vec2 c, Ink ink) {
+  fillConvex(image, std::array{a, b, c}, ink);
+}
+
+void fillConvex(Image& image, std::span<const glm::vec2> corners, Ink ink) {
   const auto twice = [](glm::vec2 u, glm::vec2 v) { return u.x * v.y - u.y * v.x; };
-  if (twice(b - a, c - a) < 0.0f) std::swap(b, c);
-  if (!(twice(b - a, c - a) > 0.0f)) return;
-  const auto inside = [&](glm::vec2 p, glm::vec2 from, glm::vec2 to) {  // how far, in pixels
-    return twice(to - from, p - from) / glm::length(to - from);
-  };
-  const glm::vec2 low = glm::min(glm::min(a, b), c), high = glm::max(glm::max(a, b), c);
+  const auto next = [&](std::size_t i) { return corners[i + 1 < corners.size() ? i + 1 : 0]; };
+  float area = 0.0f;
+  glm::vec2 low(INFINITY), high(-INFINITY);
+  for (std::size_t i = 0; i < corners.size(); ++i) {
+    area += twice(corners[i] - corners[0], next(i) - corners[0]);
+    low = glm::min(low, corners[i]);
+    high = glm::max(high, corners[i]);
+  }
+  if (!(std::abs(area) > 0.0f)) return;
   cover(image, reachOf(image, low - 1.0f, high + 1.0f), ink, [&](glm::vec2 p) {
-    return std::min({inside(p, a, b), inside(p, b, c), inside(p, c, a)}) + 0.5f;
+    float inside = INFINITY;  // how far from the nearest side, in pixels
+    for (std::size_t i = 0; i < corners.size(); ++i) {
+      const glm::vec2 side = next(i) - corners[i];
+      const float length = glm::length(side);
+      if (length > 0.0f)
+        inside = std::min(inside, std::copysign(1.0f, area) * twice(side, p - corners[i]) / length);
+    }
+    return inside + 0.5f;
   });
 }
 

@@ -1,4 +1,5 @@
 #pragma once
+#include <span>
 #include <string>
 #include <vector>
 
@@ -42,6 +43,8 @@ std::vector<std::string> linesOf(const std::string& text);
 
 void drawSegment(Image& image, glm::vec2 a, glm::vec2 b, float width_px, Ink ink);
 void fillTriangle(Image& image, glm::vec2 a, glm::vec2 b, glm::vec2 c, Ink ink);
+/// A convex polygon of any number of corners, without seams inside; one without area leaves no trace.
+void fillConvex(Image& image, std::span<const glm::vec2> corners, Ink ink);
 void fillBox(Image& image, glm::vec2 low, glm::vec2 high, Ink ink, float corner_radius_px = 0.0f);
 
 /// Copies a picture onto another one with its upper left corner at (x, y).

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 #include "render/image/oiio.h"
@@ -48,6 +49,17 @@ std::string encodePng(const Image& display, const Metadata& metadata) {
     return static_cast<std::uint8_t>(std::clamp(v, 0.0f, 1.0f) * 255.0f + 0.5f);
   });
   return oiio().png(display, bytes.data(), metadata);
+}
+
+Image decodePng(const std::string& bytes) {
+  constexpr int kMostSide = 1 << 16;
+  const Texels texels = oiio().read_png(bytes, std::numeric_limits<int>::max(), kMostSide);
+  Image display(texels.width, texels.height, 3);
+  float* channel = display.pixels.data();
+  for (const auto& rgba : texels.rgba) {
+    for (std::size_t c = 0; c < 3; ++c) *channel++ = static_cast<float>(rgba[c]) / 255.0f;
+  }
+  return display;
 }
 
 std::string encodeExr(const Image& measured, const std::vector<std::string>& channel_names,

@@ -22,6 +22,10 @@ Metadata textsOf(const sim::Provenance& made_by);
 /// fourth, is not premultiplied.
 std::string encodePng(const Image& display, const Metadata& metadata = {});
 
+/// A PNG that encodePng made, as display values with three channels; alpha is left out. Throws where it is
+/// none.
+Image decodePng(const std::string& bytes);
+
 /// EXR of linear or measured values; one name a channel. Quantities are kept exactly, as 32-bit floats;
 /// colours, whose first channel is "R", are stored as half floats.
 std::string encodeExr(const Image& measured, const std::vector<std::string>& channel_names,

@@ -102,6 +102,13 @@ void putAsInstances(PlantModel& model, const sim::Plant& plant, const LeafFeet& 
 
 }  // namespace
 
+std::size_t triangleCount(const PlantModel& model) {
+  std::size_t count = model.stems.triangles.size() + model.stalks.triangles.size();
+  for (const ModelMesh& blades : model.elements) count += blades.triangles.size();
+  for (const Instances& one : model.instances) count += one.shape.triangles.size() * one.places.size();
+  return count;
+}
+
 PlantModel modelPlant(const sim::Plant& plant, const sim::Frame& frame, const ModelOptions& options) {
   const std::vector<float> radii = stemRadii(plant.skeleton, plant.girth);
   Blocked blocked;

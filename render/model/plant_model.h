@@ -35,6 +35,9 @@ struct PlantModel {
   std::vector<Instances> instances;  ///< in place of stalks and elements, where they are asked for
 };
 
+/// How many triangles it is drawn of, each instance's included.
+std::size_t triangleCount(const PlantModel& model);
+
 /// Models a plant: every stem a tube swept along a C2 curve through its nodes, thick as the pipe model says,
 /// all of a seed's stems one closed surface (stem_surface.h); every element's polygons, with a stalk from the
 /// stem to a blade that does not begin on it. Throws InputError as stemRadii does.

@@ -48,14 +48,14 @@ std::vector<std::string> modelFileNames(const ModelsWanted& wanted) {
 }
 
 std::vector<OutputFile> modelFiles(const ModelsWanted& wanted, const ModelSources& sources,
-                                   std::function<void(std::size_t, std::size_t)> meeting) {
+                                   std::function<void(std::size_t, const render::PlantModel&)> modelled) {
   std::vector<OutputFile> files;
   const bool instances = wanted.instances;
-  files.push_back({kGlbFile, [sources, instances, meeting = std::move(meeting)](std::ostream& out) {
+  files.push_back({kGlbFile, [sources, instances, modelled = std::move(modelled)](std::ostream& out) {
                      const auto heard = [&](const std::function<void(const render::PlantModel&)>& take) {
                        std::size_t number = 0;
                        modelsFrom(sources, 0, instances)([&](const render::PlantModel& model) {
-                         meeting(number++, model.meeting_limbs);
+                         modelled(number++, model);
                          take(model);
                        });
                      };

@@ -49,8 +49,8 @@ render::PlantModels modelsFrom(const ModelSources& sources, int level, bool inst
 /// The files' names, but for those of pictures, which follow from what has grown.
 std::vector<std::string> modelFileNames(const ModelsWanted& wanted);
 
-/// The files. `meeting` hears, while plant.glb is written, of each plant's number and its limbs that meet.
+/// The files. `modelled` sees, while plant.glb is written, each plant's number and its model.
 std::vector<OutputFile> modelFiles(const ModelsWanted& wanted, const ModelSources& sources,
-                                   std::function<void(std::size_t, std::size_t)> meeting);
+                                   std::function<void(std::size_t, const render::PlantModel&)> modelled);
 
 }  // namespace espalier::scenes

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "scenes/clean_text.h"
+#include "scenes/job/model_files.h"
 #include "scenes/job/seed_failure_words.h"
 #include "scenes/show/light_json.h"
 #include "sim/base/counted.h"
@@ -45,6 +46,7 @@ Json plant(const Report::Growth::Plant& plant) {
                {"buds", occurred(plant.tally.sites)},
                {"trials", occurred(plant.tally.trials)}};
   if (plant.meeting_limbs) json["meeting_limbs"] = *plant.meeting_limbs;
+  if (plant.triangles) json["triangles"] = *plant.triangles;
   if (plant.failure) json["failed"] = whyItDidNotGrow(*plant.failure);
   return json;
 }
@@ -114,6 +116,7 @@ void describeWorld(Report& report, const Scene& scene, const Site& site) {
   report.scene_voxels = site.world.occupied().count();
   report.occupied_voxels = report.scene_voxels;
   for (const auto& tiled : site.meshes) report.degenerate_triangles += tiled.mesh.degenerate_dropped;
+  for (const sim::Mesh* mesh : meshesOf(site)) report.scene_triangles += mesh->triangles.size();
 }
 
 std::string toJson(const Report& report) {
@@ -132,6 +135,7 @@ std::string toJson(const Report& report) {
                    {"origin_m", {frame.origin_m.x, frame.origin_m.y, frame.origin_m.z}},
                    {"scene_voxels", report.scene_voxels},
                    {"occupied_voxels", report.occupied_voxels},
+                   {"scene_triangles", report.scene_triangles},
                    {"degenerate_triangles_dropped", report.degenerate_triangles}};
   Json fills = Json::array();
   for (const auto& fill : report.fills) {

@@ -28,6 +28,7 @@ struct Report {
   std::size_t occupied_voxels = 0;  ///< with the plants
   std::size_t scene_voxels = 0;     ///< before they grew
   std::size_t degenerate_triangles = 0;
+  std::size_t scene_triangles = 0;  ///< of the meshes that models show
   std::vector<FacingReport> facings;
   std::vector<sim::FillReport> fills;
   sim::LightAbout light;
@@ -42,6 +43,7 @@ struct Report {
           key;  ///< of its seed: the name that it was given, or else the number, as sim::hexOf writes it
       std::size_t segments = 0, elements = 0;
       std::optional<std::size_t> meeting_limbs;  ///< render::PlantModel's, once it was modelled
+      std::optional<std::size_t> triangles;      ///< of its model, likewise
       sim::Tally tally;
       std::optional<SeedFailure> failure;
     };

@@ -25,6 +25,7 @@
 #include "scenes/prepare/site.h"
 #include "scenes/prepare/unknown_regions.h"
 #include "scenes/problem.h"
+#include "scenes/show/cube_pictures.h"
 #include "scenes/show/guide_volumes.h"
 #include "scenes/show/light_fields.h"
 #include "scenes/show/picture_memory.h"
@@ -107,6 +108,7 @@ Prepared prepare(const Scene& scene, const RunOptions& options, Report& report, 
     wrong.part([&] { plantings = makePlantings(scene, site); });
     wrong.part([&] { requireCamerasInTheOpen(scene, site.world); });
     wrong.part([&] { requireLampsInTheOpen(scene, site); });
+    wrong.part([&] { requireCubesSeen(scene, site.world.frame()); });
     wrong.part([&] { attractors = attractorsOf(scene, site, &of_attractors); });
     wrong.end();
     for (NamedPoints& crown : crownsOf(scene, site, plantings, &of_attractors))
@@ -271,9 +273,11 @@ Report runScene(const Scene& scene, const RunOptions& options, const Keeping& ke
     report.growth->fields.push_back({field.name, guides.near->count()});
   const ModelSources sources{
       site, growth.plants, bare, models, report.made_by, light, lit, shadowDirection(scene.sun)};
-  std::vector<OutputFile> files = modelFiles(
-      options.models, sources,
-      [&](std::size_t plant, std::size_t limbs) { report.growth->plants[plant].meeting_limbs = limbs; });
+  std::vector<OutputFile> files =
+      modelFiles(options.models, sources, [&](std::size_t plant, const render::PlantModel& model) {
+        report.growth->plants[plant].meeting_limbs = model.meeting_limbs;
+        report.growth->plants[plant].triangles = render::triangleCount(model);
+      });
   for (OutputFile& file : inScene(scene, [&] { return dicedFiles(options.models, sources); }))
     files.push_back(std::move(file));
   files.push_back({kSkeletonFile, [&](std::ostream& out) {

@@ -254,7 +254,7 @@ std::shared_ptr<const Table> imageKeys() {
        {ImageKind::sun_exposure, ImageKind::sky_exposure, ImageKind::threshold, ImageKind::shadow_matte,
         ImageKind::surface_colour, ImageKind::first_pass, ImageKind::sun_hours, ImageKind::vines,
         ImageKind::section, ImageKind::attempts, ImageKind::points, ImageKind::graph, ImageKind::field,
-        ImageKind::narrow_band, ImageKind::sky_tables, ImageKind::contact_sheet}) {
+        ImageKind::narrow_band, ImageKind::sky_tables, ImageKind::voxels, ImageKind::contact_sheet}) {
     kinds.emplace_back(nameOf(kind), kind);
   }
   return TableOf<ImageSpec>()

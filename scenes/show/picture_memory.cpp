@@ -83,7 +83,8 @@ double pictureBytes(const PicturesWanted& wanted, double fragments) {
     const int measured = measuredChannels(image.kind);
     if (image.kind == ImageKind::contact_sheet) {
       kept += sheetBytes(image, wanted.width_px, wanted.height_px);
-    } else if (measured > 0 || image.kind == ImageKind::vines || isGraph(image.kind)) {
+    } else if (measured > 0 || image.kind == ImageKind::vines || isGraph(image.kind) ||
+               image.kind == ImageKind::voxels) {
       // Pictures stay as they were drawn, and their files' bytes besides, which packing may not make less.
       kept += pixels * (kDisplay + 3 + 2 * kFloat * measured);
       packed = std::max(packed, pixels * (kDisplay + 3 + kFloat * measured));

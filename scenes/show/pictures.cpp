@@ -14,6 +14,7 @@
 #include "render/voxels/panels.h"
 #include "render/voxels/visibility.h"
 #include "scenes/lights.h"
+#include "scenes/show/cube_pictures.h"
 #include "scenes/show/flat_pictures.h"
 #include "scenes/show/graph_pictures.h"
 #include "scenes/show/light_texts.h"
@@ -366,6 +367,9 @@ std::vector<OutputFile> drawPictures(const PicturesWanted& wanted, const Finishe
   });
   drawEach(ImageKind::sky_tables, [&](const ImageSpec& image) {
     return drawSkyTables(finished.world, finished.bare, finished.growth, finished.sky_table(), image);
+  });
+  drawEach(ImageKind::voxels, [&](const ImageSpec& image) {
+    return drawCubes(finished, image, cameraOf(wanted, image), {wanted.width_px, wanted.height_px});
   });
   drawEach(ImageKind::attempts, [&](const ImageSpec& image) {
     return drawAttempts(finished.world, finished.growth.attempts, image);

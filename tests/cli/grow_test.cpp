@@ -226,6 +226,11 @@ TEST_F(Plot, CoarserModelsAreWrittenWhereAskedFor) {
   }
   for (const json& plant : report("all")["growth"]["plants"])
     EXPECT_TRUE(plant["meeting_limbs"].is_number()) << plant;
+  EXPECT_EQ(report("all")["world"]["scene_triangles"], 4) << "two quadrilaterals";
+  for (const json& plant : report("all")["growth"]["plants"]) {
+    EXPECT_GE(plant["triangles"].get<int>(), 6 * plant["segments"].get<int>() + plant["elements"].get<int>())
+        << plant;
+  }
   ASSERT_EQ(grow("--no-pictures", "one").status, 0);
   EXPECT_FALSE(fs::exists(scratch_.path("one") / "plant_lod1.glb"));
   EXPECT_EQ(tests::fileText(scratch_.path("one") / "plant.glb"),

@@ -85,8 +85,9 @@ TEST_F(Options, AWrongCommandLineIsAnsweredWithWhatIsRight) {
     EXPECT_EQ(ran.status, 2) << arguments;
     EXPECT_EQ(ran.output, said + "\n") << arguments;
   };
-  const std::string commands = "grow, render, expose, check, certify, inspect, rules, schema, init, explain",
-                    see = " (see espalier --help)";
+  const std::string
+      commands = "grow, render, expose, check, certify, inspect, rules, schema, init, explain, gallery",
+      see = " (see espalier --help)";
   expectSaid("", "espalier: no command is given; expected one of " + commands + see);
   expectSaid("gorw x.yaml", "espalier: there is no command 'gorw'; expected one of " + commands +
                                 "; did you mean 'grow'?" + see);

@@ -146,6 +146,14 @@ TEST_F(Stop, IsHeardInEveryStageOfExposureAndByCertify) {
   EXPECT_FALSE(fs::exists(out_));
 }
 
+TEST_F(Stop, IsHeardByAGalleryWhichHasNoPageThen) {
+  for (const int after_ms : {0, 400, 1500})
+    stops("gallery figure_5 figure_9 -o " + out_, "courtyard", after_ms);
+  stops("gallery figure_9 -o " + out_, "gable", 900, SIGTERM);
+  EXPECT_GE(stopped_, 3);
+  EXPECT_FALSE(fs::exists(fs::path(out_) / "index.html"));
+}
+
 TEST_F(Stop, IsHeardWhileKeptPlantsAreDrawn) {
   ASSERT_EQ(grow("--no-pictures").status, 0);
   std::string scene = tests::kPlotScene;

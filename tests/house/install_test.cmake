@@ -16,6 +16,7 @@ step(${work}/prefix/bin/espalier grow ${work}/prefix/share/espalier/scenes/libra
 # The library's rule sets are known by name to the program wherever it is.
 file(WRITE ${work}/named.yaml "espalier: rules\nbase: column_climber_helix\notherwise: ivy\n")
 step(${work}/prefix/bin/espalier check ${work}/named.yaml)
+step(${work}/prefix/bin/espalier gallery figure_1 -o ${work}/gallery) # its scenes are found from where it is
 file(RENAME ${work}/prefix/lib/espalier ${work}/hidden) # what draws is missed before the work, and only where it is needed
 execute_process(COMMAND ${work}/prefix/bin/espalier grow ${work}/prefix/share/espalier/scenes/library/figure_2.yaml -o ${work}/undrawn
                 RESULT_VARIABLE result OUTPUT_VARIABLE output ERROR_VARIABLE output)

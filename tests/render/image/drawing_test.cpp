@@ -228,5 +228,21 @@ TEST(Drawing, ASegmentTouchesThePixelsNearItAndNoOthers) {
   }
 }
 
+TEST(Drawing, ConvexPolygonsCoverTheirAreaWithoutSeams) {
+  const std::vector<glm::vec2> square{{4.5f, 3.25f}, {24.5f, 3.25f}, {24.5f, 13.25f}, {4.5f, 13.25f}};
+  Image image(40, 30, 3, 1.0f);
+  fillConvex(image, square, {sim::Colour(0.0f), 0.5f});
+  EXPECT_NEAR(covered(image), 0.5 * 20.0 * 10.0, 1.5);
+  for (int x = 6; x < 23; ++x) EXPECT_FLOAT_EQ(image.at(x, 5 + x % 7)[0], 0.5f) << "no seam inside";
+  const std::vector<glm::vec2> wound(square.rbegin(), square.rend());
+  Image other(40, 30, 3, 1.0f);
+  fillConvex(other, wound, {sim::Colour(0.0f), 0.5f});
+  EXPECT_NEAR(covered(other), covered(image), 1e-3) << "either way around";
+  const Image before = image;
+  fillConvex(image, std::vector<glm::vec2>{{1, 1}, {20, 20}}, kBlack);
+  fillConvex(image, std::vector<glm::vec2>{}, kBlack);
+  EXPECT_EQ(image.pixels, before.pixels);
+}
+
 }  // namespace
 }  // namespace espalier::render

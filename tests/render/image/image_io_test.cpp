@@ -148,5 +148,16 @@ TEST(Tone, TheCurveRisesFromBlackToWhite) {
   EXPECT_GT(curve(0.05f), 0.05f) << "dark areas must come out brighter";
 }
 
+TEST(DecodePng, GivesBackWhatWasEncoded) {
+  Image image(5, 3, 3);
+  for (std::size_t i = 0; i < image.pixels.size(); ++i)
+    image.pixels[i] = static_cast<float>(5 * i % 256) / 255.0f;
+  const Image back = decodePng(encodePng(image));
+  ASSERT_EQ(back.width, 5);
+  ASSERT_EQ(back.height, 3);
+  EXPECT_EQ(back.pixels, image.pixels);
+  EXPECT_THROW(decodePng("no picture"), sim::InputError);
+}
+
 }  // namespace
 }  // namespace espalier::render

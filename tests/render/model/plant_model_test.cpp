@@ -156,6 +156,20 @@ TEST(PlantModel, ColoursFollowHeightOnlyWhereTheyAreToldTo) {
   }
 }
 
+TEST(PlantModel, TrianglesOfInstancesCountWhereverTheyStand) {
+  render::PlantModel model;
+  EXPECT_EQ(render::triangleCount(model), 0u);
+  model.stems.triangles.resize(7);
+  model.stalks.triangles.resize(2);
+  model.elements.resize(2);
+  model.elements[1].triangles.resize(5);
+  EXPECT_EQ(render::triangleCount(model), 14u);
+  model.instances.resize(1);
+  model.instances[0].shape.triangles.resize(3);
+  model.instances[0].places.resize(10);
+  EXPECT_EQ(render::triangleCount(model), 44u);
+}
+
 TEST(PlantModel, DegeneratePlants) {
   sim::Plant plant;
   EXPECT_TRUE(modelPlant(plant, kUnit).stems.empty());

@@ -9,10 +9,11 @@
 #include "scenes/read/read_scene.h"
 #include "sim/grow/grow.h"
 #include "sim/light/brightest.h"
+#include "sim/tile/tiling.h"
 #include "tests/support/scratch.h"
 
-/// The library's scenes of figures 7 to 9 of Ned Greene's "Voxel Space Automata", and of what plants sense
-/// after its section 3, show what they say.
+/// The library's scenes of figures 1 and 7 to 9 of Ned Greene's "Voxel Space Automata", and of what plants
+/// sense after its section 3, show what they say.
 namespace espalier::scenes {
 namespace {
 
@@ -58,6 +59,30 @@ std::vector<int> childrenOf(const sim::Plant& plant) {
 double degrees(Vec3 a, Vec3 b) {
   return std::acos(std::clamp(glm::dot(glm::normalize(a), glm::normalize(b)), -1.0, 1.0)) * 180.0 /
          std::numbers::pi;
+}
+
+TEST(Figure1, TheVoxelsOfAPolygonAndALineAreThoseThatTheyPass) {
+  const Figure figure = grown(library("figure_1"));
+  const sim::World& world = figure.site.world;
+  EXPECT_EQ(world.frame().size, sim::Voxel(8));
+  ASSERT_EQ(figure.site.meshes.size(), 2u);
+  std::vector<sim::Voxel> polygon, line;
+  const auto vx = [&](Vec3 p_m) { return sim::voxelFromWorld(world.frame(), p_m); };
+  const sim::Mesh& mesh = figure.site.meshes[0].mesh;
+  for (const auto& t : mesh.triangles)
+    sim::tileTriangle({vx(mesh.vertices_m[t[0]]), vx(mesh.vertices_m[t[1]]), vx(mesh.vertices_m[t[2]])},
+                      polygon);
+  for (const sim::Line& l : figure.site.meshes[1].lines) sim::tileSegment(vx(l.from_m), vx(l.to_m), line);
+  sim::BitVolume expected(world.frame().size);
+  for (const auto* voxels : {&polygon, &line}) {
+    for (const sim::Voxel v : *voxels) expected.set(v);
+  }
+  EXPECT_EQ(world.occupied().words(), expected.words());
+  const Vec3 normal =
+      glm::cross(mesh.vertices_m[1] - mesh.vertices_m[0], mesh.vertices_m[2] - mesh.vertices_m[0]);
+  for (const Vec3 corner : mesh.vertices_m)
+    EXPECT_NEAR(glm::dot(corner - mesh.vertices_m[0], normal), 0.0, 1e-5)
+        << "a polygon is flat, as its file's numbers say";
 }
 
 TEST(Tendril, LeavesTheCubeByItsOpenSideAndTurnsToTheTopOfTheSunsWay) {

@@ -307,6 +307,7 @@ const std::vector<BadFile> kBadScenes = {
      "cameras: {a: {eye: [1, 1, 1], target: [0, 0, 0]}}\nimages: [{kind: graph, iteration: -1}]\n",
      {"4:35: images[0].iteration is '-1', which is out of range"}},
     {"points without any camera", "images: [points]\n", {"3:10: the image points needs a camera"}},
+    {"voxels without any camera", "images: [voxels]\n", {"3:10: the image voxels needs a camera"}},
     {"a graph without any camera", "images: [graph]\n", {"3:10: the image graph needs a camera"}},
     {"a mesh in a section",
      "images: [{kind: section, mesh: wall}]\n",

@@ -13,6 +13,7 @@
 #include "rules/growth/rule_book.h"
 #include "scenes/foretell/foretell.h"
 #include "scenes/job/diced_files.h"
+#include "scenes/job/film.h"
 #include "scenes/job/plant_models.h"
 #include "scenes/job/plant_reports.h"
 #include "scenes/job/saved_growth.h"
@@ -76,6 +77,20 @@ Finished finishedOn(const Scene& scene, const Site& site, const sim::BitVolume& 
           growthSettings(scene, site, {}).sky_table};
 }
 
+/// Draws the scene's film of what has grown. Why there is no film.mp4 is a warning that comes late.
+std::vector<OutputFile> filmFiles(const FilmSources& sources, const RunOptions& options, Report& report,
+                                  std::vector<std::string>& late_warnings) {
+  Filmed filmed = inScene(sources.scene, [&] { return drawFilm(sources); });
+  report.film = filmed.about;
+  if (!filmed.no_video.empty()) {
+    const Problem warning = problemAt(sources.scene.film->place, sources.scene.file, filmed.no_video);
+    if (options.on_warning) options.on_warning(warning);
+    report.warnings.push_back(warning.text);
+    late_warnings.push_back(warning.text);
+  }
+  return std::move(filmed.files);
+}
+
 /// A scene's site, and what shall grow on it or has grown there.
 struct Prepared {
   Site site;
@@ -93,6 +108,7 @@ Prepared prepare(const Scene& scene, const RunOptions& options, Report& report, 
     Gathering wrong(scene.file);
     wrong.part([&] { plantings = makePlantings(scene, site); });
     wrong.part([&] { requireCamerasInTheOpen(scene, site.world); });
+    if (films(scene, options)) wrong.part([&] { requireFilmFitsIn(scene, site.world); });
     wrong.part([&] { attractors = attractorsOf(scene, site, &of_attractors); });
     wrong.end();
     for (NamedPoints& crown : crownsOf(scene, site, plantings, &of_attractors))
@@ -104,7 +120,8 @@ Prepared prepare(const Scene& scene, const RunOptions& options, Report& report, 
   std::vector<Problem> warnings = scene.warnings;
   for (const auto& more : {prepared.site.warnings, of_attractors,
                            frontWarnings(scene, prepared.site.world.frame(), prepared.attractors),
-                           unknownRegions(scene, prepared.site.world)})
+                           unknownRegions(scene, prepared.site.world),
+                           films(scene, options) ? filmWarnings(scene) : std::vector<Problem>()})
     warnings.insert(warnings.end(), more.begin(), more.end());
   warn(warnings, scene.file, options, report);
   return prepared;
@@ -156,7 +173,7 @@ sim::Growth growOn(const Scene& scene, Prepared& prepared, std::optional<sim::Gr
           sim::counted(static_cast<std::uint64_t>(kept->iterations), "iteration"), scene.iterations));
     }
   }
-  const bool vines = options.pictures && drawsVines(scene.images);
+  const bool vines = (options.pictures && drawsVines(scene.images)) || films(scene, options);
   settings.memory.later_bytes =
       laterBytes(sim::Vec3(site.world.frame().size), vines) +
       inScene(scene, scene.world.place, [&] { return dicedBytes(options.models, site); });
@@ -208,12 +225,16 @@ bool drawsTextures(const Scene& scene) {
 
 Report runScene(const Scene& scene, const RunOptions& options, const Keeping& keeping) {
   if (options.pictures) requirePicturesFit(scene, picturesOf(scene));
+  if (films(scene, options)) requireFilmFits(scene);
   std::vector<std::string> names = modelFileNames(options.models);
   for (std::string& name : dicedFileNames(options.models)) names.push_back(std::move(name));
   names.insert(names.end(), {kSkeletonFile, kWorldFile, kReportFile});
   if (keeping.keep || keeping.every > 0) names.emplace_back(kStateFile);
   if (options.pictures) {
     for (std::string& name : fileNames(scene.images)) names.push_back(std::move(name));
+  }
+  if (films(scene, options)) {
+    for (std::string& name : filmFileNames(scene)) names.push_back(std::move(name));
   }
   if (options.pictures || drawsTextures(scene)) render::makeReadyToDraw();
   OutputFolder output(options.folder, std::move(names), scene.read_paths);
@@ -276,20 +297,28 @@ Report runScene(const Scene& scene, const RunOptions& options, const Keeping& ke
   }
   std::vector<std::string> late_warnings;
   if (!growth.cut_short.empty()) late_warnings.push_back(growth.cut_short);
+  ReadTextures textures;
   if (options.pictures) {
     stages.run("drawing", [&] {
-      ReadTextures textures = texturesFor(drawsVines(scene.images), scene, site.meshes, options, report);
+      textures = texturesFor(drawsVines(scene.images) || scene.film, scene, site.meshes, options, report);
       for (const Problem& unread : textures.unread) late_warnings.push_back(unread.text);
-      const Finished finished =
-          finishedOn(scene, site, bare, growth, light, models, std::move(textures.pictures));
+      const Finished finished = finishedOn(scene, site, bare, growth, light, models, textures.pictures);
       auto pictures =
           inScene(scene, [&] { return drawPictures(picturesOf(scene, report.made_by), finished); });
       for (OutputFile& file : pictures) files.push_back(std::move(file));
     });
   }
+  if (films(scene, options)) {
+    stages.run("filming", [&] {
+      auto film = filmFiles({scene, site, bare, growth, light, textures.pictures, report.made_by}, options,
+                            report, late_warnings);
+      for (OutputFile& file : film) files.push_back(std::move(file));
+    });
+  }
   stages.run("writing", [&] {
     output.write(files);
     if (!keeping.keep) dropState(options.folder);
+    if (films(scene, options)) dropOldFilm(options.folder, files);
   });
   writeReport(output, files, report);
   requireNone(late_warnings, scene.file, options);
@@ -300,6 +329,7 @@ Foretold foretellRun(const Scene& scene, const RunOptions& options,
                      const std::function<void(const Site& site)>& look) {
   const PicturesWanted pictures = picturesAsked(scene, options);
   if (options.pictures) requirePicturesFit(scene, pictures);
+  if (films(scene, options)) requireFilmFits(scene);
   Report report;
   Stages stages(options, report);
   Prepared prepared = prepare(scene, options, report, stages);
@@ -316,18 +346,24 @@ Foretold foretellRun(const Scene& scene, const RunOptions& options,
       foretold = foreteller.after(growing->growth(), over);
     }
   });
-  texturesFor(options.pictures && drawsVines(scene.images), scene, site.meshes, options, report);
+  texturesFor((options.pictures && drawsVines(scene.images)) || films(scene, options), scene, site.meshes,
+              options, report);
   return *foretold;
 }
 
 Report renderScene(Scene scene, const std::filesystem::path& from, const RunOptions& options) {
-  if (scene.images.empty()) {
+  if (scene.images.empty() && !scene.film) {
     throw sim::InputError(
-        fmt::format("{}: it has no images to draw; expected at least one", scene.file.string()));
+        fmt::format("{}: it has no images to draw; expected at least one, or a film", scene.file.string()));
   }
   requirePicturesFit(scene, picturesOf(scene));
+  if (scene.film) requireFilmFits(scene);
   render::makeReadyToDraw();
-  OutputFolder output(options.folder, fileNames(scene.images), scene.read_paths);
+  std::vector<std::string> names = fileNames(scene.images);
+  if (scene.film) {
+    for (std::string& name : filmFileNames(scene)) names.push_back(std::move(name));
+  }
+  OutputFolder output(options.folder, std::move(names), scene.read_paths);
   Report report;
   Stages stages(options, report);
   std::optional<sim::State> state = stages.run("reading", [&] { return readKept(from); });
@@ -355,17 +391,27 @@ Report renderScene(Scene scene, const std::filesystem::path& from, const RunOpti
   report.light = light.about;
   const auto models =
       stages.run("modelling", [&] { return modelPlants(site.world.frame(), growth.plants, bare); });
-  std::vector<std::string> unread;
+  std::vector<std::string> late_warnings;
+  ReadTextures textures;
   std::vector<OutputFile> files = stages.run("drawing", [&] {
-    ReadTextures textures = texturesFor(drawsVines(scene.images), scene, site.meshes, options, report);
-    for (const Problem& one : textures.unread) unread.push_back(one.text);
-    const Finished finished =
-        finishedOn(scene, site, bare, growth, light, models, std::move(textures.pictures));
+    textures = texturesFor(drawsVines(scene.images) || scene.film, scene, site.meshes, options, report);
+    for (const Problem& one : textures.unread) late_warnings.push_back(one.text);
+    const Finished finished = finishedOn(scene, site, bare, growth, light, models, textures.pictures);
     return inScene(scene, [&] { return drawPictures(picturesOf(scene, report.made_by), finished); });
   });
-  stages.run("writing", [&] { output.write(files); });
+  if (scene.film) {
+    stages.run("filming", [&] {
+      auto film = filmFiles({scene, site, bare, growth, light, textures.pictures, report.made_by}, options,
+                            report, late_warnings);
+      for (OutputFile& file : film) files.push_back(std::move(file));
+    });
+  }
+  stages.run("writing", [&] {
+    output.write(files);
+    if (scene.film) dropOldFilm(options.folder, files);
+  });
   finishReport(files, report);
-  requireNone(unread, scene.file, options);
+  requireNone(late_warnings, scene.file, options);
   return report;
 }
 

@@ -107,45 +107,11 @@ std::vector<std::uint8_t> bytesOf(const render::Image& display) {
   return bytes;
 }
 
-}  // namespace
-
-void requireFilmFits(const Scene& scene) {
-  const FilmSpec& film = *scene.film;
-  const auto wrong = [&](std::string why) {
-    throw PlacedError({problemAt(film.place, scene.file, std::move(why))});
-  };
-  if (std::string why = tooManyFrames(film, scene.iterations); !why.empty()) wrong(std::move(why));
-  const double bytes = filmBytes(film, scene.iterations) + pictureBytes(picturesOf(scene), 1.0);
-  if (bytes <= sim::memoryBudget()) return;
-  wrong(fmt::format(
-      "a film of {} of {} x {} pixels, with the scene's images, needs {} of memory, and {} are free for it "
-      "here; expected fewer frames (every), or smaller ones",
-      sim::counted(framesOf(film, scene.iterations).size(), "frame"), film.width_px, film.height_px,
-      sim::inGigabytes(bytes), sim::inGigabytes(sim::memoryBudget())));
-}
-
-void requireFilmFitsIn(const Scene& scene, const sim::World& world) {
-  constexpr double kSkies = 5.0 * 2.0;  // of 16 bits: two moments, what lies between, and of other pictures
-  inScene(scene, [&] { sim::requireFits(world.frame(), {world.layers(), kSkies}); });
-  requireFilmInTheOpen(scene, world);
-}
-
-std::vector<Problem> filmWarnings(const Scene& scene) {
-  if (!ffmpegProgram().empty()) return {};
-  return {problemAt(
-      scene.film->place, scene.file,
-      fmt::format("ffmpeg is not installed, and there will be the film's frames and no {}; expected it in "
-                  "PATH (Debian: apt-get install ffmpeg)",
-                  kFilmFile))};
-}
-
-std::vector<std::string> filmFileNames(const Scene& scene) {
-  std::vector<std::string> names;
-  const std::size_t frames = framesOf(*scene.film, scene.iterations).size();
-  for (std::size_t i = 0; i < frames; ++i) names.push_back(frameFile(i));
-  names.emplace_back(kFilmFile);
-  return names;
-}
+struct Filmed {
+  std::vector<OutputFile> files;  // frames in order, and the film where ffmpeg is and made one
+  Report::Film about;
+  std::string no_video;  // why an ffmpeg that is there made none; else empty
+};
 
 Filmed drawFilm(const FilmSources& sources) {
   const FilmSpec& film = *sources.scene.film;
@@ -205,6 +171,59 @@ Filmed drawFilm(const FilmSources& sources) {
                                   kFilmFile, made.failure);
   }
   return filmed;
+}
+
+}  // namespace
+
+void requireFilmFits(const Scene& scene, const RunOptions& options) {
+  if (!films(scene, options)) return;
+  const FilmSpec& film = *scene.film;
+  const auto wrong = [&](std::string why) {
+    throw PlacedError({problemAt(film.place, scene.file, std::move(why))});
+  };
+  if (std::string why = tooManyFrames(film, scene.iterations); !why.empty()) wrong(std::move(why));
+  const double bytes = filmBytes(film, scene.iterations) + pictureBytes(picturesOf(scene), 1.0);
+  if (bytes <= sim::memoryBudget()) return;
+  wrong(fmt::format(
+      "a film of {} of {} x {} pixels, with the scene's images, needs {} of memory, and {} are free for it "
+      "here; expected fewer frames (every), or smaller ones",
+      sim::counted(framesOf(film, scene.iterations).size(), "frame"), film.width_px, film.height_px,
+      sim::inGigabytes(bytes), sim::inGigabytes(sim::memoryBudget())));
+}
+
+void requireFilmFitsIn(const Scene& scene, const RunOptions& options, const sim::World& world) {
+  if (!films(scene, options)) return;
+  constexpr double kSkies = 5.0 * 2.0;  // of 16 bits: two moments, what lies between, and of other pictures
+  inScene(scene, [&] { sim::requireFits(world.frame(), {world.layers(), kSkies}); });
+  requireFilmInTheOpen(scene, world);
+}
+
+std::vector<Problem> filmWarnings(const Scene& scene, const RunOptions& options) {
+  if (!films(scene, options) || !ffmpegProgram().empty()) return {};
+  return {problemAt(
+      scene.film->place, scene.file,
+      fmt::format("ffmpeg is not installed, and there will be the film's frames and no {}; expected it in "
+                  "PATH (Debian: apt-get install ffmpeg)",
+                  kFilmFile))};
+}
+
+void addFilmFileNames(const Scene& scene, const RunOptions& options, std::vector<std::string>& names) {
+  if (!films(scene, options)) return;
+  const std::size_t frames = framesOf(*scene.film, scene.iterations).size();
+  for (std::size_t i = 0; i < frames; ++i) names.push_back(frameFile(i));
+  names.emplace_back(kFilmFile);
+}
+
+void addFilm(const FilmSources& sources, const RunOptions& options, std::vector<OutputFile>& files,
+             Report& report, std::vector<std::string>& late_warnings) {
+  const Filmed filmed = inScene(sources.scene, [&] { return drawFilm(sources); });
+  report.film = filmed.about;
+  files.insert(files.end(), filmed.files.begin(), filmed.files.end());
+  if (filmed.no_video.empty()) return;
+  const Problem warning = problemAt(sources.scene.film->place, sources.scene.file, filmed.no_video);
+  if (options.on_warning) options.on_warning(warning);
+  report.warnings.push_back(warning.text);
+  late_warnings.push_back(warning.text);
 }
 
 void dropOldFilm(const std::filesystem::path& folder, const std::vector<OutputFile>& files) {

@@ -17,18 +17,20 @@ inline bool films(const Scene& scene, const RunOptions& options) {
   return options.pictures && scene.film.has_value();
 }
 
+/// Of these nothing is asked where no film is drawn.
+
 /// Whether a film fits beside the scene's images, before anything is done: throws PlacedError where it has
 /// more frames than anybody watches, or takes more memory than there is.
-void requireFilmFits(const Scene& scene);
+void requireFilmFits(const Scene& scene, const RunOptions& options);
 
 /// The same of what it takes in a world, and whether its camera stays in the open.
-void requireFilmFitsIn(const Scene& scene, const sim::World& world);
+void requireFilmFitsIn(const Scene& scene, const RunOptions& options, const sim::World& world);
 
 /// That there will be no film.mp4, where ffmpeg is not installed.
-std::vector<Problem> filmWarnings(const Scene& scene);
+std::vector<Problem> filmWarnings(const Scene& scene, const RunOptions& options);
 
-/// The files of a film that goes through all of the scene's iterations.
-std::vector<std::string> filmFileNames(const Scene& scene);
+/// Adds the files of a film that goes through all of the scene's iterations.
+void addFilmFileNames(const Scene& scene, const RunOptions& options, std::vector<std::string>& names);
 
 /// What a film is made from, once growth is done. Borrowed.
 struct FilmSources {
@@ -41,16 +43,12 @@ struct FilmSources {
   const sim::Provenance& made_by;
 };
 
-struct Filmed {
-  std::vector<OutputFile> files;  ///< frames in order, and the film where ffmpeg is and made one
-  Report::Film about;
-  std::string no_video;  ///< why an ffmpeg that is there made none; else empty
-};
-
 /// Draws the film: in each frame what had grown by then, modelled anew, in the light of then (film_light.h);
-/// the last frame is the picture of all that grew. The same on any number of threads. Throws sim::InputError;
-/// sim::Stopped, and then no process is left behind.
-Filmed drawFilm(const FilmSources& sources);
+/// the last frame is the picture of all that grew. The same on any number of threads. Adds its files, the
+/// frames in order and then film.mp4, and tells the report of it; that an ffmpeg which is there made none is
+/// a warning. Throws sim::InputError; sim::Stopped, and then no process is left behind.
+void addFilm(const FilmSources& sources, const RunOptions& options, std::vector<OutputFile>& files,
+             Report& report, std::vector<std::string>& late_warnings);
 
 /// Removes frames of a longer film that an earlier run left in a folder, and its film.mp4 if there is no
 /// newer one.

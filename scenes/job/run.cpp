@@ -77,20 +77,6 @@ Finished finishedOn(const Scene& scene, const Site& site, const sim::BitVolume& 
           growthSettings(scene, site, {}).sky_table};
 }
 
-/// Draws the scene's film of what has grown. Why there is no film.mp4 is a warning that comes late.
-std::vector<OutputFile> filmFiles(const FilmSources& sources, const RunOptions& options, Report& report,
-                                  std::vector<std::string>& late_warnings) {
-  Filmed filmed = inScene(sources.scene, [&] { return drawFilm(sources); });
-  report.film = filmed.about;
-  if (!filmed.no_video.empty()) {
-    const Problem warning = problemAt(sources.scene.film->place, sources.scene.file, filmed.no_video);
-    if (options.on_warning) options.on_warning(warning);
-    report.warnings.push_back(warning.text);
-    late_warnings.push_back(warning.text);
-  }
-  return std::move(filmed.files);
-}
-
 /// A scene's site, and what shall grow on it or has grown there.
 struct Prepared {
   Site site;
@@ -108,7 +94,7 @@ Prepared prepare(const Scene& scene, const RunOptions& options, Report& report, 
     Gathering wrong(scene.file);
     wrong.part([&] { plantings = makePlantings(scene, site); });
     wrong.part([&] { requireCamerasInTheOpen(scene, site.world); });
-    if (films(scene, options)) wrong.part([&] { requireFilmFitsIn(scene, site.world); });
+    wrong.part([&] { requireFilmFitsIn(scene, options, site.world); });
     wrong.part([&] { attractors = attractorsOf(scene, site, &of_attractors); });
     wrong.end();
     for (NamedPoints& crown : crownsOf(scene, site, plantings, &of_attractors))
@@ -120,8 +106,7 @@ Prepared prepare(const Scene& scene, const RunOptions& options, Report& report, 
   std::vector<Problem> warnings = scene.warnings;
   for (const auto& more : {prepared.site.warnings, of_attractors,
                            frontWarnings(scene, prepared.site.world.frame(), prepared.attractors),
-                           unknownRegions(scene, prepared.site.world),
-                           films(scene, options) ? filmWarnings(scene) : std::vector<Problem>()})
+                           unknownRegions(scene, prepared.site.world), filmWarnings(scene, options)})
     warnings.insert(warnings.end(), more.begin(), more.end());
   warn(warnings, scene.file, options, report);
   return prepared;
@@ -225,7 +210,7 @@ bool drawsTextures(const Scene& scene) {
 
 Report runScene(const Scene& scene, const RunOptions& options, const Keeping& keeping) {
   if (options.pictures) requirePicturesFit(scene, picturesOf(scene));
-  if (films(scene, options)) requireFilmFits(scene);
+  requireFilmFits(scene, options);
   std::vector<std::string> names = modelFileNames(options.models);
   for (std::string& name : dicedFileNames(options.models)) names.push_back(std::move(name));
   names.insert(names.end(), {kSkeletonFile, kWorldFile, kReportFile});
@@ -233,9 +218,7 @@ Report runScene(const Scene& scene, const RunOptions& options, const Keeping& ke
   if (options.pictures) {
     for (std::string& name : fileNames(scene.images)) names.push_back(std::move(name));
   }
-  if (films(scene, options)) {
-    for (std::string& name : filmFileNames(scene)) names.push_back(std::move(name));
-  }
+  addFilmFileNames(scene, options, names);
   if (options.pictures || drawsTextures(scene)) render::makeReadyToDraw();
   OutputFolder output(options.folder, std::move(names), scene.read_paths);
   Report report;
@@ -310,9 +293,8 @@ Report runScene(const Scene& scene, const RunOptions& options, const Keeping& ke
   }
   if (films(scene, options)) {
     stages.run("filming", [&] {
-      auto film = filmFiles({scene, site, bare, growth, light, textures.pictures, report.made_by}, options,
-                            report, late_warnings);
-      for (OutputFile& file : film) files.push_back(std::move(file));
+      addFilm({scene, site, bare, growth, light, textures.pictures, report.made_by}, options, files, report,
+              late_warnings);
     });
   }
   stages.run("writing", [&] {
@@ -329,7 +311,7 @@ Foretold foretellRun(const Scene& scene, const RunOptions& options,
                      const std::function<void(const Site& site)>& look) {
   const PicturesWanted pictures = picturesAsked(scene, options);
   if (options.pictures) requirePicturesFit(scene, pictures);
-  if (films(scene, options)) requireFilmFits(scene);
+  requireFilmFits(scene, options);
   Report report;
   Stages stages(options, report);
   Prepared prepared = prepare(scene, options, report, stages);
@@ -357,12 +339,10 @@ Report renderScene(Scene scene, const std::filesystem::path& from, const RunOpti
         fmt::format("{}: it has no images to draw; expected at least one, or a film", scene.file.string()));
   }
   requirePicturesFit(scene, picturesOf(scene));
-  if (scene.film) requireFilmFits(scene);
+  requireFilmFits(scene, options);
   render::makeReadyToDraw();
   std::vector<std::string> names = fileNames(scene.images);
-  if (scene.film) {
-    for (std::string& name : filmFileNames(scene)) names.push_back(std::move(name));
-  }
+  addFilmFileNames(scene, options, names);
   OutputFolder output(options.folder, std::move(names), scene.read_paths);
   Report report;
   Stages stages(options, report);
@@ -401,9 +381,8 @@ Report renderScene(Scene scene, const std::filesystem::path& from, const RunOpti
   });
   if (scene.film) {
     stages.run("filming", [&] {
-      auto film = filmFiles({scene, site, bare, growth, light, textures.pictures, report.made_by}, options,
-                            report, late_warnings);
-      for (OutputFile& file : film) files.push_back(std::move(file));
+      addFilm({scene, site, bare, growth, light, textures.pictures, report.made_by}, options, files, report,
+              late_warnings);
     });
   }
   stages.run("writing", [&] {

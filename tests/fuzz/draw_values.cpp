@@ -56,6 +56,8 @@ const std::map<std::string, rules::Limits> kUsual = {
     {"sun.step", {20.0, 1440.0}},
     {"sun.accuracy", {0.3, 10.0}},
     {"exposure.band", {1.0, 6.0}},
+    {"film.every", {3.0, 30.0}},
+    {"film.hold", {0.0, 1.0}},
 };
 
 using rules::Kind;

@@ -281,8 +281,8 @@ inline const std::map<std::string, Change>& changes() {
       {"film.path[].camera",
        {"film_0001.png", {path}, {"{camera: other, at: 0.9}", "{camera: main, at: 0.9}"}}},
       {"film.path[].at", {"film_0001.png", {path}, {"at: 0.9", "at: 0.6"}}},
-      {"film.width", {"film_0000.png", {film}, {"width: 40", "width: 32"}}},
-      {"film.height", {"film_0000.png", {film}, {"height: 30", "height: 20"}}},
+      {"film.width", {"film_0000.png", {film}, {"every: 3, width: 40", "every: 3, width: 32"}}},
+      {"film.height", {"film_0000.png", {path}, {"height: 30, path", "height: 20, path"}}},
       {"film.frames_per_second", {"film_0001.png", {film}, {"every: 3", "every: 3, frames_per_second: 24"}}},
       {"film.hold", {"report.json", {film}, {"every: 3", "every: 3, hold: 2"}}},
   };

@@ -23,10 +23,10 @@ const std::vector<BadFile> kBadFilms = {
      {"5:7: no camera is called 'frnt'; expected one of front, side; did you mean 'front'?"}},
     {"a camera that stands and moves",
      "film: {camera: front, path: [front, side]}\n",
-     {"5:29: both camera and path are given; expected a camera that stands still, or a path"}},
+     {"5:23: both camera and path are given; expected a camera that stands still, or a path"}},
     {"a path that leads nowhere",
      "film: {path: [side]}\n",
-     {"5:14: a path of one camera leads nowhere; expected two or more, or camera: NAME"}},
+     {"5:8: a path of one camera leads nowhere; expected two or more, or camera: NAME"}},
     {"a path by a camera that is not there",
      "film: {path: [front, {camera: back}]}\n",
      {"5:31: no camera is called 'back'; expected one of front, side"}},
@@ -81,7 +81,7 @@ TEST(BadFilmScene, HasMoreFramesThanAnybodyWatches) {
   const BadFile bad{
       "frames",
       "",
-      {"4:1: a frame every 1 of 100000 iterations makes 100001 frames; expected at most 10000: every: 11"}};
+      {"4:7: a frame every 1 of 100000 iterations makes 100001 frames; expected at most 10000: every: 11"}};
   tests::expectMessages(
       bad, "s.yaml",
       "espalier: scene\nworld: {voxel: 1, bounds: {min: [0, 0, 0], max: [1, 1, 1]}}\n"

@@ -1,6 +1,7 @@
 #include "scenes/show/film_light.h"
 
 #include <cstdint>
+#include <utility>
 
 #include "sim/base/parallel.h"
 #include "sim/sweep/sweep.h"
@@ -8,10 +9,12 @@
 namespace espalier::scenes {
 namespace {
 
-/// So much of the way from one to the other, rounded to nearest.
-std::uint16_t between(std::uint16_t from, std::uint16_t to, std::int64_t part, std::int64_t whole) {
-  const std::int64_t change = (static_cast<std::int64_t>(to) - from) * part;
-  return static_cast<std::uint16_t>(from + (2 * change + (change < 0 ? -whole : whole)) / (2 * whole));
+constexpr std::int32_t kAll = 1 << 15;  // of the way from one to the other
+
+/// So much of the way, rounded to nearest.
+std::uint16_t between(std::uint16_t from, std::uint16_t to, std::int32_t part) {
+  const std::int32_t change = (std::int32_t{to} - std::int32_t{from}) * part;
+  return static_cast<std::uint16_t>(from + ((change + kAll / 2) >> 15));
 }
 
 }  // namespace
@@ -45,11 +48,11 @@ EarlierWorld FilmLight::after(int iterations) {
     if (next_ > 0) moments_[next_ - 1].sky = nullptr;
     ++next_;
   }
-  const auto skyOf = [&](Moment& moment) -> const sim::ExposureField& {
+  const auto skyOf = [&](Moment& moment) {
     if (!moment.sky) moment.sky = found(moment.iterations);
-    return *moment.sky;
+    return moment.sky;
   };
-  EarlierWorld earlier{births_.after(world_.occupied(), iterations), {}};
+  EarlierWorld earlier{births_.after(world_.occupied(), iterations), nullptr};
   Moment& to = moments_[next_];
   if (to.iterations <= iterations) {
     earlier.sky = skyOf(to);
@@ -57,15 +60,19 @@ EarlierWorld FilmLight::after(int iterations) {
   }
   Moment& from = moments_[next_ - 1];
   const auto taken = [&](int k) { return static_cast<std::int64_t>(births_.takenAfter(k)); };
-  const std::int64_t part = taken(iterations) - taken(from.iterations),
-                     whole = taken(to.iterations) - taken(from.iterations);
-  const sim::ExposureField &a = skyOf(from), &b = skyOf(to);
-  earlier.sky = a;
-  if (part == 0) return earlier;
-  sim::parallelFor(a.values.size(), [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i)
-      earlier.sky.values[i] = between(a.values[i], b.values[i], part, whole);
+  const std::int64_t more = taken(iterations) - taken(from.iterations),
+                     all = taken(to.iterations) - taken(from.iterations);
+  earlier.sky = skyOf(from);
+  if (more == 0) return earlier;
+  const auto part = static_cast<std::int32_t>((more * kAll + all / 2) / all);
+  const std::vector<std::uint16_t>&a = skyOf(from)->values, &b = skyOf(to)->values;
+  auto mixed = std::make_shared<sim::ExposureField>();
+  mixed->size = world_.frame().size;
+  mixed->values.resize(a.size());
+  sim::parallelFor(a.size(), [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) mixed->values[i] = between(a[i], b[i], part);
   });
+  earlier.sky = std::move(mixed);
   return earlier;
 }
 

@@ -14,7 +14,7 @@ namespace espalier::scenes {
 /// A world whose plants have grown, as it was.
 struct EarlierWorld {
   sim::BitVolume occupied;
-  sim::ExposureField sky;  ///< sky_exposure of every voxel
+  std::shared_ptr<const sim::ExposureField> sky;  ///< sky_exposure of every voxel
 };
 
 /// The sky's light while plants grow, for frames of a film. It is found at moments, between which as many

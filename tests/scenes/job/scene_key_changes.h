@@ -277,7 +277,6 @@ inline const std::map<std::string, Change>& changes() {
       {"images[].show", {"a.png", {}, {"camera: main}", "camera: main, show: [scene, stems]}"}}},
       {"film.every", {"film_0001.png", {film}, {"every: 3", "every: 2"}}},
       {"film.camera", {"film_0000.png", {film}, {"every: 3", "every: 3, camera: other"}}},
-      {"film.path", {"film_0001.png", {film}, {"every: 3", "every: 3, path: [main, other]"}}},
       {"film.path[].camera",
        {"film_0001.png", {path}, {"{camera: other, at: 0.9}", "{camera: main, at: 0.9}"}}},
       {"film.path[].at", {"film_0001.png", {path}, {"at: 0.9", "at: 0.6"}}},

@@ -96,22 +96,22 @@ render::Camera FilmCamera::at(double time) const {
 void requireFilmInTheOpen(const Scene& scene, const sim::World& world) {
   constexpr int kLooks = 512;
   const FilmCamera camera(scene);
-  const auto wrong = [&](double time, const std::string& why) {
-    throw PlacedError(
-        {problemAt(scene.film->place, scene.file,
-                   fmt::format("at {:.2f} of its way the film's camera {}; expected a path around it, by "
-                               "another camera in between",
-                               time, why))});
+  const auto wrong = [&](double time, const std::string& why, const std::string& otherwise) {
+    throw PlacedError({problemAt(
+        scene.film->place, scene.file,
+        fmt::format("at {:.2f} of its way the film's camera {}; expected a path around it, by another camera "
+                    "in between{}",
+                    time, why, otherwise))});
   };
   for (int i = 0; i <= kLooks; ++i) {
     const double time = static_cast<double>(i) / kLooks;
     const render::Camera now = camera.at(time);
     if (glm::distance(now.eye_m, now.target_m) < 1e-3 * world.frame().voxel_m)
-      wrong(time, "passes through the point that it looks at");
+      wrong(time, "passes through the point that it looks at", "");
     const sim::PartId part = world.partAt(sim::voxelAt(sim::voxelFromWorld(world.frame(), now.eye_m)));
     if (part == sim::kFree) continue;
     const sim::Part& met = world.part(part);
-    wrong(time, fmt::format("is inside '{}' ({}){}", met.object, met.region, sim::orLeaveHollow(met)));
+    wrong(time, fmt::format("is inside '{}' ({})", met.object, met.region), sim::orLeaveHollow(met));
   }
 }
 

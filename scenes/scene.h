@@ -14,6 +14,7 @@
 #include "rules/language/emission.h"
 #include "rules/language/envelope_spec.h"
 #include "rules/language/rule_set.h"
+#include "scenes/film.h"
 #include "scenes/problem.h"
 #include "sim/base/provenance.h"
 #include "sim/base/vec.h"
@@ -334,6 +335,7 @@ struct Scene {
                        ///< does
   std::vector<NamedCamera> cameras;
   std::vector<ImageSpec> images;
+  std::optional<FilmSpec> film;
 };
 
 /// Calls visit(table, "attractors.crown") for the tables of attractors, then of plants, with the path of what

@@ -113,7 +113,7 @@ class DracoMesh {
 }  // namespace
 
 tinygltf::Primitive compressed(GlbFile& file, const ModelMesh& mesh, const Needed& needed,
-                               const MeshPart& part, double least_m) {
+                               const MeshPart& part, double least_m, std::int32_t last_birth) {
   using Attribute = draco::GeometryAttribute;
   DracoMesh packed(part);
   const int places = packed.add("POSITION", Attribute::POSITION, part.of(mesh.positions_m));
@@ -122,6 +122,9 @@ tinygltf::Primitive compressed(GlbFile& file, const ModelMesh& mesh, const Neede
   const int uvs = needed.uvs ? packed.add("TEXCOORD_0", Attribute::TEX_COORD, chart) : -1;
   const int exposures = packed.add("_EXPOSURE", Attribute::GENERIC, part.of(mesh.exposures));
   const int ages = packed.add("_AGE", Attribute::GENERIC, part.of(mesh.youths));
+  std::vector<float> born = part.of(mesh.youths);
+  for (float& birth : born) birth = birthOf(birth, last_birth);
+  const int births = packed.add("_BIRTH", Attribute::GENERIC, born);
   const int orders = packed.add("_ORDER", Attribute::GENERIC, part.of<float>(mesh.orders));
 
   draco::ExpertEncoder encoder(packed.mesh());
@@ -135,6 +138,10 @@ tinygltf::Primitive compressed(GlbFile& file, const ModelMesh& mesh, const Neede
   constexpr float kZero = 0.0f, kOne = 1.0f, kMostOrder = 255.0f;  // whole numbers of these stay as they are
   packed.quantize(encoder, exposures, kByteBits, &kZero, kOne);
   packed.quantize(encoder, ages, kByteBits, &kZero, kOne);
+  // Steps of a kBirthSteps'th, whatever the last is.
+  const int birth_bits = bitsFor(last_birth, 1.0 / kBirthSteps);
+  const float most_birth = static_cast<float>((1 << birth_bits) - 1) / kBirthSteps;
+  packed.quantize(encoder, births, birth_bits, &kZero, most_birth);
   packed.quantize(encoder, orders, kByteBits, &kZero, kMostOrder);
   tinygltf::Primitive primitive = packed.encoded(file, encoder);
   setExtent(file.model().accessors[static_cast<std::size_t>(primitive.attributes["POSITION"])],

@@ -7,9 +7,9 @@
 namespace espalier::render {
 
 /// A part of a mesh by KHR_draco_mesh_compression, which the file then cannot be read without: what is
-/// needed, and _EXPOSURE, _AGE and _ORDER. Places are off by a 120th of `least_m` at most each way, UVs by a
-/// thousandth, exposures and ages by a 500th; orders are as they are.
+/// needed, and _EXPOSURE, _AGE, _BIRTH and _ORDER. Places are off by a 120th of `least_m` at most each way,
+/// UVs by a thousandth, exposures and ages by a 500th; births and orders are as they are.
 tinygltf::Primitive compressed(GlbFile& file, const ModelMesh& mesh, const Needed& needed,
-                               const MeshPart& part, double least_m);
+                               const MeshPart& part, double least_m, std::int32_t last_birth);
 
 }  // namespace espalier::render

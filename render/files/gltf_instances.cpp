@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cmath>
+#include <limits>
 #include <vector>
 
 #include "render/files/gltf_surfaces.h"
@@ -32,13 +33,13 @@ template <class T, class Value>
 std::vector<T> ofEach(const std::vector<Placement>& places, Value value) {
   std::vector<T> all;
   all.reserve(places.size());
-  for (const Placement& place : places) all.push_back(value(place));
+  for (const Placement& place : places) all.push_back(static_cast<T>(value(place)));
   return all;
 }
 
 }  // namespace
 
-int GltfInstances::node(const Instances& instances, const std::string& kind) {
+int GltfInstances::node(const Instances& instances, const std::string& kind, std::int32_t last_birth) {
   const PlantSurface surface = instances.stalks ? PlantSurface::stalks : PlantSurface::blades;
   const int material = plantMaterial(materials_, instances.shape, kind, surface, 1.0f);
   const auto [mesh, is_new] = shapes_.try_emplace({hashOfPlaces(instances.shape), kind, material}, 0);
@@ -69,6 +70,13 @@ int GltfInstances::node(const Instances& instances, const std::string& kind) {
       TINYGLTF_TYPE_SCALAR, true);
   add("_AGE", ofEach<std::uint8_t>(places, [](const Placement& p) { return byteOf(p.youth); }), kByte,
       TINYGLTF_TYPE_SCALAR, true);
+  const auto birth = [&](const Placement& p) { return birthOf(p.youth, last_birth); };
+  if (last_birth <= std::numeric_limits<std::uint16_t>::max()) {
+    add("_BIRTH", ofEach<std::uint16_t>(places, birth), TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT,
+        TINYGLTF_TYPE_SCALAR, false);
+  } else {
+    add("_BIRTH", ofEach<float>(places, birth), kFloat, TINYGLTF_TYPE_SCALAR, false);
+  }
   add("_ORDER", ofEach<std::uint8_t>(places, [](const Placement& p) { return p.order; }), kByte,
       TINYGLTF_TYPE_SCALAR, false);
   if (instances.tinted) {

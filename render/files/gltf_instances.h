@@ -16,8 +16,8 @@ class GltfInstances {
  public:
   GltfInstances(GlbFile& file, GltfMaterials& materials) : file_(file), materials_(materials) {}
 
-  /// Adds a node for them. `kind`: the name that plants share.
-  int node(const Instances& instances, const std::string& kind);
+  /// Adds a node for them. `kind`: the name that plants share; `last_birth`: PlantModel's.
+  int node(const Instances& instances, const std::string& kind, std::int32_t last_birth);
 
  private:
   GlbFile& file_;

@@ -9,7 +9,7 @@
 namespace espalier::render {
 
 int GltfPlants::surfaceNode(const ModelMesh& mesh, const std::string& material, PlantSurface kind,
-                            double packed_m) {
+                            double packed_m, std::int32_t last_birth) {
   const Needed needed = neededOf(mesh, kind);
   float scale = 1.0f;
   std::vector<Bytes4> tints;
@@ -23,7 +23,7 @@ int GltfPlants::surfaceNode(const ModelMesh& mesh, const std::string& material, 
   std::vector<tinygltf::Primitive> primitives;
   forEachPart(mesh, needed, [&](const MeshPart& part) {
     if (packed_m > 0.0) {
-      primitives.push_back(compressed(file_, mesh, needed, part, packed_m));
+      primitives.push_back(compressed(file_, mesh, needed, part, packed_m, last_birth));
       return;
     }
     tinygltf::Primitive& primitive = primitives.emplace_back(shapeOf(file_, mesh, needed, part, kind));
@@ -33,6 +33,9 @@ int GltfPlants::surfaceNode(const ModelMesh& mesh, const std::string& material, 
     }
     primitive.attributes["_EXPOSURE"] = file_.numbers(part.of(mesh.exposures));
     primitive.attributes["_AGE"] = file_.numbers(part.of(mesh.youths));
+    std::vector<float> births = part.of(mesh.youths);
+    for (float& birth : births) birth = birthOf(birth, last_birth);
+    primitive.attributes["_BIRTH"] = file_.numbers(births);
     primitive.attributes["_ORDER"] = file_.numbers(part.of<float>(mesh.orders));
   });
   const int number = plantMaterial(materials_, mesh, material, kind, scale);
@@ -45,10 +48,10 @@ void GltfPlants::add(const PlantModel& plant) {
   forEachSurface(plant, [&](const ModelMesh& mesh, const std::string& kind, PlantSurface surface) {
     // Beside instances, which readers must know of anyway.
     const bool packed = surface == PlantSurface::stems && !plant.instances.empty();
-    children.push_back(surfaceNode(mesh, kind, surface, packed ? plant.thinnest_m : 0.0));
+    children.push_back(surfaceNode(mesh, kind, surface, packed ? plant.thinnest_m : 0.0, plant.last_birth));
   });
   for (const Instances& instances : plant.instances)
-    children.push_back(instances_.node(instances, kindOf(plant, instances.shape)));
+    children.push_back(instances_.node(instances, kindOf(plant, instances.shape), plant.last_birth));
   if (children.empty()) return;
   const int parent = file_.node(plant.name, -1);
   file_.model().nodes[static_cast<std::size_t>(parent)].children = std::move(children);

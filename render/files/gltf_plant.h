@@ -19,7 +19,8 @@ class GltfPlants {
 
  private:
   /// Compressed where `packed_m` is not 0, as for so thin a radius.
-  int surfaceNode(const ModelMesh& mesh, const std::string& material, PlantSurface kind, double packed_m);
+  int surfaceNode(const ModelMesh& mesh, const std::string& material, PlantSurface kind, double packed_m,
+                  std::int32_t last_birth);
 
   GlbFile& file_;
   GltfMaterials& materials_;

@@ -9,6 +9,10 @@ std::uint8_t byteOf(float share) {
   return static_cast<std::uint8_t>(std::lround(std::clamp(share, 0.0f, 1.0f) * 255.0f));
 }
 
+float birthOf(float youth, std::int32_t last) {
+  return std::round(youth * static_cast<float>(last) * kBirthSteps) / kBirthSteps;
+}
+
 float tintScale(const ModelMesh& mesh, float brightest) {
   constexpr float kStep = 0.125f;
   const sim::Colour c = mesh.picture == nullptr ? mesh.base_colour : sim::Colour(1.0f);

@@ -17,6 +17,11 @@ using Bytes4 = std::array<std::uint8_t, 4>;
 /// 0 to 1 as a normalized byte.
 std::uint8_t byteOf(float share);
 
+/// The iteration in which something of such a youth was placed, in steps of a kBirthSteps'th: whole ones are
+/// exact, and what lies between two nodes is between theirs. `last`: PlantModel::last_birth.
+inline constexpr float kBirthSteps = 16.0f;
+float birthOf(float youth, std::int32_t last);
+
 /// By what the tints of a mesh are divided to fit into 0..1, where `brightest` is the most of them: in few
 /// steps, so that plants share materials, into which the same factor goes. No more than the material can
 /// take, for no channel of it is above 1 and a picture's is 1 as it is: what is brighter then is cut off, and

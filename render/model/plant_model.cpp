@@ -47,6 +47,7 @@ class Youth {
   float of(std::int32_t born) const {
     return std::clamp(static_cast<float>(born) / static_cast<float>(last_), 0.0f, 1.0f);
   }
+  std::int32_t last() const { return last_; }
 
  private:
   std::int32_t last_ = 1;
@@ -132,6 +133,7 @@ PlantModel modelPlant(const sim::Plant& plant, const sim::Frame& frame, const Mo
   model.meeting_limbs = meetingLimbs(limbs);
   if (!radii.empty())
     model.thinnest_m = static_cast<double>(*std::min_element(radii.begin(), radii.end())) * frame.voxel_m;
+  model.last_birth = youth.last();
   model.name = plant.name;
   model.stems.name = plant.name + " stems";
   model.stems.base_colour = plant.stem_colour;

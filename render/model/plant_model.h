@@ -1,4 +1,5 @@
 #pragma once
+#include <cstdint>
 #include <vector>
 
 #include "render/model/instances.h"
@@ -29,6 +30,7 @@ struct PlantModel {
   std::string name;
   ModelMesh stems;
   double thinnest_m = 0.0;           ///< the least radius of its stems
+  std::int32_t last_birth = 1;       ///< the iteration that a youth of 1 stands for
   std::size_t meeting_limbs = 0;     ///< pairs of limbs that run into each other where none leaves the other
   ModelMesh stalks;                  ///< from stems to blades that do not begin on them
   std::vector<ModelMesh> elements;   ///< one for each of the plant's shapes: blades

@@ -75,6 +75,17 @@ StageCost drawingCost(const PicturesWanted& wanted, const std::vector<Seen>& cam
   return cost;
 }
 
+StageCost filmingCost(const PicturesWanted& wanted, const LitWorld& w, double triangles) {
+  const double frames = static_cast<double>(wanted.film_frames);
+  const double mean = 0.5 * triangles;  // of plants that grow, as often as not
+  StageCost cost{"filming", {}, 300.0 * triangles + 12.0 * w.voxels + 60.0 * wanted.film_pixels, 0.0};
+  // While a frame is drawn the next one's models are made, and the one before is packed twice over.
+  cost.work.shared_s = frames * (1.4e-6 * mean + 2.4e-6 * wanted.film_pixels + 6e-9 * w.voxels) +
+                       8.0 * 0.14e-9 * w.voxels * w.sky_directions;
+  cost.bytes_kept = 1.5 * frames * wanted.film_pixels;
+  return cost;
+}
+
 StageCost writingCost(const PicturesWanted& wanted, const LitWorld& world, double triangles) {
   StageCost cost{"writing", {}, 20e6 + 30.0 * triangles, 0.0};
   const double modelled = wanted.images.empty() ? modellingCost(triangles).work.shared_s : 0.0;

@@ -40,6 +40,8 @@ StageCost countingCost(const LitWorld& world);
 StageCost modellingCost(double triangles);
 /// `cameras`: those that panels are drawn for.
 StageCost drawingCost(const PicturesWanted& wanted, const std::vector<Seen>& cameras, double triangles);
+/// Of a film's frames, in a world whose plants grow to so many triangles.
+StageCost filmingCost(const PicturesWanted& wanted, const LitWorld& world, double triangles);
 StageCost writingCost(const PicturesWanted& wanted, const LitWorld& world, double triangles);
 
 }  // namespace espalier::scenes

@@ -130,6 +130,7 @@ std::vector<StageCost> costsAfterGrowth(const PicturesWanted& pictures, double t
     costs.push_back(modellingCost(triangles));
     costs.push_back(drawingCost(pictures, seen, triangles));
   }
+  if (pictures.film_frames > 0) costs.push_back(filmingCost(pictures, lit, triangles));
   costs.push_back(writingCost(pictures, lit, triangles));
   return costs;
 }

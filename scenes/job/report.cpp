@@ -7,6 +7,7 @@
 #include <string>
 
 #include "scenes/clean_text.h"
+#include "scenes/film.h"
 #include "scenes/job/model_files.h"
 #include "scenes/job/seed_failure_words.h"
 #include "scenes/show/light_json.h"
@@ -159,6 +160,10 @@ std::string toJson(const Report& report) {
                         {"free_voxels", report.exposure->in_space}};
   }
   if (report.certificate) json["certificate"] = Json::parse(toJson(*report.certificate));
+  if (report.film) {
+    json["film"] = {
+        {"frames", report.film->frames}, {"seconds", report.film->seconds}, {"video", report.film->video}};
+  }
   json["files"] = report.files;
   Json stages = Json::object();
   for (const auto& [stage, seconds] : report.run.stages_s) stages[stage] = seconds;
@@ -219,7 +224,14 @@ std::string endOfSummary(const Report& report, const std::filesystem::path& fold
                       static_cast<double>(report.run.peak_memory_bytes) / 1e6);
   if (report.growth) text += fmt::format(", state {:016x}", report.growth->state_hash);
   text += "\nwrote\n";
-  for (const std::string& file : report.files) text += "  " + oneLine((folder / file).string()) + "\n";
+  for (std::size_t i = 0; i < report.files.size(); ++i) {
+    text += "  " + oneLine((folder / report.files[i]).string());
+    if (report.film && report.film->frames > 1 && report.files[i] == frameFile(0)) {
+      i += report.film->frames - 1;
+      text += " .. " + report.files[i];
+    }
+    text += "\n";
+  }
   return text;
 }
 

@@ -84,6 +84,12 @@ struct Report {
     std::size_t in_space = 0;  ///< free voxels whose exposure was found
   };
   std::optional<Exposure> exposure;  ///< where it was what the run was for
+  struct Film {
+    std::size_t frames = 0;
+    double seconds = 0.0;  ///< that it lasts
+    bool video = false;    ///< there is a film.mp4
+  };
+  std::optional<Film> film;  ///< where one was drawn
   std::optional<Certificate> certificate;
 
   std::vector<std::string> files;  ///< that were written, in the output folder

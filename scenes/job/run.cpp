@@ -13,6 +13,7 @@
 #include "rules/growth/rule_book.h"
 #include "scenes/foretell/foretell.h"
 #include "scenes/job/diced_files.h"
+#include "scenes/job/film.h"
 #include "scenes/job/plant_models.h"
 #include "scenes/job/plant_reports.h"
 #include "scenes/job/saved_growth.h"
@@ -109,6 +110,7 @@ Prepared prepare(const Scene& scene, const RunOptions& options, Report& report, 
     wrong.part([&] { requireCamerasInTheOpen(scene, site.world); });
     wrong.part([&] { requireLampsInTheOpen(scene, site); });
     wrong.part([&] { requireCubesSeen(scene, site.world.frame()); });
+    wrong.part([&] { requireFilmFitsIn(scene, options, site.world); });
     wrong.part([&] { attractors = attractorsOf(scene, site, &of_attractors); });
     wrong.end();
     for (NamedPoints& crown : crownsOf(scene, site, plantings, &of_attractors))
@@ -120,7 +122,7 @@ Prepared prepare(const Scene& scene, const RunOptions& options, Report& report, 
   std::vector<Problem> warnings = scene.warnings;
   for (const auto& more : {prepared.site.warnings, of_attractors,
                            frontWarnings(scene, prepared.site.world.frame(), prepared.attractors),
-                           unknownRegions(scene, prepared.site.world)})
+                           unknownRegions(scene, prepared.site.world), filmWarnings(scene, options)})
     warnings.insert(warnings.end(), more.begin(), more.end());
   warn(warnings, scene.file, options, report);
   return prepared;
@@ -172,7 +174,7 @@ sim::Growth growOn(const Scene& scene, Prepared& prepared, std::optional<sim::Gr
           sim::counted(static_cast<std::uint64_t>(kept->iterations), "iteration"), scene.iterations));
     }
   }
-  const bool vines = options.pictures && drawsVines(scene.images);
+  const bool vines = (options.pictures && drawsVines(scene.images)) || films(scene, options);
   settings.memory.later_bytes =
       laterBytes(sim::Vec3(site.world.frame().size), vines) +
       inScene(scene, scene.world.place, [&] { return dicedBytes(options.models, site); });
@@ -224,6 +226,7 @@ bool drawsTextures(const Scene& scene) {
 
 Report runScene(const Scene& scene, const RunOptions& options, const Keeping& keeping) {
   if (options.pictures) requirePicturesFit(scene, picturesOf(scene));
+  requireFilmFits(scene, options);
   std::vector<std::string> names = modelFileNames(options.models);
   for (std::string& name : dicedFileNames(options.models)) names.push_back(std::move(name));
   names.insert(names.end(), {kSkeletonFile, kWorldFile, kReportFile});
@@ -231,6 +234,7 @@ Report runScene(const Scene& scene, const RunOptions& options, const Keeping& ke
   if (options.pictures) {
     for (std::string& name : fileNames(scene.images)) names.push_back(std::move(name));
   }
+  addFilmFileNames(scene, options, names);
   if (options.pictures || drawsTextures(scene)) render::makeReadyToDraw();
   OutputFolder output(options.folder, std::move(names), scene.read_paths);
   Report report;
@@ -295,20 +299,27 @@ Report runScene(const Scene& scene, const RunOptions& options, const Keeping& ke
   }
   std::vector<std::string> late_warnings;
   if (!growth.cut_short.empty()) late_warnings.push_back(growth.cut_short);
+  ReadTextures textures;
   if (options.pictures) {
     stages.run("drawing", [&] {
-      ReadTextures textures = texturesFor(drawsVines(scene.images), scene, site.meshes, options, report);
+      textures = texturesFor(drawsVines(scene.images) || scene.film, scene, site.meshes, options, report);
       for (const Problem& unread : textures.unread) late_warnings.push_back(unread.text);
-      const Finished finished =
-          finishedOn(scene, site, bare, growth, light, lit, models, std::move(textures.pictures));
+      const Finished finished = finishedOn(scene, site, bare, growth, light, lit, models, textures.pictures);
       auto pictures =
           inScene(scene, [&] { return drawPictures(picturesOf(scene, report.made_by), finished); });
       for (OutputFile& file : pictures) files.push_back(std::move(file));
     });
   }
+  if (films(scene, options)) {
+    stages.run("filming", [&] {
+      addFilm({scene, site, bare, growth, light, textures.pictures, report.made_by}, options, files, report,
+              late_warnings);
+    });
+  }
   stages.run("writing", [&] {
     output.write(files);
     if (!keeping.keep) dropState(options.folder);
+    if (films(scene, options)) dropOldFilm(options.folder, files);
   });
   writeReport(output, files, report);
   requireNone(late_warnings, scene.file, options);
@@ -319,6 +330,7 @@ Foretold foretellRun(const Scene& scene, const RunOptions& options,
                      const std::function<void(const Site& site)>& look) {
   const PicturesWanted pictures = picturesAsked(scene, options);
   if (options.pictures) requirePicturesFit(scene, pictures);
+  requireFilmFits(scene, options);
   Report report;
   Stages stages(options, report);
   Prepared prepared = prepare(scene, options, report, stages);
@@ -335,18 +347,22 @@ Foretold foretellRun(const Scene& scene, const RunOptions& options,
       foretold = foreteller.after(growing->growth(), over);
     }
   });
-  texturesFor(options.pictures && drawsVines(scene.images), scene, site.meshes, options, report);
+  texturesFor((options.pictures && drawsVines(scene.images)) || films(scene, options), scene, site.meshes,
+              options, report);
   return *foretold;
 }
 
 Report renderScene(Scene scene, const std::filesystem::path& from, const RunOptions& options) {
-  if (scene.images.empty()) {
+  if (scene.images.empty() && !scene.film) {
     throw sim::InputError(
-        fmt::format("{}: it has no images to draw; expected at least one", scene.file.string()));
+        fmt::format("{}: it has no images to draw; expected at least one, or a film", scene.file.string()));
   }
   requirePicturesFit(scene, picturesOf(scene));
+  requireFilmFits(scene, options);
   render::makeReadyToDraw();
-  OutputFolder output(options.folder, fileNames(scene.images), scene.read_paths);
+  std::vector<std::string> names = fileNames(scene.images);
+  addFilmFileNames(scene, options, names);
+  OutputFolder output(options.folder, std::move(names), scene.read_paths);
   Report report;
   Stages stages(options, report);
   std::optional<sim::State> state = stages.run("reading", [&] { return readKept(from); });
@@ -375,17 +391,26 @@ Report renderScene(Scene scene, const std::filesystem::path& from, const RunOpti
   report.light = light.about;
   const auto models =
       stages.run("modelling", [&] { return modelPlants(site.world.frame(), growth.plants, bare); });
-  std::vector<std::string> unread;
+  std::vector<std::string> late_warnings;
+  ReadTextures textures;
   std::vector<OutputFile> files = stages.run("drawing", [&] {
-    ReadTextures textures = texturesFor(drawsVines(scene.images), scene, site.meshes, options, report);
-    for (const Problem& one : textures.unread) unread.push_back(one.text);
-    const Finished finished =
-        finishedOn(scene, site, bare, growth, light, lit, models, std::move(textures.pictures));
+    textures = texturesFor(drawsVines(scene.images) || scene.film, scene, site.meshes, options, report);
+    for (const Problem& one : textures.unread) late_warnings.push_back(one.text);
+    const Finished finished = finishedOn(scene, site, bare, growth, light, lit, models, textures.pictures);
     return inScene(scene, [&] { return drawPictures(picturesOf(scene, report.made_by), finished); });
   });
-  stages.run("writing", [&] { output.write(files); });
+  if (scene.film) {
+    stages.run("filming", [&] {
+      addFilm({scene, site, bare, growth, light, textures.pictures, report.made_by}, options, files, report,
+              late_warnings);
+    });
+  }
+  stages.run("writing", [&] {
+    output.write(files);
+    if (scene.film) dropOldFilm(options.folder, files);
+  });
   finishReport(files, report);
-  requireNone(unread, scene.file, options);
+  requireNone(late_warnings, scene.file, options);
   return report;
 }
 

@@ -4,6 +4,7 @@
 #include "rules/language/envelope_keys.h"
 #include "rules/language/key_builder.h"
 #include "scenes/read/field_keys.h"
+#include "scenes/read/film_keys.h"
 #include "scenes/read/light_keys.h"
 #include "scenes/read/units.h"
 #include "scenes/scene.h"
@@ -336,6 +337,9 @@ Table makeTable() {
                           .most = kMostEntries})
       .list<ImageSpec>("images", Kind::entries, &Scene::images, imageKeys(),
                        {.meaning = "The images wanted.", .most = kMostEntries}, "kind")
+      .section("film", &Scene::film, filmKeys(),
+               {.meaning = "Growth as a film: numbered pictures, and film.mp4 where ffmpeg is installed."},
+               "camera")
       .table();
 }
 

@@ -6,6 +6,7 @@
 
 #include "scenes/problem.h"
 #include "scenes/read/attractor_checks.h"
+#include "scenes/read/film_keys.h"
 #include "scenes/read/light_keys.h"
 #include "scenes/read/registry.h"
 #include "scenes/scene.h"
@@ -325,6 +326,7 @@ const std::vector<Check>& sceneChecks() {
       check({"plants", "images"}, checkImagePlants),
       check({"fields", "images"}, checkImageFields),
       check({"images"}, checkSheets),
+      check({"cameras", "images", "film", "iterations"}, checkFilm),
   };
   return checks;
 }

@@ -43,6 +43,7 @@ void notePlaces(Scene& scene, const YamlNode& root) {
                [&](PointTable& table, const std::string& path) { table.place = at(path + ".points"); });
   for (NamedCamera& camera : scene.cameras) camera.eye_place = at(fmt::format("cameras.{}.eye", camera.name));
   scene.images_place = at(root.entry("image") != nullptr ? "image" : "images");
+  if (scene.film) scene.film->place = at("film");
 }
 
 }  // namespace espalier::scenes

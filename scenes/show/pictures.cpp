@@ -276,6 +276,10 @@ PicturesWanted picturesOf(const Scene& scene, const sim::Provenance& made_by) {
                         usedFields(scene),
                         made_by};
   for (const PlantSpec& plant : scene.plants) wanted.plants.push_back({plant.name, lightNeeds(*plant.rules)});
+  if (scene.film) {
+    wanted.film_frames = framesOf(*scene.film, scene.iterations).size();
+    wanted.film_pixels = static_cast<double>(scene.film->width_px) * scene.film->height_px;
+  }
   return wanted;
 }
 

@@ -35,6 +35,8 @@ struct PicturesWanted {
   std::vector<PlantLight> plants;      ///< those of the scene
   std::vector<UsedField> fields = {};  ///< likewise
   sim::Provenance made_by = {};        ///< for the files' headers
+  std::size_t film_frames = 0;         ///< of the scene's film, which is drawn by others
+  double film_pixels = 0.0;            ///< of each
 };
 
 /// What a plant's outermost rule set asks for.

@@ -7,6 +7,7 @@
 #include <array>
 #include <chrono>
 #include <csignal>
+#include <cstdlib>
 #include <cstring>
 #include <filesystem>
 #include <string>
@@ -163,6 +164,35 @@ TEST_F(Stop, IsHeardWhileKeptPlantsAreDrawn) {
   stops("render " + drawn + " --images vines", "drawing", 500);
   stops("render " + drawn + " --images sky_exposure", "writing", 100);
   EXPECT_GE(stopped_, 2);
+}
+
+/// Whether a process runs this program, by the path that it was started with.
+bool runs(const fs::path& program) {
+  for (const auto& entry : fs::directory_iterator("/proc")) {
+    if (tests::fileText(entry.path() / "cmdline").find(program.string()) != std::string::npos) return true;
+  }
+  return false;
+}
+
+/// Nor does what turns it into a video live on, not even where nobody could end it.
+TEST_F(Stop, IsHeardWhileAFilmIsDrawn) {
+  const auto fake = scratch_.write("bin/ffmpeg", "#!/bin/sh\nwhile :; do sleep 0.02; done\n");
+  fs::permissions(fake, fs::perms::owner_all);
+  const std::string path = std::getenv("PATH");
+  ::setenv("PATH", (fake.parent_path().string() + ":" + path).c_str(), 1);
+  const std::string film =
+      scratch_.write("film.yaml", std::string(tests::kPlotScene) + "film: {width: 1280, height: 960}\n")
+          .string() +
+      " -o " + out_;
+  stops("grow " + film, "filming", 0);
+  stops("grow " + film, "filming", 400, SIGTERM);
+  EXPECT_EQ(stopped_, 2);
+  EXPECT_FALSE(fs::exists(out_));
+  const Ended killed = signalled("grow " + film, "filming", 400, SIGKILL);
+  EXPECT_EQ(killed.status, 128 + SIGKILL);
+  ::setenv("PATH", path.c_str(), 1);
+  for (int i = 0; i < 100 && runs(fake); ++i) std::this_thread::sleep_for(std::chrono::milliseconds(20));
+  EXPECT_FALSE(runs(fake));
 }
 
 TEST_F(Stop, EndsTheImportOfALargeMesh) {

@@ -58,6 +58,8 @@ const std::map<std::string, rules::Limits> kUsual = {
     {"exposure.band", {1.0, 6.0}},
     {"interreflection.passes", {1.0, 4.0}},
     {"interreflection.directions", {1.0, 24.0}},
+    {"film.every", {3.0, 30.0}},
+    {"film.hold", {0.0, 1.0}},
 };
 
 using rules::Kind;

@@ -25,6 +25,8 @@ const std::set<std::string> kAlways = {"scene:iterations",
                                        "scene:image",
                                        "scene:image.width",
                                        "scene:image.height",
+                                       "scene:film.width",
+                                       "scene:film.height",
                                        "scene:meshes[].file",
                                        "scene:meshes[].scale",
                                        "scene:meshes[].translate",
@@ -190,6 +192,10 @@ void RandomFiles::knowSpecials() {
   text("plants[].scatter.count", [this] { return fmt::format("{}", numbers_.whole(1, 6)); });
   text("cameras.<name>.eye", [this] { return openPlace(numbers_.chance(0.9) ? 2.0 : 0.5); });
   text("cameras.<name>.target", [this] { return place(0.4); });
+  text("film.camera", [] { return std::string("main"); });
+  text("film.path[].camera", [this] { return std::string(numbers_.chance(0.7) ? "main" : "other"); });
+  text("film.width", [this] { return fmt::format("{}", 2 * numbers_.whole(8, 24)); });
+  text("film.height", [this] { return fmt::format("{}", 2 * numbers_.whole(8, 20)); });
   text("images[].show", [this] {
     return std::string(numbers_.pick(std::array{"[scene, stems]", "[elements]", "[guides, scene]"}));
   });

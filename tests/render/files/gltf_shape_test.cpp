@@ -157,6 +157,10 @@ ModelMesh decoded(const tinygltf::Model& model, const std::string& name) {
   read("TEXCOORD_0", mesh.uvs);
   read("_EXPOSURE", mesh.exposures);
   read("_AGE", mesh.youths);
+  std::vector<float> births;
+  read("_BIRTH", births);
+  EXPECT_EQ(births.size(), mesh.youths.size());
+  for (const float birth : births) EXPECT_EQ(16.0f * birth, std::round(16.0f * birth));
   std::vector<float> orders;
   read("_ORDER", orders);
   for (const float order : orders) {

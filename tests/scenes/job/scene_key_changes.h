@@ -74,6 +74,11 @@ inline const std::map<std::string, Change>& changes() {
   const Edit sheet{kImage,
                    "{kind: surface_colour, name: s, caption: one}\n  - {kind: sky_exposure, name: t}\n"
                    "  - {kind: contact_sheet, name: a, of: [s]}"};
+  const Edit film{"images:\n", "film: {every: 3, width: 40, height: 30}\nimages:\n"};
+  const Edit path{
+      "images:\n",
+      "film: {every: 3, width: 40, height: 30, path: [{camera: main, at: 0.1}, {camera: other, at: 0.9}]}\n"
+      "images:\n"};
   const Edit day = realSun("date: 06-21");
   const Edit bounced{"seed: 5", "seed: 5\ninterreflection: {passes: 4, tolerance: 0, directions: 12}"};
   const Edit wire{"regions: group}\n",
@@ -284,6 +289,15 @@ inline const std::map<std::string, Change>& changes() {
        {"a.png", {{kImage, "{kind: graph, name: a}"}}, {"kind: graph", "kind: graph, iteration: 2"}}},
       {"images[].of", {"a.png", {sheet}, {"of: [s]", "of: [t, s]"}}},
       {"images[].show", {"a.png", {}, {"camera: main}", "camera: main, show: [scene, stems]}"}}},
+      {"film.every", {"film_0001.png", {film}, {"every: 3", "every: 2"}}},
+      {"film.camera", {"film_0000.png", {film}, {"every: 3", "every: 3, camera: other"}}},
+      {"film.path[].camera",
+       {"film_0001.png", {path}, {"{camera: other, at: 0.9}", "{camera: main, at: 0.9}"}}},
+      {"film.path[].at", {"film_0001.png", {path}, {"at: 0.9", "at: 0.6"}}},
+      {"film.width", {"film_0000.png", {film}, {"every: 3, width: 40", "every: 3, width: 32"}}},
+      {"film.height", {"film_0000.png", {path}, {"height: 30, path", "height: 20, path"}}},
+      {"film.frames_per_second", {"film_0001.png", {film}, {"every: 3", "every: 3, frames_per_second: 24"}}},
+      {"film.hold", {"report.json", {film}, {"every: 3", "every: 3, hold: 2"}}},
   };
   return all;
 }

@@ -77,6 +77,7 @@ class Stage {
     scene.frame = sources_.site.world.frame();
     scene.occupied = &staged.world.occupied;
     scene.sky = staged.world.sky.get();
+    scene.bounced = bouncedIn(sources_.lit, scene.frame);
     scene.to_sun = shadowDirection(sources_.scene.sun);
     render::Image picture = render::finishedPicture(scene, camera, film.width_px, film.height_px);
     const render::ToneCurve tone;

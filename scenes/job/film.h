@@ -8,6 +8,7 @@
 #include "scenes/job/run.h"
 #include "scenes/prepare/site.h"
 #include "scenes/scene.h"
+#include "scenes/show/bounced_light.h"
 #include "scenes/write/output_folder.h"
 
 namespace espalier::scenes {
@@ -39,6 +40,7 @@ struct FilmSources {
   const sim::BitVolume& bare;  ///< what the scene alone occupies
   const sim::Growth& growth;
   const sim::Lighting& light;
+  const PictureLight& lit;  ///< what bounces, as all that grew stands there: in each frame
   const render::KnownPictures& textures;
   const sim::Provenance& made_by;
 };

@@ -16,17 +16,15 @@
 #include "scenes/job/film.h"
 #include "scenes/job/plant_models.h"
 #include "scenes/job/plant_reports.h"
+#include "scenes/job/prepared.h"
+#include "scenes/job/run_light.h"
 #include "scenes/job/saved_growth.h"
 #include "scenes/job/stages.h"
-#include "scenes/job/warnings.h"
 #include "scenes/lights.h"
-#include "scenes/prepare/front_warnings.h"
 #include "scenes/prepare/in_scene.h"
 #include "scenes/prepare/plantings.h"
 #include "scenes/prepare/site.h"
-#include "scenes/prepare/unknown_regions.h"
 #include "scenes/problem.h"
-#include "scenes/show/cube_pictures.h"
 #include "scenes/show/guide_volumes.h"
 #include "scenes/show/light_fields.h"
 #include "scenes/show/picture_memory.h"
@@ -36,44 +34,11 @@
 #include "sim/base/counted.h"
 #include "sim/base/parallel.h"
 #include "sim/light/lighting.h"
-#include "sim/world/band.h"
 
 namespace espalier::scenes {
 namespace {
 
 constexpr const char *kSkeletonFile = "skeleton.json", *kWorldFile = "world.vdb";
-
-/// The free voxels of the boundary layers, which lie around the scene.
-sim::VoxelSet openLayers(const sim::BitVolume& scene, const sim::World& grown) {
-  return sim::VoxelSet(sim::freeBand(grown, scene, grown.layers()));
-}
-
-/// `layers`: free space where light is wanted too, beside all of it for images of vines, whose leaves are lit
-/// by what is around them. `bare`: what the scene alone occupies, for those that show no plant. `models`:
-/// those that are written.
-sim::Lighting lightFor(const Scene& scene, const Site& site, bool vines, const sim::BitVolume& bare,
-                       std::shared_ptr<const sim::VoxelSet> layers, const ModelsWanted& models = {}) {
-  sim::LightWanted wanted;
-  if (models.diced == ImageKind::first_pass || scene.interreflection) wanted.to_sun = shadowDirection(scene.sun);
-  wanted.space = std::move(layers);
-  wanted.dense = vines;
-  if (vines && std::any_of(scene.images.begin(), scene.images.end(), showsNoPlant)) wanted.bare = &bare;
-  const double fields = wanted.bare ? 3.0 : 2.0;  // of 16 bits
-  if (vines) inScene(scene, [&] { sim::requireFits(site.world.frame(), {site.world.layers(), 2 * fields}); });
-  wanted.random_sky = site.random_sky;
-  return sim::lightOf(site.world, site.sky, site.sun, wanted);
-}
-
-/// How pictures of what has grown, and models that look like them, are lit.
-PictureLight litFor(const Scene& scene, const Site& site, const std::vector<sim::Plant>& plants,
-                    sim::Lighting& light, bool pictures, const ModelsWanted& models, Stages& stages) {
-  LitKinds kinds = pictures ? litKinds(scene.images) : LitKinds();
-  kinds.first_pass = kinds.first_pass || models.diced == ImageKind::first_pass;
-  const auto find = [&] {
-    return pictureLight(scene, site.meshes, site.world, plants, light, kinds, shadowDirection(scene.sun));
-  };
-  return scene.interreflection && kinds.any() ? stages.run("bouncing light", find) : find();
-}
 
 /// For pictures of what has grown on a site. Borrows all but the textures.
 Finished finishedOn(const Scene& scene, const Site& site, const sim::BitVolume& bare,
@@ -89,43 +54,6 @@ Finished finishedOn(const Scene& scene, const Site& site, const sim::BitVolume& 
           std::move(textures),
           growthSettings(scene, site, {}).sky_table,
           lit};
-}
-
-/// A scene's site, and what shall grow on it or has grown there.
-struct Prepared {
-  Site site;
-  std::vector<sim::Planting> plantings;
-  std::vector<NamedPoints> attractors;
-  std::vector<rules::Exposure> seed_lights;
-};
-
-Prepared prepare(const Scene& scene, const RunOptions& options, Report& report, Stages& stages) {
-  std::vector<Problem> of_attractors;
-  Prepared prepared = stages.run("tiling", [&] {
-    Site site = makeSite(scene);
-    std::vector<sim::Planting> plantings;
-    std::vector<NamedPoints> attractors;
-    Gathering wrong(scene.file);
-    wrong.part([&] { plantings = makePlantings(scene, site); });
-    wrong.part([&] { requireCamerasInTheOpen(scene, site.world); });
-    wrong.part([&] { requireLampsInTheOpen(scene, site); });
-    wrong.part([&] { requireCubesSeen(scene, site.world.frame()); });
-    wrong.part([&] { requireFilmFitsIn(scene, options, site.world); });
-    wrong.part([&] { attractors = attractorsOf(scene, site, &of_attractors); });
-    wrong.end();
-    for (NamedPoints& crown : crownsOf(scene, site, plantings, &of_attractors))
-      attractors.push_back(std::move(crown));
-    auto lights = lightOfSeeds(plantings, site.world, growthSettings(scene, site, {}).light);
-    return Prepared{std::move(site), std::move(plantings), std::move(attractors), std::move(lights)};
-  });
-  describeWorld(report, scene, prepared.site);
-  std::vector<Problem> warnings = scene.warnings;
-  for (const auto& more : {prepared.site.warnings, of_attractors,
-                           frontWarnings(scene, prepared.site.world.frame(), prepared.attractors),
-                           unknownRegions(scene, prepared.site.world), filmWarnings(scene, options)})
-    warnings.insert(warnings.end(), more.begin(), more.end());
-  warn(warnings, scene.file, options, report);
-  return prepared;
 }
 
 /// What light and files take besides: of each voxel some bits, and two numbers where there are vines to draw;
@@ -312,7 +240,7 @@ Report runScene(const Scene& scene, const RunOptions& options, const Keeping& ke
   }
   if (films(scene, options)) {
     stages.run("filming", [&] {
-      addFilm({scene, site, bare, growth, light, textures.pictures, report.made_by}, options, files, report,
+      addFilm({scene, site, bare, growth, light, lit, textures.pictures, report.made_by}, options, files, report,
               late_warnings);
     });
   }
@@ -401,7 +329,7 @@ Report renderScene(Scene scene, const std::filesystem::path& from, const RunOpti
   });
   if (scene.film) {
     stages.run("filming", [&] {
-      addFilm({scene, site, bare, growth, light, textures.pictures, report.made_by}, options, files, report,
+      addFilm({scene, site, bare, growth, light, lit, textures.pictures, report.made_by}, options, files, report,
               late_warnings);
     });
   }

@@ -127,6 +127,14 @@ sim::Colour BouncedLight::at(sim::Vec3 place_vx, sim::Vec3f normal) const {
   return sum.weight > 0.0f ? sum.light / sum.weight : sim::Colour(0.0f);
 }
 
+std::function<sim::Colour(sim::Vec3, sim::Vec3f)> bouncedIn(const PictureLight& lit,
+                                                            const sim::Frame& frame) {
+  if (!lit.vines) return {};
+  return [bounced = lit.vines, frame](sim::Vec3 p_m, sim::Vec3f normal) {
+    return bounced->at(sim::voxelFromWorld(frame, p_m), normal);
+  };
+}
+
 LitKinds litKinds(const std::vector<ImageSpec>& images) {
   LitKinds kinds;
   for (const ImageSpec& image : images) {

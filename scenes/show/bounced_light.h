@@ -1,5 +1,6 @@
 #pragma once
 #include <array>
+#include <functional>
 #include <memory>
 #include <vector>
 
@@ -66,6 +67,10 @@ struct PictureLight {
   std::shared_ptr<const EmittedLight> emitted;              ///< null: nothing shines
   std::shared_ptr<const BouncedLight> first_pass, vines;  ///< null: what bounces is left out
 };
+
+/// What falls onto places of images of vines, as render::FinishedScene has it; none where nothing bounces.
+std::function<sim::Colour(sim::Vec3 p_m, sim::Vec3f normal)> bouncedIn(const PictureLight& lit,
+                                                                       const sim::Frame& frame);
 
 /// Which kinds of pictures are drawn that bounced light falls into.
 struct LitKinds {

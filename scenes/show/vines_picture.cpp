@@ -39,11 +39,7 @@ render::Image vinesPicture(const ImageSpec& image, const Finished& finished, sim
   const bool bare = showsNoPlant(image);
   scene.occupied = bare ? &finished.bare : &finished.world.occupied();
   scene.sky = (bare ? finished.light.bare_sky : finished.light.space_sky).get();
-  if (const auto& bounced = finished.lit.vines; bounced && !bare) {
-    scene.bounced = [&bounced, &frame = finished.world.frame()](sim::Vec3 p_m, sim::Vec3f normal) {
-      return bounced->at(sim::voxelFromWorld(frame, p_m), normal);
-    };
-  }
+  if (!bare) scene.bounced = bouncedIn(finished.lit, scene.frame);
   scene.to_sun = to_sun;
   return render::finishedPicture(scene, camera, size_px.x, size_px.y);
 }

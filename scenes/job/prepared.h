@@ -1,0 +1,24 @@
+#pragma once
+#include <vector>
+
+#include "scenes/job/report.h"
+#include "scenes/job/run.h"
+#include "scenes/job/stages.h"
+#include "scenes/prepare/plantings.h"
+#include "scenes/prepare/site.h"
+
+namespace espalier::scenes {
+
+/// A scene's site, and what shall grow on it or has grown there.
+struct Prepared {
+  Site site;
+  std::vector<sim::Planting> plantings;
+  std::vector<NamedPoints> attractors;
+  std::vector<rules::Exposure> seed_lights;
+};
+
+/// Tiles a scene and makes ready what grows on it; tells the report of the world, and of what the run warns.
+/// Throws PlacedError with all that is wrong with the site.
+Prepared prepare(const Scene& scene, const RunOptions& options, Report& report, Stages& stages);
+
+}  // namespace espalier::scenes

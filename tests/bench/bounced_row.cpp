@@ -21,9 +21,11 @@ constexpr const char* kRow = "11 bounced light";
 constexpr int kDirections = 128;  // over each half of the sphere
 constexpr std::size_t kSample = 20'000;
 
-scenes::Site courtyard() {
-  const auto scene = scenes::readScene(ESPALIER_SOURCE_DIR "/scenes/library/courtyard.yaml");
+/// With voxels so many times as wide as the scene has them.
+scenes::Site courtyard(double coarser = 1.0) {
+  auto scene = scenes::readScene(ESPALIER_SOURCE_DIR "/scenes/library/courtyard.yaml");
   if (!scene) throw sim::InputError(scenes::format(scene.problems()));
+  scene->world.voxel_m = coarser * *scene->world.voxel_m;
   return scenes::makeSite(*scene);
 }
 
@@ -143,6 +145,43 @@ sim::Voxel behind(const VoxelFaces& faces, std::size_t face, const sim::BitVolum
   throw sim::InputError("a face of no voxel");
 }
 
+sim::Bounced bounced(const sim::World& world, const sim::Lighting& light, const sim::BounceSources& sources,
+                     int passes) {
+  return sim::Interreflection(world, light,
+                              {.directions = kDirections, .passes = passes, .tolerance = 0.0})
+      .of(sources);
+}
+
+/// What a doubling of the resolution costs. By Greene's argument, sixteen times: eight times the voxels, and
+/// rays of twice the length; K-fold complexity K^(4/3). Of N patches that all meet each other, N^2: also
+/// sixteen times, as there are four times as many, and K^2 in complexity.
+void benchDoubling(Report& report) {
+  std::vector<double> surfaces, voxels;
+  std::vector<std::size_t> receivers;
+  for (const double coarser : {2.0, 1.0}) {
+    const scenes::Site site = courtyard(coarser);
+    const sim::Lighting light = sim::lightOf(site.world, site.sky, site.sun);
+    const sim::BounceSources sources = sourcesOf(site.world, light);
+    sim::Stops<std::uint16_t> stops(site.world.opaque());
+    for (auto& face : stops.faces) std::fill(face.values.begin(), face.values.end(), std::uint16_t{30000});
+    const sim::DirectionSet directions = sphere();
+    const auto seconds = medianSeconds({[&] { bounced(site.world, light, sources, 2); },
+                                        [&] { sim::carriedSum(stops, directions); }});
+    surfaces.push_back(seconds[0]);
+    voxels.push_back(seconds[1]);
+    receivers.push_back(sources.sun.size());
+  }
+  const auto doubling = [&](const char* what, const std::vector<double>& seconds) {
+    const double factor = seconds[1] / seconds[0];
+    report.add({kRow, std::string("twice the resolution: ") + what, factor, "times", 0, Target{16.0, false}});
+    report.note(fmt::format("  resolution to the power {:.2f}; Greene's rays: 4, patches that all meet: 4",
+                            std::log2(factor)));
+  };
+  doubling("every surface, two passes", surfaces);
+  report.note(fmt::format("  of {} and of {} receivers", receivers[0], receivers[1]));
+  doubling("every voxel, grey", voxels);
+}
+
 void benchSurfacesLit(const sim::World& world, const sim::Lighting& light, const ClosestHits& embree,
                       Report& report) {
   const sim::BounceSources sources = sourcesOf(world, light);
@@ -155,13 +194,8 @@ void benchSurfacesLit(const sim::World& world, const sim::Lighting& light, const
   const sim::DirectionSet directions = sphere();
   sim::Bounced one, four;
   std::vector<float> theirs;
-  const auto bounced = [&](int passes) {
-    return sim::Interreflection(world, light,
-                                {.directions = kDirections, .passes = passes, .tolerance = 0.0})
-        .of(sources);
-  };
   const std::vector<double> seconds =
-      medianSeconds({[&] { one = bounced(2); }, [&] { four = bounced(4); },
+      medianSeconds({[&] { one = bounced(world, light, sources, 2); }, [&] { four = bounced(world, light, sources, 4); },
                      [&] { theirs = byEmbree(embree, from, &normals, directions, values); }});
   report.note(fmt::format("  {} surfaces and {} faces, {} directions", light.surfaces.size(),
                           light.faces.size(), directions.size()));
@@ -248,6 +282,7 @@ void benchBounced(Report& report) {
   const ClosestHits embree(site.world.opaque());
   benchSurfacesLit(site.world, light, embree, report);
   benchEveryVoxelLit(site.world, embree, report);
+  benchDoubling(report);
 }
 
 }  // namespace espalier::bench

@@ -252,6 +252,22 @@ TEST_F(MeshLooks, QuantizedPlacesAreRead) {
   EXPECT_EQ(mesh.vertices_m.at(5), sim::Vec3(0, -390, 0));
 }
 
+TEST_F(MeshLooks, LightOfItsOwnMayBeStrong) {
+  write("looks.bin", looksBuffer());
+  json document = texturedDocument();
+  document["extensionsUsed"] = {"KHR_materials_emissive_strength"};
+  json& strength = document["materials"][0]["extensions"]["KHR_materials_emissive_strength"];
+  strength["emissiveStrength"] = 12.0;
+  write("house.glb", tests::glb(document, tests::gltfBuffer()));
+  EXPECT_EQ(import("house.glb").materials.at(0).emissive, sim::Colour(0.0f, 6.0f, 12.0f));
+  strength["emissiveStrength"] = -3.0;
+  write("house.glb", tests::glb(document, tests::gltfBuffer()));
+  EXPECT_EQ(import("house.glb").materials.at(0).emissive, sim::Colour(0.0f));
+  strength["emissiveStrength"] = "much";
+  write("house.glb", tests::glb(document, tests::gltfBuffer()));
+  EXPECT_THROW(import("house.glb"), sim::InputError);
+}
+
 TEST_F(MeshLooks, NumbersOfMaterialsAreLookedAt) {
   write("looks.bin", looksBuffer());
   const auto changed = [&](const std::function<void(json & material)>& change) {

@@ -91,6 +91,16 @@ TEST_F(ObjMaterials, SeveralFilesInOneLineAndNamesWithSpaces) {
   }
 }
 
+TEST_F(ObjMaterials, WhatSendsOutLight) {
+  write("paint.mtl", "newmtl red\nKd 1 0 0\nKe 1 0.5 0\nnewmtl grey\nKe bright\n");
+  const Read found = read(withLibrary("paint.mtl"));
+  EXPECT_EQ(found.mesh.materials[0].colour, sim::Colour(1, 0, 0));
+  EXPECT_EQ(found.mesh.materials[0].emissive.r, 1.0f);
+  EXPECT_NEAR(found.mesh.materials[0].emissive.g, 0.2140f, 1e-3f);
+  EXPECT_EQ(found.mesh.materials[1].emissive, sim::Colour(0.0f));
+  EXPECT_NE(warnings(found).find("line 5 of the MTL file"), std::string::npos) << warnings(found);
+}
+
 TEST_F(ObjMaterials, NamesThatNoFileHasAreGreyWithAWarning) {
   write("paint.mtl", "newmtl red\nKd 1 0 0\n");
   Read found = read(kSquareObj);

@@ -105,7 +105,7 @@ TEST_F(Plot, KeysOfDiffusionThatHaveNoEffectAreWarnings) {
   const auto ran = grow("--no-pictures", "told");
   EXPECT_EQ(ran.status, 0) << ran.output;
   for (const char* said : {":5:30: warning: regions.wall.diffusion.fill has no effect: a plant has one",
-                           ":6:24: warning: otherwise.diffusion.rounds has no effect: a plant has one"})
+                           ":6:25: warning: otherwise.diffusion.rounds has no effect: a plant has one"})
     EXPECT_NE(ran.output.find(said), std::string::npos) << ran.output;
   EXPECT_EQ(report("told")["warnings"].size(), 2u) << report("told")["warnings"];
 }

@@ -32,7 +32,8 @@ sim::Colour EmittedLight::at(sim::Voxel voxel) const {
   const sim::PartId part = world_.partAt(voxel);
   const auto of_part = std::lower_bound(parts_.begin(), parts_.end(), part,
                                         [](const auto& a, sim::PartId id) { return a.first < id; });
-  return of_part != parts_.end() && of_part->first == part ? sum + of_part->second : sum;
+  if (of_part == parts_.end() || of_part->first != part) return sum;
+  return sum + std::min(1.0f, world_.surfaceAt(voxel)->coverage) * of_part->second;
 }
 
 }  // namespace espalier::scenes

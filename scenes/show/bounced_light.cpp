@@ -47,8 +47,9 @@ sim::BounceSettings bounceSettings(const Scene& scene) {
   settings.tolerance = spec.tolerance;
   settings.lambert = spec.weighting == BounceWeighting::lambert;
   settings.overcast = scene.sky.weighting == sim::Weighting::cie_overcast;
-  // What later passes need again may take a quarter of what is free.
-  settings.most_bytes = std::min(settings.most_bytes, static_cast<std::size_t>(0.25 * sim::memoryBudget()));
+  // What later passes need again may take half of what is free.
+  const double free = std::max(0.0, sim::memoryBudget() - sim::memoryInUse());
+  settings.most_bytes = std::min(settings.most_bytes, static_cast<std::size_t>(0.5 * free));
   return settings;
 }
 

@@ -133,9 +133,14 @@ Met meet(const Stops<std::uint32_t>& stops, const SurfaceSensors& sensors, const
          const DirectionSet& directions, std::size_t first, std::size_t count) {
   const auto receivers = static_cast<std::uint32_t>(viewpoints.size());
   const auto slices = static_cast<std::size_t>(stops.where.size().y);
-  std::vector<std::vector<std::uint32_t>> from(slices);  // receivers by the slice from which they look
+  struct Look {
+    std::uint32_t receiver;
+    std::int32_t x, z;
+  };
+  std::vector<std::vector<Look>> from(slices);  // by the slice from which receivers look
   for (std::uint32_t i = 0; i < receivers; ++i) {
-    if (viewpoints[i].y >= 0) from[static_cast<std::size_t>(viewpoints[i].y)].push_back(i);
+    const Voxel v = viewpoints[i];
+    if (v.y >= 0) from[static_cast<std::size_t>(v.y)].push_back({i, v.x, v.z});
   }
   const auto lookAlong = [&](const LatticeDirection& direction, std::vector<std::uint32_t>& numbers) {
     const Vec3f unit(glm::normalize(Vec3(direction.v)));
@@ -143,14 +148,13 @@ Met meet(const Stops<std::uint32_t>& stops, const SurfaceSensors& sensors, const
     for (std::size_t i = 0; i < slices; ++i) {
       const std::size_t y = sweep.downwards() ? slices - 1 - i : i;
       sweep.run(static_cast<int>(y));
-      for (const std::uint32_t receiver : from[y]) {
-        const Voxel place = viewpoints[receiver];
-        const std::uint32_t* const row = sweep.row(place.z);
+      for (const Look& look : from[y]) {
+        const std::uint32_t* const row = sweep.row(look.z);
         if (!row) continue;
-        const std::uint32_t seen = row[place.x], number = seen & ~kSlants;
+        const std::uint32_t seen = row[look.x], number = seen & ~kSlants;
         const bool back =
             (seen & kSlants) != 0 && glm::dot(sensors.surfaces[number].surface.normal, unit) >= 0.0f;
-        if (!back) numbers[receiver] = number;
+        if (!back) numbers[look.receiver] = number;
       }
     }
   };

@@ -37,6 +37,13 @@ Stops<Value>::Stops(BitVolume of) : where(std::move(of)) {
     face.x.reserve(face.where.count());
     for (const Voxel v : face.where.voxels()) face.x.push_back(v.x);
     face.values.resize(face.where.count());
+    for (int y = 0; y < where.size().y; ++y) {
+      face.first_row.push_back(face.rows.size());
+      for (int z = 0; z < where.size().z; ++z) {
+        if (face.where.firstOfRow(y, z) < face.where.firstOfRow(y, z + 1)) face.rows.push_back(z);
+      }
+    }
+    face.first_row.push_back(face.rows.size());
   }
 }
 
@@ -68,48 +75,71 @@ CarriedSweep<Value>::CarriedSweep(const Stops<Value>& stops, const LatticeDirect
 template <typename Value>
 void CarriedSweep<Value>::run(int y) {
   last_ = y;
-  for (int i = 0; i < size_.z; ++i) runRow(y, v_.z > 0 ? size_.z - 1 - i : i);
-}
-
-template <typename Value>
-void CarriedSweep<Value>::runRow(int y, int z) {
-  Value* const to = seen_.data() + rowIndex(y, z) * static_cast<std::size_t>(size_.x);
-  std::uint8_t& filled = filled_[rowIndex(y, z)];
-  bool any = takeEnd(y, z, to);
-  if (!any && filled != 0) std::fill_n(to, size_.x, open_);
+  if (v_.y == 0) {
+    runLevel(y);
+    return;
+  }
+  for (int z = 0; z < size_.z; ++z) takeEnd(y, z);
   // The nearest last: it hides the others. One with another stop before its face is hidden by that.
   for (std::size_t i = crossed_.size(); i-- > 0;) {
-    const Voxel o = crossed_[i];
-    const int oy = y + o.y, oz = z + o.z;
-    if (oy < 0 || oy >= size_.y || oz < 0 || oz >= size_.z) continue;
+    const int oy = y + crossed_[i].y;
+    if (oy < 0 || oy >= size_.y) continue;
     const typename Stops<Value>::OfFace& face = stops_.faces[faces_[i]];
-    const std::size_t end = face.where.firstOfRow(oy, oz + 1);
-    for (std::size_t k = face.where.firstOfRow(oy, oz); k < end; ++k) {
-      const int x = face.x[k] - o.x;
-      if (x < 0 || x >= size_.x) continue;
-      to[x] = face.values[k];
-      any = true;
+    const auto slice = static_cast<std::size_t>(oy);
+    for (std::size_t row = face.first_row[slice]; row < face.first_row[slice + 1]; ++row)
+      takeStops(i, y, face.rows[row] - crossed_[i].z);
+  }
+}
+
+/// A slice of a direction that stays in it, row by row: they depend on each other.
+template <typename Value>
+void CarriedSweep<Value>::runLevel(int y) {
+  for (int row = 0; row < size_.z; ++row) {
+    const int z = v_.z > 0 ? size_.z - 1 - row : row;
+    takeEnd(y, z);
+    for (std::size_t i = crossed_.size(); i-- > 0;) {
+      const int oz = z + crossed_[i].z;
+      if (oz >= 0 && oz < size_.z) takeStops(i, y, z);
     }
+    if (v_.z != 0) continue;
+    alongRow(y, z, at(y, z));
+    filled_[rowIndex(y, z)] = 1;
   }
-  if (v_.y == 0 && v_.z == 0) {
-    alongRow(y, z, to);
-    any = true;
-  }
-  filled = any;
 }
 
 /// What the period's end sees, if that lies in the world: a ray that has left does not come back.
 template <typename Value>
-bool CarriedSweep<Value>::takeEnd(int y, int z, Value* to) const {
+void CarriedSweep<Value>::takeEnd(int y, int z) {
+  Value* const to = at(y, z);
+  std::uint8_t& filled = filled_[rowIndex(y, z)];
   const int ey = y + v_.y, ez = z + v_.z;
   const int low = std::max(0, -v_.x), high = std::min(size_.x, size_.x - v_.x);
   const bool own_row = v_.y == 0 && v_.z == 0;
-  if (own_row || ey < 0 || ey >= size_.y || ez < 0 || ez >= size_.z || low >= high) return false;
-  if (filled_[rowIndex(ey, ez)] == 0) return false;
+  if (own_row || ey < 0 || ey >= size_.y || ez < 0 || ez >= size_.z || low >= high ||
+      filled_[rowIndex(ey, ez)] == 0) {
+    if (filled != 0) std::fill_n(to, size_.x, open_);
+    filled = 0;
+    return;
+  }
   std::fill(to, to + low, open_);
   std::memcpy(to + low, at(ey, ez) + (low + v_.x), static_cast<std::size_t>(high - low) * sizeof(Value));
   std::fill(to + high, to + size_.x, open_);
-  return true;
+  filled = 1;
+}
+
+/// What one of the voxels crossed holds for a row from which it is crossed.
+template <typename Value>
+void CarriedSweep<Value>::takeStops(std::size_t crossed, int y, int z) {
+  if (z < 0 || z >= size_.z) return;
+  const Voxel o = crossed_[crossed];
+  const typename Stops<Value>::OfFace& face = stops_.faces[faces_[crossed]];
+  const std::size_t end = face.where.firstOfRow(y + o.y, z + o.z + 1);
+  Value* const to = at(y, z);
+  for (std::size_t k = face.where.firstOfRow(y + o.y, z + o.z); k < end; ++k) {
+    const int x = face.x[k] - o.x;
+    if (x >= 0 && x < size_.x) to[x] = face.values[k];
+  }
+  filled_[rowIndex(y, z)] = 1;
 }
 
 /// Along x a row depends on itself: where the next voxel is no stop, what that one sees is seen.

@@ -24,6 +24,9 @@ struct Stops {
     VoxelSet where{BitVolume()};  ///< the stops that have such a face
     std::vector<std::int32_t> x;  ///< of each of them
     std::vector<Value> values;
+    /// The z of the rows that have any, slice by slice; of slice y from first_row[y] on.
+    std::vector<std::int32_t> rows;
+    std::vector<std::size_t> first_row;
   };
   /// Values of 0.
   explicit Stops(BitVolume of);
@@ -57,8 +60,10 @@ class CarriedSweep {
   const Value* at(int y, int z) const {
     return seen_.data() + rowIndex(y, z) * static_cast<std::size_t>(size_.x);
   }
-  void runRow(int y, int z);
-  bool takeEnd(int y, int z, Value* to) const;
+  Value* at(int y, int z) { return seen_.data() + rowIndex(y, z) * static_cast<std::size_t>(size_.x); }
+  void runLevel(int y);
+  void takeEnd(int y, int z);
+  void takeStops(std::size_t crossed, int y, int z);
   void alongRow(int y, int z, Value* to) const;
 
   const Stops<Value>& stops_;

@@ -83,35 +83,95 @@ class Neighbours {
   int up_ = 1;
 };
 
+constexpr std::size_t kGrain = 8192;  // surfaces that are looked at one after the other
+
+/// Calls visit(surface, one, other, weight) for the pairs of the surfaces begin .. end - 1.
+template <typename Visit>
+void forEachPair(std::span<const TiledVoxel> surfaces, const VoxelSet& where, const std::vector<Way>& ways,
+                 std::size_t begin, std::size_t end, Visit visit) {
+  Neighbours neighbours(surfaces, where);
+  std::vector<bool> paired(ways.size());
+  for (std::size_t i = begin; i < end; ++i) {
+    neighbours.standOn(surfaces[i]);
+    for (std::size_t k = 0; k < ways.size(); ++k) {
+      const Way& way = ways[k];
+      paired[k] = false;
+      if (way.before != kNone && !paired[way.before]) continue;
+      const auto one = neighbours.at(way.a, way.b);
+      if (!one) continue;
+      const auto other = neighbours.at(-way.a, -way.b);
+      if (!other) continue;
+      paired[k] = true;
+      visit(i, *one, *other, way.weight);
+    }
+  }
+}
+
+/// What the pairs of one surface say of its value.
+struct Bent {
+  float sum = 0.0f, weights = 1.0f;
+
+  void add(std::span<const float> values, std::size_t i, std::size_t one, std::size_t other, float weight,
+           float bound) {
+    const float bend = (values[one] - values[i]) + (values[other] - values[i]);
+    if (std::abs(bend) > bound) return;
+    sum += weight * bend;
+    weights += 2.0f * weight;
+  }
+};
+
+float boundOf(double standard_error) {
+  return kBend * static_cast<float>(standard_error);
+}
+
 }  // namespace
 
 std::vector<float> evened(std::span<const float> values, std::span<const TiledVoxel> surfaces,
                           const VoxelSet& where, double standard_error) {
-  const float bound = kBend * static_cast<float>(standard_error);
+  const float bound = boundOf(standard_error);
   const std::vector<Way> ways = waysAbout();
   std::vector<float> result(surfaces.size());
-  constexpr std::size_t kGrain = 8192;
   parallelFor(surfaces.size(), kGrain, [&](std::size_t begin, std::size_t end) {
-    Neighbours neighbours(surfaces, where);
-    std::vector<bool> paired(ways.size());
+    std::vector<Bent> bent(end - begin);
+    forEachPair(surfaces, where, ways, begin, end,
+                [&](std::size_t i, std::size_t one, std::size_t other, float weight) {
+                  bent[i - begin].add(values, i, one, other, weight, bound);
+                });
+    for (std::size_t i = begin; i < end; ++i)
+      result[i] = values[i] + bent[i - begin].sum / bent[i - begin].weights;
+  });
+  return result;
+}
+
+SurfacePairs::SurfacePairs(std::span<const TiledVoxel> surfaces, const VoxelSet& where) {
+  const std::vector<Way> ways = waysAbout();
+  std::vector<std::vector<Pair>> found((surfaces.size() + kGrain - 1) / kGrain);
+  std::vector<std::uint8_t> counts(surfaces.size());
+  parallelForEach(found.size(), [&](std::size_t piece) {
+    const std::size_t end = std::min((piece + 1) * kGrain, surfaces.size());
+    forEachPair(surfaces, where, ways, piece * kGrain, end,
+                [&](std::size_t i, std::size_t one, std::size_t other, float weight) {
+                  found[piece].push_back(
+                      {static_cast<std::uint32_t>(one), static_cast<std::uint32_t>(other), weight});
+                  ++counts[i];
+                });
+  });
+  first_.reserve(surfaces.size() + 1);
+  first_.push_back(0);
+  for (const std::uint8_t count : counts) first_.push_back(first_.back() + count);
+  pairs_.reserve(first_.back());
+  for (const std::vector<Pair>& piece : found) pairs_.insert(pairs_.end(), piece.begin(), piece.end());
+}
+
+std::vector<float> SurfacePairs::evened(std::span<const float> values, double standard_error) const {
+  const float bound = boundOf(standard_error);
+  std::vector<float> result(values.size());
+  parallelFor(result.size(), [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
-      neighbours.standOn(surfaces[i]);
-      float sum = 0.0f, weights = 1.0f;
-      for (std::size_t k = 0; k < ways.size(); ++k) {
-        const Way& way = ways[k];
-        paired[k] = false;
-        if (way.before != kNone && !paired[way.before]) continue;
-        const auto one = neighbours.at(way.a, way.b);
-        if (!one) continue;
-        const auto other = neighbours.at(-way.a, -way.b);
-        if (!other) continue;
-        paired[k] = true;
-        const float bend = (values[*one] - values[i]) + (values[*other] - values[i]);
-        if (std::abs(bend) > bound) continue;
-        sum += way.weight * bend;
-        weights += 2.0f * way.weight;
-      }
-      result[i] = values[i] + sum / weights;
+      Bent bent;
+      for (std::size_t k = first_[i]; k < first_[i + 1]; ++k)
+        bent.add(values, i, pairs_[k].one, pairs_[k].other, pairs_[k].weight, bound);
+      result[i] = values[i] + bent.sum / bent.weights;
     }
   });
   return result;

@@ -1,4 +1,6 @@
 #pragma once
+#include <cstddef>
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -18,5 +20,22 @@ namespace espalier::sim {
 /// does not depend on the number of threads.
 std::vector<float> evened(std::span<const float> values, std::span<const TiledVoxel> surfaces,
                           const VoxelSet& where, double standard_error);
+
+/// The pairs of neighbours of some surfaces, for those who even several values of them.
+class SurfacePairs {
+ public:
+  SurfacePairs(std::span<const TiledVoxel> surfaces, const VoxelSet& where);
+
+  /// As above.
+  std::vector<float> evened(std::span<const float> values, double standard_error) const;
+
+ private:
+  struct Pair {
+    std::uint32_t one, other;
+    float weight;
+  };
+  std::vector<Pair> pairs_;
+  std::vector<std::size_t> first_;  // of each surface; and their number
+};
 
 }  // namespace espalier::sim

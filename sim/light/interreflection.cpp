@@ -43,27 +43,14 @@ constexpr int kEvenings = 4;
 using Whole = std::array<std::uint32_t, 4>;
 using Sums = std::array<std::uint64_t, 4>;
 
-/// Evens values of receivers over neighbouring surfaces.
-void even(const Lighting& light, double standard_error, std::vector<float>& values) {
-  const auto surfaces = std::span(values).first(light.surfaces.size());
-  std::ranges::copy(evened(surfaces, light.surfaces, *light.where, standard_error), values.begin());
-}
-
-/// What surfaces receive of a sky, as Lighting has it.
-std::vector<float> seenOf(const Lighting& light, const SurfaceSensors& sensors, const OpenTable& open,
-                          const Sky& sky) {
-  std::vector<float> seen = surfaceSky(sensors, open, sky);
-  even(light, sky.standard_error, seen);
-  return seen;
-}
-
 }  // namespace
 
 class Interreflection::Seen {
  public:
   Seen(const World& world, const Lighting& light, const BounceSettings& settings)
       : settings_(settings),
-        light_(light),
+        surfaces_(light.surfaces.size()),
+        pairs_(light.surfaces, *light.where),
         sensors_(sensorsOf(world, light)),
         viewpoints_(viewpoints(sensors_)),
         stops_(receiversMet(world, light)) {
@@ -71,9 +58,9 @@ class Interreflection::Seen {
     const Sky down = mirrored(up);
     standard_error_ = up.standard_error;
     const OpenTable open = sweepOpen(world.opaque(), up.directions, sensors_.places);
-    sky_ = seenOf(light, sensors_, open, up);
+    sky_ = seen(open, up);
     const OpenTable open_below = sweepOpen(world.opaque(), down.directions, sensors_.places);
-    below_ = seenOf(light, sensors_, open_below, down);
+    below_ = seen(open_below, down);
     covered_.resize(sky_.size());
     for (std::size_t i = 0; i < sky_.size(); ++i)
       covered_[i] = sensors_.of(i).empty() ? 0.0f : std::clamp(1.0f - sky_[i] - below_[i], 0.0f, 1.0f);
@@ -81,7 +68,7 @@ class Interreflection::Seen {
     directions_.insert(directions_.end(), down.directions.begin(), down.directions.end());
     if (!settings.overcast) return;
     up.weighting = Weighting::cie_overcast;
-    sky_ = seenOf(light, sensors_, open, up);
+    sky_ = seen(open, up);
   }
 
   const std::vector<float>& sky() const { return sky_; }
@@ -95,11 +82,22 @@ class Interreflection::Seen {
   void evenOut(std::vector<Colour>& brought) const;
 
  private:
+  /// Evens values of receivers over neighbouring surfaces.
+  void even(double standard_error, std::vector<float>& values) const {
+    std::ranges::copy(pairs_.evened(std::span(values).first(surfaces_), standard_error), values.begin());
+  }
+  /// What receivers see of a sky, as Lighting has it.
+  std::vector<float> seen(const OpenTable& open, const Sky& sky) const {
+    std::vector<float> seen = surfaceSky(sensors_, open, sky);
+    even(sky.standard_error, seen);
+    return seen;
+  }
   void add(const Met& met, std::size_t first, std::size_t count, const std::vector<Whole>& whole,
            std::vector<Sums>& sums) const;
 
   const BounceSettings settings_;
-  const Lighting& light_;
+  std::size_t surfaces_;  // among the receivers: the first
+  SurfacePairs pairs_;
   double standard_error_ = 0.0;  // of a share of the half-space
   SurfaceSensors sensors_;
   std::vector<Voxel> viewpoints_;
@@ -188,7 +186,7 @@ void Interreflection::Seen::evenOut(std::vector<Colour>& brought) const {
   std::vector<float> shares(brought.size());
   for (int c = 0; c < 3; ++c) {
     for (std::size_t i = 0; i < shares.size(); ++i) shares[i] = brought[i][c] / most;
-    for (int round = 0; round < kEvenings; ++round) even(light_, standard_error_, shares);
+    for (int round = 0; round < kEvenings; ++round) even(standard_error_, shares);
     for (std::size_t i = 0; i < shares.size(); ++i) brought[i][c] = std::max(0.0f, shares[i]) * most;
   }
 }

@@ -110,6 +110,8 @@ TEST(Evened, IsTheSameOnAnyNumberOfThreads) {
   }
   EXPECT_EQ(answers[0], answers[1]);
   EXPECT_EQ(answers[0], answers[2]);
+  // And by pairs that are kept.
+  EXPECT_EQ(SurfacePairs(floor.surfaces, floor.where).evened(values, 0.1), answers[0]);
 }
 
 }  // namespace

@@ -29,6 +29,8 @@
 #include "scenes/show/light_fields.h"
 #include "scenes/show/picture_memory.h"
 #include "scenes/show/pictures.h"
+#include "scenes/show/volume_picture.h"
+#include "scenes/show/world_occupancy.h"
 #include "scenes/show/vines_picture.h"
 #include "scenes/write/output_folder.h"
 #include "sim/base/counted.h"
@@ -49,10 +51,11 @@ sim::VoxelSet openLayers(const sim::BitVolume& scene, const sim::World& grown) {
 /// `layers`: free space where light is wanted too, beside all of it for images of vines, whose leaves are lit
 /// by what is around them. `bare`: what the scene alone occupies, for those that show no plant. `models`:
 /// those that are written.
-sim::Lighting lightFor(const Scene& scene, const Site& site, bool vines, const sim::BitVolume& bare,
+sim::Lighting lightFor(const Scene& scene, const Site& site, bool vines, bool volumes, const sim::BitVolume& bare,
                        std::shared_ptr<const sim::VoxelSet> layers, const ModelsWanted& models = {}) {
   sim::LightWanted wanted;
-  if (models.diced == ImageKind::first_pass || scene.interreflection) wanted.to_sun = shadowDirection(scene.sun);
+  if (models.diced == ImageKind::first_pass || scene.interreflection || volumes)
+    wanted.to_sun = shadowDirection(scene.sun);
   wanted.space = std::move(layers);
   wanted.dense = vines;
   if (vines && std::any_of(scene.images.begin(), scene.images.end(), showsNoPlant)) wanted.bare = &bare;
@@ -76,8 +79,8 @@ PictureLight litFor(const Scene& scene, const Site& site, const std::vector<sim:
 /// For pictures of what has grown on a site. Borrows all but the textures.
 Finished finishedOn(const Scene& scene, const Site& site, const sim::BitVolume& bare,
                     const sim::Growth& growth, const sim::Lighting& light,
-                    const PictureLight& lit, const std::vector<render::PlantModel>& models,
-                    render::KnownPictures textures) {
+                    const PictureLight& lit, const WorldOccupancy& occupancy,
+                    const std::vector<render::PlantModel>& models, render::KnownPictures textures) {
   return {site.meshes,
           site.world,
           bare,
@@ -86,7 +89,8 @@ Finished finishedOn(const Scene& scene, const Site& site, const sim::BitVolume& 
           models,
           std::move(textures),
           growthSettings(scene, site, {}).sky_table,
-          lit};
+          lit,
+          &occupancy};
 }
 
 /// A scene's site, and what shall grow on it or has grown there.
@@ -259,9 +263,11 @@ Report runScene(const Scene& scene, const RunOptions& options, const Keeping& ke
   std::shared_ptr<const sim::VoxelSet> layers;
   sim::Lighting light = stages.run("lighting", [&] {
     layers = std::make_shared<const sim::VoxelSet>(openLayers(bare, world));
-    return lightFor(scene, site, options.pictures && drawsVines(scene.images), bare, layers, options.models);
+    return lightFor(scene, site, options.pictures && drawsVines(scene.images),
+                    options.pictures && drawsVolumes(scene.images), bare, layers, options.models);
   });
   const PictureLight lit = litFor(scene, site, growth.plants, light, options.pictures, options.models, stages);
+  const WorldOccupancy occupancy(scene, site.meshes, world, bare, growth.plants);
   report.light = light.about;
   std::vector<render::PlantModel> models;  // for pictures; else they are made while they are written
   if (options.pictures)
@@ -281,6 +287,7 @@ Report runScene(const Scene& scene, const RunOptions& options, const Keeping& ke
                    }});
   files.push_back({kWorldFile, [&](std::ostream& out) {
                      std::vector<render::VdbField> fields = worldFields(light, *layers);
+                     fields.insert(fields.begin(), occupancy.alpha());
                      fields.insert(fields.end(), guides.fields.begin(), guides.fields.end());
                      render::writeVdb(out, world, fields, report.made_by);
                    }});
@@ -296,7 +303,7 @@ Report runScene(const Scene& scene, const RunOptions& options, const Keeping& ke
       ReadTextures textures = texturesFor(drawsVines(scene.images), scene, site.meshes, options, report);
       for (const Problem& unread : textures.unread) late_warnings.push_back(unread.text);
       const Finished finished =
-          finishedOn(scene, site, bare, growth, light, lit, models, std::move(textures.pictures));
+          finishedOn(scene, site, bare, growth, light, lit, occupancy, models, std::move(textures.pictures));
       auto pictures =
           inScene(scene, [&] { return drawPictures(picturesOf(scene, report.made_by), finished); });
       for (OutputFile& file : pictures) files.push_back(std::move(file));
@@ -365,9 +372,10 @@ Report renderScene(Scene scene, const std::filesystem::path& from, const RunOpti
                                              picturesOf(scene), stages.began());
       options.on_foretold(*report.run.foretold);
     }
-    return lightFor(scene, site, drawsVines(scene.images), bare, nullptr);
+    return lightFor(scene, site, drawsVines(scene.images), drawsVolumes(scene.images), bare, nullptr);
   });
   const PictureLight lit = litFor(scene, site, growth.plants, light, true, {}, stages);
+  const WorldOccupancy occupancy(scene, site.meshes, site.world, bare, growth.plants);
   report.light = light.about;
   const auto models =
       stages.run("modelling", [&] { return modelPlants(site.world.frame(), growth.plants, bare); });
@@ -376,7 +384,7 @@ Report renderScene(Scene scene, const std::filesystem::path& from, const RunOpti
     ReadTextures textures = texturesFor(drawsVines(scene.images), scene, site.meshes, options, report);
     for (const Problem& one : textures.unread) unread.push_back(one.text);
     const Finished finished =
-        finishedOn(scene, site, bare, growth, light, lit, models, std::move(textures.pictures));
+        finishedOn(scene, site, bare, growth, light, lit, occupancy, models, std::move(textures.pictures));
     return inScene(scene, [&] { return drawPictures(picturesOf(scene, report.made_by), finished); });
   });
   stages.run("writing", [&] { output.write(files); });

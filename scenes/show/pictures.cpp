@@ -21,6 +21,7 @@
 #include "scenes/show/picture_memory.h"
 #include "scenes/show/sky_table_pictures.h"
 #include "scenes/show/vines_picture.h"
+#include "scenes/show/volume_picture.h"
 #include "sim/base/error.h"
 #include "sim/base/parallel.h"
 #include "sim/base/stop.h"
@@ -286,7 +287,7 @@ std::vector<std::string> fileNames(const std::vector<ImageSpec>& images) {
   std::vector<std::string> names;
   for (const ImageSpec& image : images) {
     names.push_back(image.name + ".png");
-    if (isPanel(image.kind)) names.push_back(image.name + ".exr");
+    if (isPanel(image.kind) || image.kind == ImageKind::volume) names.push_back(image.name + ".exr");
   }
   return names;
 }
@@ -352,6 +353,17 @@ std::vector<OutputFile> drawPictures(const PicturesWanted& wanted, const Finishe
   // The two that take time, side by side: each has stretches that keep one core alone busy. Panels are packed
   // as soon as they are painted, while there may still be vines to draw.
   sim::parallelInvoke(drawPanels, drawVines);
+  VolumePictures volumes(finished, wanted.to_sun);
+  forEach([](ImageKind kind) { return kind == ImageKind::volume; },
+          [&](std::size_t i) {
+            const ImageSpec& image = wanted.images[i];
+            const render::PanelPicture picture =
+                volumes.draw(cameraOf(wanted, image), wanted.width_px, wanted.height_px);
+            keepThumbnail(i, picture.display);
+            files[i] = {fileOf(image.name + ".png", render::encodePng(picture.display, metadata(image))),
+                        fileOf(image.name + ".exr", render::encodeExr(picture.measured, picture.channel_names,
+                                                                      metadata(image)))};
+          });
   const auto drawEach = [&](ImageKind kind, const auto& drawn) {
     forEach([=](ImageKind other) { return other == kind; },
             [&](std::size_t i) { keep(i, drawn(wanted.images[i])); });

@@ -76,17 +76,24 @@ VoxelColours::Light VoxelColours::lightOf(sim::Voxel v) const {
 }
 
 sim::Colour VoxelColours::at(sim::Voxel voxel, sim::PartKind kind) const {
+  if (kind_ == ImageKind::surface_colour) {
+    const auto occupied = sim::nearestSet(kinds_[static_cast<std::size_t>(kind)].occupied, voxel);
+    return occupied ? world_.surfaceAt(*occupied)->colour : sim::Colour(0.0f);
+  }
+  const sim::Colour lit = lightAt(voxel, kind);
+  const render::ToneCurve tone;
+  return {tone(lit.r), tone(lit.g), tone(lit.b)};
+}
+
+sim::Colour VoxelColours::lightAt(sim::Voxel voxel, sim::PartKind kind) const {
   const Kind& own = kinds_[static_cast<std::size_t>(kind)];
   const auto occupied = sim::nearestSet(own.occupied, voxel);
   if (!occupied) return sim::Colour(0.0f);
   const sim::Colour colour = world_.surfaceAt(*occupied)->colour;
-  if (kind_ == ImageKind::surface_colour) return colour;
   const auto lit_at = sim::nearestSet(own.lit, *occupied);
   const Light light = lit_at ? lightOf(*lit_at) : Light();
   const sim::Colour emitted = lit_.emitted ? lit_.emitted->at(*occupied) : sim::Colour(0.0f);
-  const sim::Colour lit = emitted + colour * (light.ambient + light.sun * render::firstPassLight().sun);
-  const render::ToneCurve tone;
-  return {tone(lit.r), tone(lit.g), tone(lit.b)};
+  return emitted + colour * (light.ambient + light.sun * render::firstPassLight().sun);
 }
 
 }  // namespace espalier::scenes

@@ -25,6 +25,8 @@ class VoxelColours {
   /// occupies it; else that of the nearest voxel where one does. A leaf in a stem's voxel is no less green.
   /// Where no such part has any voxel, everything's.
   sim::Colour at(sim::Voxel voxel, sim::PartKind kind) const;
+  /// The light that it sends on, before it is brought into 0..1; of first_pass.
+  sim::Colour lightAt(sim::Voxel voxel, sim::PartKind kind) const;
 
  private:
   struct Light {

@@ -1,0 +1,199 @@
+#include "render/voxels/volume.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "sim/base/error.h"
+#include "sim/base/memory.h"
+#include "sim/base/parallel.h"
+#include "sim/base/stop.h"
+
+namespace espalier::render {
+namespace {
+
+using sim::Voxel;
+
+/// Steps in a voxel width. Of what reaches a step through voxels with share a, sqrt(1 - a) goes on: through a
+/// whole voxel (1 - a)^2. The square, because a sheet of one layer of voxels is thinned to both sides where
+/// values run evenly, and still has to hide what is behind it: with it 98 % of that.
+constexpr double kStepsInVoxel = 4.0;
+/// Below this nothing that comes behind can be told in a picture.
+constexpr float kLeastLeft = 1.0f / 1024.0f;
+constexpr double kNear_vx = 1.0;
+/// How far from a free voxel a ray may get through full ones: half a voxel is opaque, and a voxel's value is
+/// felt a width to all sides.
+constexpr int kDeepest = 2;
+constexpr std::int32_t kToMake = -3;
+
+/// Whether all voxels as near as kDeepest are full too.
+bool isDeep(const sim::BitVolume& full, Voxel v) {
+  const Voxel low = v - kDeepest, high = v + kDeepest;
+  if (!sim::contains(full.size(), low) || !sim::contains(full.size(), high)) return false;
+  constexpr std::uint64_t kWidth = (std::uint64_t{1} << (2 * kDeepest + 1)) - 1;
+  for (int y = low.y; y <= high.y; ++y) {
+    for (int z = low.z; z <= high.z; ++z) {
+      if ((full.from({low.x, y, z}) & kWidth) != kWidth) return false;
+    }
+  }
+  return true;
+}
+
+/// Where a ray enters and leaves a box from 0 to `size`; the first is greater where it misses it.
+std::pair<double, double> within(sim::Vec3 from, sim::Vec3 way, sim::Vec3 size) {
+  double enters = 0.0, leaves = std::numeric_limits<double>::infinity();
+  for (int axis = 0; axis < 3; ++axis) {
+    if (way[axis] == 0.0) {
+      if (from[axis] < 0.0 || from[axis] >= size[axis]) return {1.0, 0.0};
+      continue;
+    }
+    const double a = -from[axis] / way[axis], b = (size[axis] - from[axis]) / way[axis];
+    enters = std::max(enters, std::min(a, b));
+    leaves = std::min(leaves, std::max(a, b));
+  }
+  return {enters, leaves};
+}
+
+}  // namespace
+
+// Values are kept by cells, whose corners are the centres of voxels: cell 0 reaches from voxel -1 to voxel 0.
+Volume::Volume(const sim::Frame& frame, const sim::BitVolume& occupied, const sim::BitVolume& full,
+               const std::function<VolumeVoxel(Voxel)>& look)
+    : frame_(frame), count_((frame.size + 1 + (kSide - 1)) / kSide) {
+  const Voxel count = count_;
+  number_.resize(static_cast<std::size_t>(count.x) * static_cast<std::size_t>(count.y) *
+                 static_cast<std::size_t>(count.z));
+  const auto lowOf = [&](std::size_t i) {
+    const auto along = [](std::size_t n) { return static_cast<int>(n) * kSide - 1; };
+    const auto x = static_cast<std::size_t>(count.x), z = static_cast<std::size_t>(count.z);
+    return Voxel(along(i % x), along(i / x / z), along(i / x % z));
+  };
+  sim::parallelFor(number_.size(), [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      const Voxel low = lowOf(i);
+      bool any = false, deep = true;
+      for (int n = 0; n < kValues * kValues * kValues && (deep || !any); ++n) {
+        const Voxel v = low + Voxel(n % kValues, n / kValues / kValues, n / kValues % kValues);
+        any = any || occupied.at(v);
+        deep = deep && full.at(v) && isDeep(full, v);
+      }
+      number_[i] = deep ? kDeep : any ? kToMake : kEmpty;
+    }
+  });
+  std::vector<std::size_t> places;
+  for (std::size_t i = 0; i < number_.size(); ++i) {
+    if (number_[i] != kToMake) continue;
+    number_[i] = static_cast<std::int32_t>(places.size());
+    places.push_back(i);
+  }
+  const double bytes = static_cast<double>(places.size()) * sizeof(Brick);
+  if (bytes > sim::memoryBudget()) {
+    throw sim::InputError(fmt::format(
+        "an image of kind volume needs {} of memory in this world, and {} are free for it here; expected "
+        "larger voxels",
+        sim::inGigabytes(bytes), sim::inGigabytes(sim::memoryBudget())));
+  }
+  bricks_.resize(places.size());
+  sim::parallelForEach(places.size(), [&](std::size_t b) {
+    sim::throwIfStopped();
+    const Voxel low = lowOf(places[b]);
+    for (int n = 0; n < kValues * kValues * kValues; ++n) {
+      const Voxel v = low + Voxel(n % kValues, n / kValues / kValues, n / kValues % kValues);
+      Value& value = bricks_[b][static_cast<std::size_t>(n)];
+      value = {};
+      if (!occupied.at(v)) continue;
+      if (full.at(v) && isDeep(full, v)) {
+        value[3] = 1.0f;
+        continue;
+      }
+      const VolumeVoxel there = look(v);
+      const float share = std::clamp(there.stops, 0.0f, 1.0f);
+      value = {share * there.light.r, share * there.light.g, share * there.light.b, share};
+    }
+  });
+}
+
+double Volume::bytes() const {
+  return static_cast<double>(bricks_.size()) * sizeof(Brick);
+}
+
+Volume::Value Volume::valueIn(const Brick& brick, sim::Vec3 at) {
+  const int x = static_cast<int>(at.x), y = static_cast<int>(at.y), z = static_cast<int>(at.z);
+  const float fx = static_cast<float>(at.x - x), fy = static_cast<float>(at.y - y),
+              fz = static_cast<float>(at.z - z);
+  const Value* const corner = &brick[static_cast<std::size_t>((y * kValues + z) * kValues + x)];
+  Value sum{};
+  for (int dy = 0; dy < 2; ++dy) {
+    for (int dz = 0; dz < 2; ++dz) {
+      const float weight = (dy != 0 ? fy : 1.0f - fy) * (dz != 0 ? fz : 1.0f - fz);
+      const Value* const a = corner + (dy * kValues + dz) * kValues;
+      for (std::size_t c = 0; c < sum.size(); ++c) sum[c] += weight * ((1.0f - fx) * a[0][c] + fx * a[1][c]);
+    }
+  }
+  return sum;
+}
+
+Volume::Seen Volume::along(sim::Vec3 from_m, sim::Vec3 direction) const {
+  const sim::Vec3 from = sim::voxelFromWorld(frame_, from_m) + 1.0;
+  const auto [enters, leaves] = within(from, direction, sim::Vec3(frame_.size) + 1.0);
+  Seen seen;
+  float left = 1.0f;
+  // Steps are counted from the eye, whatever is passed over.
+  double step = std::ceil(std::max(enters, kNear_vx) * kStepsInVoxel);
+  const double last = std::min(leaves * kStepsInVoxel, 1e9);
+  while (step < last) {
+    const sim::Vec3 at = from + (step / kStepsInVoxel) * direction;
+    const Voxel brick = glm::clamp(Voxel(glm::floor(at / static_cast<double>(kSide))), Voxel(0), count_ - 1);
+    const std::int32_t number = brickAt(brick);
+    const sim::Vec3 inside = at - sim::Vec3(brick * kSide);
+    if (number == kDeep) break;
+    if (number == kEmpty) {
+      const double out = within(inside, direction, sim::Vec3(kSide)).second * kStepsInVoxel;
+      step = std::max(step + 1.0, std::ceil(step + std::min(out, 1e9)));
+      continue;
+    }
+    const Value value =
+        valueIn(bricks_[static_cast<std::size_t>(number)], glm::clamp(inside, 0.0, kSide - 1e-9));
+    step += 1.0;
+    if (!(value[3] > 0.0f)) continue;
+    const float passes = std::sqrt(1.0f - std::min(value[3], 1.0f));
+    const float by = left * (1.0f - passes) / value[3];
+    seen.light += by * sim::Colour(value[0], value[1], value[2]);
+    left *= passes;
+    if (left < kLeastLeft) break;
+  }
+  if (left < kLeastLeft) {  // as if the rest were like what is seen
+    seen.light /= 1.0f - left;
+    left = 0.0f;
+  }
+  seen.opacity = 1.0f - left;
+  return seen;
+}
+
+Image marchThrough(const Volume& volume, const Camera& camera, int width_px, int height_px) {
+  if (width_px < 1 || height_px < 1)
+    throw sim::InputError(fmt::format("a picture of {} x {} pixels; expected at least one", width_px, height_px));
+  const CameraRays rays(camera, static_cast<double>(width_px) / height_px);
+  Image image(width_px, height_px, 4);
+  sim::parallelForEach(static_cast<std::size_t>(height_px), [&](std::size_t row) {
+    sim::throwIfStopped();
+    const int y = static_cast<int>(row);
+    for (int x = 0; x < width_px; ++x) {
+      Volume::Seen mean;
+      for (int ray = 0; ray < 4; ++ray) {
+        const double across = x + 0.25 + 0.5 * (ray % 2), down = y + 0.25 + 0.5 * (ray / 2);
+        const Volume::Seen seen =
+            volume.along(rays.eye_m(), rays.direction(across / width_px, down / height_px));
+        mean.light += 0.25f * seen.light;
+        mean.opacity += 0.25f * seen.opacity;
+      }
+      std::copy_n(&mean.light.r, 3, image.at(x, y));
+      image.at(x, y)[3] = mean.opacity;
+    }
+  });
+  return image;
+}
+
+}  // namespace espalier::render

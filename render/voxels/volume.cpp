@@ -99,18 +99,24 @@ Volume::Volume(const sim::Frame& frame, const sim::BitVolume& occupied, const si
   sim::parallelForEach(places.size(), [&](std::size_t b) {
     sim::throwIfStopped();
     const Voxel low = lowOf(places[b]);
+    Brick& brick = bricks_[b];
     for (int n = 0; n < kValues * kValues * kValues; ++n) {
-      const Voxel v = low + Voxel(n % kValues, n / kValues / kValues, n / kValues % kValues);
-      Value& value = bricks_[b][static_cast<std::size_t>(n)];
-      value = {};
+      const Voxel corner(n % kValues, n / kValues / kValues, n / kValues % kValues), v = low + corner;
       if (!occupied.at(v)) continue;
+      Value& value = brick.values[static_cast<std::size_t>(n)];
       if (full.at(v) && isDeep(full, v)) {
         value[3] = 1.0f;
-        continue;
+      } else {
+        const VolumeVoxel there = look(v);
+        const float share = std::clamp(there.stops, 0.0f, 1.0f);
+        value = {share * there.light.r, share * there.light.g, share * there.light.b, share};
       }
-      const VolumeVoxel there = look(v);
-      const float share = std::clamp(there.stops, 0.0f, 1.0f);
-      value = {share * there.light.r, share * there.light.g, share * there.light.b, share};
+      if (value[3] == 0.0f) continue;
+      for (int around = 0; around < 8; ++around) {
+        const Voxel cell = corner - Voxel(around & 1, around >> 1 & 1, around >> 2);
+        if (sim::contains(Voxel(kSide), cell))
+          brick.taken[static_cast<std::size_t>(cell.y)] |= std::uint64_t{1} << (cell.z << 3 | cell.x);
+      }
     }
   });
 }
@@ -119,17 +125,16 @@ double Volume::bytes() const {
   return static_cast<double>(bricks_.size()) * sizeof(Brick);
 }
 
-Volume::Value Volume::valueIn(const Brick& brick, sim::Vec3 at) {
-  const int x = static_cast<int>(at.x), y = static_cast<int>(at.y), z = static_cast<int>(at.z);
-  const float fx = static_cast<float>(at.x - x), fy = static_cast<float>(at.y - y),
-              fz = static_cast<float>(at.z - z);
-  const Value* const corner = &brick[static_cast<std::size_t>((y * kValues + z) * kValues + x)];
+inline Volume::Value Volume::valueIn(const Brick& brick, Voxel cell, sim::Vec3f part) {
+  const Value* const corner =
+      &brick.values[static_cast<std::size_t>((cell.y * kValues + cell.z) * kValues + cell.x)];
   Value sum{};
   for (int dy = 0; dy < 2; ++dy) {
     for (int dz = 0; dz < 2; ++dz) {
-      const float weight = (dy != 0 ? fy : 1.0f - fy) * (dz != 0 ? fz : 1.0f - fz);
+      const float weight = (dy != 0 ? part.y : 1.0f - part.y) * (dz != 0 ? part.z : 1.0f - part.z);
       const Value* const a = corner + (dy * kValues + dz) * kValues;
-      for (std::size_t c = 0; c < sum.size(); ++c) sum[c] += weight * ((1.0f - fx) * a[0][c] + fx * a[1][c]);
+      for (std::size_t c = 0; c < sum.size(); ++c)
+        sum[c] += weight * ((1.0f - part.x) * a[0][c] + part.x * a[1][c]);
     }
   }
   return sum;
@@ -138,31 +143,36 @@ Volume::Value Volume::valueIn(const Brick& brick, sim::Vec3 at) {
 Volume::Seen Volume::along(sim::Vec3 from_m, sim::Vec3 direction) const {
   const sim::Vec3 from = sim::voxelFromWorld(frame_, from_m) + 1.0;
   const auto [enters, leaves] = within(from, direction, sim::Vec3(frame_.size) + 1.0);
+  const sim::Vec3 way = direction / kStepsInVoxel, steps = 1.0 / way;  // for a width along each axis
+  const Voxel ahead(way.x > 0.0, way.y > 0.0, way.z > 0.0), most = frame_.size;
   Seen seen;
   float left = 1.0f;
   // Steps are counted from the eye, whatever is passed over.
   double step = std::ceil(std::max(enters, kNear_vx) * kStepsInVoxel);
   const double last = std::min(leaves * kStepsInVoxel, 1e9);
-  while (step < last) {
-    const sim::Vec3 at = from + (step / kStepsInVoxel) * direction;
-    const Voxel brick = glm::clamp(Voxel(glm::floor(at / static_cast<double>(kSide))), Voxel(0), count_ - 1);
+  while (step < last && left >= kLeastLeft) {
+    const sim::Vec3 at = from + step * way;
+    const Voxel all = glm::clamp(Voxel(at), Voxel(0), most);  // its cell among all
+    const Voxel brick = all / kSide, cell = all - brick * kSide;
     const std::int32_t number = brickAt(brick);
-    const sim::Vec3 inside = at - sim::Vec3(brick * kSide);
     if (number == kDeep) break;
     if (number == kEmpty) {
-      const double out = within(inside, direction, sim::Vec3(kSide)).second * kStepsInVoxel;
-      step = std::max(step + 1.0, std::ceil(step + std::min(out, 1e9)));
+      double out = 1e9;
+      for (int axis = 0; axis < 3; ++axis) {
+        if (way[axis] != 0.0) out = std::min(out, (kSide * (brick[axis] + ahead[axis]) - at[axis]) * steps[axis]);
+      }
+      step = std::max(step + 1.0, std::ceil(step + out));
       continue;
     }
-    const Value value =
-        valueIn(bricks_[static_cast<std::size_t>(number)], glm::clamp(inside, 0.0, kSide - 1e-9));
     step += 1.0;
+    const Brick& here = bricks_[static_cast<std::size_t>(number)];
+    if ((here.taken[static_cast<std::size_t>(cell.y)] >> (cell.z << 3 | cell.x) & 1u) == 0) continue;
+    const Value value = valueIn(here, cell, glm::clamp(sim::Vec3f(at - sim::Vec3(all)), 0.0f, 1.0f));
     if (!(value[3] > 0.0f)) continue;
     const float passes = std::sqrt(1.0f - std::min(value[3], 1.0f));
     const float by = left * (1.0f - passes) / value[3];
     seen.light += by * sim::Colour(value[0], value[1], value[2]);
     left *= passes;
-    if (left < kLeastLeft) break;
   }
   if (left < kLeastLeft) {  // as if the rest were like what is seen
     seen.light /= 1.0f - left;

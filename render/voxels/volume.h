@@ -48,15 +48,18 @@ class Volume {
   static constexpr int kSide = 8, kValues = kSide + 1;  // of a brick: its cells, and their corners
   static constexpr std::int32_t kEmpty = -1, kDeep = -2;
   using Value = std::array<float, 4>;  // light times share, and share
-  using Brick = std::array<Value, static_cast<std::size_t>(kValues) * kValues * kValues>;
+  struct Brick {
+    std::array<Value, static_cast<std::size_t>(kValues) * kValues * kValues> values{};  // y, z, x
+    std::array<std::uint64_t, kSide> taken{};  // cells with a corner that is not empty, z << 3 | x, by y
+  };
 
-  const std::int32_t& brickAt(sim::Voxel brick) const {
+  std::int32_t brickAt(sim::Voxel brick) const {
     return number_[(static_cast<std::size_t>(brick.y) * static_cast<std::size_t>(count_.z) +
                     static_cast<std::size_t>(brick.z)) *
                        static_cast<std::size_t>(count_.x) +
                    static_cast<std::size_t>(brick.x)];
   }
-  static Value valueIn(const Brick& brick, sim::Vec3 at);
+  static Value valueIn(const Brick& brick, sim::Voxel cell, sim::Vec3f part);
 
   sim::Frame frame_;
   sim::Voxel count_{0};               // of bricks

@@ -353,12 +353,11 @@ std::vector<OutputFile> drawPictures(const PicturesWanted& wanted, const Finishe
   // The two that take time, side by side: each has stretches that keep one core alone busy. Panels are packed
   // as soon as they are painted, while there may still be vines to draw.
   sim::parallelInvoke(drawPanels, drawVines);
-  VolumePictures volumes(finished, wanted.to_sun);
   forEach([](ImageKind kind) { return kind == ImageKind::volume; },
           [&](std::size_t i) {
             const ImageSpec& image = wanted.images[i];
-            const render::PanelPicture picture =
-                volumes.draw(cameraOf(wanted, image), wanted.width_px, wanted.height_px);
+            const render::PanelPicture picture = volumePicture(finished, wanted.to_sun, cameraOf(wanted, image),
+                                                               wanted.width_px, wanted.height_px);
             keepThumbnail(i, picture.display);
             files[i] = {fileOf(image.name + ".png", render::encodePng(picture.display, metadata(image))),
                         fileOf(image.name + ".exr", render::encodeExr(picture.measured, picture.channel_names,

@@ -1,6 +1,7 @@
 #include "scenes/show/volume_picture.h"
 
 #include <algorithm>
+#include <cstdlib>
 
 #include "render/image/tone.h"
 #include "render/voxels/volume.h"
@@ -8,32 +9,91 @@
 #include "sim/base/parallel.h"
 
 namespace espalier::scenes {
+namespace {
+
+/// What voxels send on towards an eye.
+class TowardsEye {
+ public:
+  TowardsEye(const Finished& finished, sim::Vec3 to_sun, sim::Vec3 eye_m)
+      : world_(finished.world),
+        light_(finished.light),
+        bare_(finished.bare),
+        eye_vx_(sim::voxelFromWorld(finished.world.frame(), eye_m)),
+        colours_(finished.world, finished.bare, finished.light, finished.lit, ImageKind::first_pass, to_sun),
+        surfaces_(finished.light.surfaces.size()) {
+    sim::parallelFor(surfaces_.size(), [&](std::size_t begin, std::size_t end) {
+      for (std::size_t i = begin; i < end; ++i) {
+        const auto& [voxel, surface] = light_.surfaces[i];
+        if (!bare_.at(voxel)) continue;
+        const sim::Vec3 to_eye = towards(voxel);
+        const double turned = glm::dot(sim::Vec3(surface.normal), to_eye);
+        if (turned > 0.0)
+          surfaces_[i] = {colours_.lightSeen(to_eye, voxel, sim::PartKind::scene),
+                          static_cast<float>(turned)};
+      }
+    });
+  }
+
+  sim::Colour at(sim::Voxel voxel) const {
+    const sim::PartKind kind = world_.part(world_.partAt(voxel)).kind;
+    return colours_.sentOn(lightAt(voxel, kind), voxel, kind);
+  }
+
+ private:
+  struct Turned {
+    sim::Colour light{0.0f};
+    float turned = 0.0f;  // how much it is towards the eye: a cosine
+  };
+  /// Of a scene, that of what the eye sees about a voxel: rays get a little way into a solid, past the edges
+  /// of its faces, and shall not meet there what falls onto the faces behind them.
+  sim::Colour lightAt(sim::Voxel voxel, sim::PartKind kind) const {
+    if (kind == sim::PartKind::scene) {
+      Turned sum;
+      for (int n = 0; n < 27; ++n) {
+        const sim::Voxel step = sim::Voxel(n % 3, n / 9, n / 3 % 3) - 1;
+        add(voxel + step, 1.0f / static_cast<float>(1 << (std::abs(step.x) + std::abs(step.y) + std::abs(step.z))),
+            sum);
+      }
+      if (sum.turned > 0.0f) return sum.light / sum.turned;
+    }
+    return colours_.lightSeen(towards(voxel), voxel, kind);
+  }
+  void add(sim::Voxel v, float weight, Turned& sum) const {
+    if (!bare_.at(v) || !light_.where->has(v)) return;
+    const Turned& surface = surfaces_[light_.where->number(v)];
+    sum.light += weight * surface.turned * surface.light;
+    sum.turned += weight * surface.turned;
+  }
+  sim::Vec3 towards(sim::Voxel v) const {
+    const sim::Vec3 way = eye_vx_ - sim::Vec3(v);
+    const double length = glm::length(way);
+    return length > 0.0 ? way / length : sim::Vec3(0.0, 1.0, 0.0);
+  }
+
+  const sim::World& world_;
+  const sim::Lighting& light_;
+  const sim::BitVolume& bare_;
+  sim::Vec3 eye_vx_;
+  VoxelColours colours_;
+  std::vector<Turned> surfaces_;  // of the light's
+};
+
+}  // namespace
 
 bool drawsVolumes(const std::vector<ImageSpec>& images) {
   return std::any_of(images.begin(), images.end(),
                      [](const ImageSpec& image) { return image.kind == ImageKind::volume; });
 }
 
-struct VolumePictures::Lit {
-  Lit(const Finished& finished, sim::Vec3 to_sun)
-      : colours(finished.world, finished.bare, finished.light, finished.lit, ImageKind::first_pass, to_sun),
-        volume(finished.world.frame(), finished.world.occupied(), finished.occupancy->full(),
-               [&](sim::Voxel v) {
-                 const sim::PartKind kind = finished.world.part(finished.world.partAt(v)).kind;
-                 return render::VolumeVoxel{colours.lightAt(v, kind), finished.occupancy->at(v).stops};
-               }) {}
-  VoxelColours colours;
-  render::Volume volume;
-};
-
-VolumePictures::VolumePictures(const Finished& finished, sim::Vec3 to_sun)
-    : finished_(finished), to_sun_(to_sun) {}
-VolumePictures::~VolumePictures() = default;
-
-render::PanelPicture VolumePictures::draw(const render::Camera& camera, int width_px, int height_px) {
-  if (!lit_) lit_ = std::make_unique<const Lit>(finished_, to_sun_);
+render::PanelPicture volumePicture(const Finished& finished, sim::Vec3 to_sun, const render::Camera& camera,
+                                   int width_px, int height_px) {
+  const TowardsEye light(finished, to_sun, camera.eye_m);
+  const WorldOccupancy& occupancy = *finished.occupancy;
+  const render::Volume volume(
+      finished.world.frame(), finished.world.occupied(), occupancy.full(),
+      [&](sim::Voxel v) { return render::VolumeVoxel{light.at(v), occupancy.at(v).stops}; });
   render::PanelPicture picture{
-      {}, render::marchThrough(lit_->volume, camera, width_px, height_px), {"R", "G", "B", "A"}};
+      {}, render::marchThrough(volume, camera, width_px, height_px), {"R", "G", "B", "A"}};
   picture.display = render::Image(width_px, height_px, 3);
   const render::CameraRays rays(camera, static_cast<double>(width_px) / height_px);
   const render::ToneCurve tone;

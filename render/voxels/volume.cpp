@@ -16,9 +16,6 @@ namespace {
 
 using sim::Voxel;
 
-/// Steps in a voxel width. Of what reaches a step through voxels with share a, sqrt(1 - a) goes on: through a
-/// whole voxel (1 - a)^2. The square, because a sheet of one layer of voxels is thinned to both sides where
-/// values run evenly, and still has to hide what is behind it: with it 98 % of that.
 constexpr double kStepsInVoxel = 4.0;
 /// Below this nothing that comes behind can be told in a picture.
 constexpr float kLeastLeft = 1.0f / 1024.0f;
@@ -26,6 +23,16 @@ constexpr double kNear_vx = 1.0;
 /// How far from a free voxel a ray may get through full ones: half a voxel is opaque, and a voxel's value is
 /// felt a width to all sides.
 constexpr int kDeepest = 2;
+/// Of light that takes a step through voxels of a share, how much goes on. Through a whole voxel it is
+/// (1 - share^3)^5. The cube, because a ray that passes along a solid's face goes a long way through voxels
+/// that are little taken: these have to stay clear, or it is their outer rim that is seen, which has steps.
+/// The fifth power, because a sheet of one layer of voxels is thinned to both sides, where values run evenly,
+/// and has to hide what is behind it: with it 98 % of that.
+float passes(float share) {
+  const float clear = 1.0f - std::min(share * share * share, 1.0f);
+  return clear * std::sqrt(std::sqrt(clear));
+}
+
 constexpr std::int32_t kToMake = -3;
 
 /// Whether all voxels as near as kDeepest are full too.
@@ -108,7 +115,7 @@ Volume::Volume(const sim::Frame& frame, const sim::BitVolume& occupied, const si
         value[3] = 1.0f;
       } else {
         const VolumeVoxel there = look(v);
-        const float share = std::clamp(there.stops, 0.0f, 1.0f);
+        const float share = std::clamp(there.share, 0.0f, 1.0f);
         value = {share * there.light.r, share * there.light.g, share * there.light.b, share};
       }
       if (value[3] == 0.0f) continue;
@@ -123,6 +130,10 @@ Volume::Volume(const sim::Frame& frame, const sim::BitVolume& occupied, const si
 
 double Volume::bytes() const {
   return static_cast<double>(bricks_.size()) * sizeof(Brick);
+}
+
+float shareOfThin(float stops) {
+  return std::cbrt(std::clamp(stops, 0.0f, 1.0f));
 }
 
 inline Volume::Value Volume::valueIn(const Brick& brick, Voxel cell, sim::Vec3f part) {
@@ -169,10 +180,10 @@ Volume::Seen Volume::along(sim::Vec3 from_m, sim::Vec3 direction) const {
     if ((here.taken[static_cast<std::size_t>(cell.y)] >> (cell.z << 3 | cell.x) & 1u) == 0) continue;
     const Value value = valueIn(here, cell, glm::clamp(sim::Vec3f(at - sim::Vec3(all)), 0.0f, 1.0f));
     if (!(value[3] > 0.0f)) continue;
-    const float passes = std::sqrt(1.0f - std::min(value[3], 1.0f));
-    const float by = left * (1.0f - passes) / value[3];
+    const float on = passes(value[3]);
+    const float by = left * (1.0f - on) / value[3];
     seen.light += by * sim::Colour(value[0], value[1], value[2]);
-    left *= passes;
+    left *= on;
   }
   if (left < kLeastLeft) {  // as if the rest were like what is seen
     seen.light /= 1.0f - left;

@@ -18,15 +18,19 @@ namespace espalier::render {
 /// What an occupied voxel is like.
 struct VolumeVoxel {
   sim::Colour light{0.0f};  ///< that it sends towards the eye, linear
-  float stops = 0.0f;       ///< share of the rays that cross it, 0..1
+  float share = 0.0f;       ///< that is taken of its volume, 0..1
 };
+
+/// The share that lets as much light through as what is thinner than a voxel, which stops so many of the rays
+/// that cross it: 0..1 both. A leaf takes next to nothing of a volume.
+float shareOfThin(float stops);
 
 /// A world's voxels, made ready for rays: near all that is seen, the values of a voxel lie beside those of its
 /// neighbours. Between the voxels' centres shares run evenly (trilinear), and light in proportion to what
 /// stops it, so that no empty voxel darkens its neighbours.
 class Volume {
  public:
-  /// `full`: the voxels that stop every ray; what lies deep among these is never looked at. `look` is asked
+  /// `full`: the voxels that are taken wholly; what lies deep among these is never looked at. `look` is asked
   /// for the other occupied ones, and for full ones near them, each several times and by several threads.
   /// Throws sim::InputError where it would take more memory than is free for it.
   Volume(const sim::Frame& frame, const sim::BitVolume& occupied, const sim::BitVolume& full,

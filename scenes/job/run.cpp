@@ -79,7 +79,7 @@ PictureLight litFor(const Scene& scene, const Site& site, const std::vector<sim:
 /// For pictures of what has grown on a site. Borrows all but the textures.
 Finished finishedOn(const Scene& scene, const Site& site, const sim::BitVolume& bare,
                     const sim::Growth& growth, const sim::Lighting& light,
-                    const PictureLight& lit, const WorldOccupancy& occupancy,
+                    const PictureLight& lit, const std::optional<WorldOccupancy>& occupancy,
                     const std::vector<render::PlantModel>& models, render::KnownPictures textures) {
   return {site.meshes,
           site.world,
@@ -90,7 +90,7 @@ Finished finishedOn(const Scene& scene, const Site& site, const sim::BitVolume& 
           std::move(textures),
           growthSettings(scene, site, {}).sky_table,
           lit,
-          &occupancy};
+          occupancy ? &*occupancy : nullptr};
 }
 
 /// A scene's site, and what shall grow on it or has grown there.
@@ -261,13 +261,14 @@ Report runScene(const Scene& scene, const RunOptions& options, const Keeping& ke
   report.occupied_voxels = world.occupied().count();
 
   std::shared_ptr<const sim::VoxelSet> layers;
+  std::optional<WorldOccupancy> occupancy;
   sim::Lighting light = stages.run("lighting", [&] {
     layers = std::make_shared<const sim::VoxelSet>(openLayers(bare, world));
+    occupancy.emplace(scene, site.meshes, world, bare, growth.plants);
     return lightFor(scene, site, options.pictures && drawsVines(scene.images),
                     options.pictures && drawsVolumes(scene.images), bare, layers, options.models);
   });
   const PictureLight lit = litFor(scene, site, growth.plants, light, options.pictures, options.models, stages);
-  const WorldOccupancy occupancy(scene, site.meshes, world, bare, growth.plants);
   report.light = light.about;
   std::vector<render::PlantModel> models;  // for pictures; else they are made while they are written
   if (options.pictures)
@@ -287,7 +288,7 @@ Report runScene(const Scene& scene, const RunOptions& options, const Keeping& ke
                    }});
   files.push_back({kWorldFile, [&](std::ostream& out) {
                      std::vector<render::VdbField> fields = worldFields(light, *layers);
-                     fields.insert(fields.begin(), occupancy.alpha());
+                     fields.insert(fields.begin(), occupancy->alpha());
                      fields.insert(fields.end(), guides.fields.begin(), guides.fields.end());
                      render::writeVdb(out, world, fields, report.made_by);
                    }});
@@ -366,16 +367,17 @@ Report renderScene(Scene scene, const std::filesystem::path& from, const RunOpti
   const sim::Growth growth = takeUp(std::move(*state), from, scene, site, prepared.plantings, Same::plants);
   report.growth = growthReport(scene, site, bare, growth, prepared.seed_lights);
   report.occupied_voxels = site.world.occupied().count();
+  std::optional<WorldOccupancy> occupancy;
   sim::Lighting light = stages.run("lighting", [&] {
     if (options.on_foretold) {
       report.run.foretold = foretellPictures(site, prepared.plantings, grownIn(growth.plants),
                                              picturesOf(scene), stages.began());
       options.on_foretold(*report.run.foretold);
     }
+    if (drawsVolumes(scene.images)) occupancy.emplace(scene, site.meshes, site.world, bare, growth.plants);
     return lightFor(scene, site, drawsVines(scene.images), drawsVolumes(scene.images), bare, nullptr);
   });
   const PictureLight lit = litFor(scene, site, growth.plants, light, true, {}, stages);
-  const WorldOccupancy occupancy(scene, site.meshes, site.world, bare, growth.plants);
   report.light = light.about;
   const auto models =
       stages.run("modelling", [&] { return modelPlants(site.world.frame(), growth.plants, bare); });

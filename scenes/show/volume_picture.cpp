@@ -25,43 +25,43 @@ class TowardsEye {
       for (std::size_t i = begin; i < end; ++i) {
         const auto& [voxel, surface] = light_.surfaces[i];
         if (!bare_.at(voxel)) continue;
-        const sim::Vec3 to_eye = towards(voxel);
-        const double turned = glm::dot(sim::Vec3(surface.normal), to_eye);
-        if (turned > 0.0)
-          surfaces_[i] = {colours_.lightSeen(to_eye, voxel, sim::PartKind::scene),
-                          static_cast<float>(turned)};
+        const double turned = glm::dot(sim::Vec3(surface.normal), towards(voxel));
+        if (turned <= 0.0) continue;
+        const sim::Colour light = seenLight(voxel, sim::PartKind::scene);
+        surfaces_[i] = {light, colours_.sentOn(light, voxel, sim::PartKind::scene), static_cast<float>(turned)};
       }
     });
   }
 
   sim::Colour at(sim::Voxel voxel) const {
     const sim::PartKind kind = world_.part(world_.partAt(voxel)).kind;
-    return colours_.sentOn(lightAt(voxel, kind), voxel, kind);
+    if (kind != sim::PartKind::scene) return colours_.sentOn(seenLight(voxel, kind), voxel, kind);
+    // Rays get a little way into a solid, past the edges of its faces: they shall not meet there what falls
+    // onto the faces behind them, nor the colours of these.
+    Turned sum;
+    for (int n = 0; n < 27; ++n) {
+      const sim::Voxel step = sim::Voxel(n % 3, n / 9, n / 3 % 3) - 1;
+      add(voxel + step, 1.0f / static_cast<float>(1 << (std::abs(step.x) + std::abs(step.y) + std::abs(step.z))),
+          sum);
+    }
+    if (sum.turned == 0.0f) return colours_.sentOn(seenLight(voxel, kind), voxel, kind);
+    if (!light_.where->has(voxel)) return sum.sent / sum.turned;
+    return colours_.sentOn(sum.light / sum.turned, voxel, kind);
   }
 
  private:
   struct Turned {
-    sim::Colour light{0.0f};
+    sim::Colour light{0.0f}, sent{0.0f};  // what falls on it, and what it sends on
     float turned = 0.0f;  // how much it is towards the eye: a cosine
   };
-  /// Of a scene, that of what the eye sees about a voxel: rays get a little way into a solid, past the edges
-  /// of its faces, and shall not meet there what falls onto the faces behind them.
-  sim::Colour lightAt(sim::Voxel voxel, sim::PartKind kind) const {
-    if (kind == sim::PartKind::scene) {
-      Turned sum;
-      for (int n = 0; n < 27; ++n) {
-        const sim::Voxel step = sim::Voxel(n % 3, n / 9, n / 3 % 3) - 1;
-        add(voxel + step, 1.0f / static_cast<float>(1 << (std::abs(step.x) + std::abs(step.y) + std::abs(step.z))),
-            sum);
-      }
-      if (sum.turned > 0.0f) return sum.light / sum.turned;
-    }
+  sim::Colour seenLight(sim::Voxel voxel, sim::PartKind kind) const {
     return colours_.lightSeen(towards(voxel), voxel, kind);
   }
   void add(sim::Voxel v, float weight, Turned& sum) const {
     if (!bare_.at(v) || !light_.where->has(v)) return;
     const Turned& surface = surfaces_[light_.where->number(v)];
     sum.light += weight * surface.turned * surface.light;
+    sum.sent += weight * surface.turned * surface.sent;
     sum.turned += weight * surface.turned;
   }
   sim::Vec3 towards(sim::Voxel v) const {
@@ -91,7 +91,11 @@ render::PanelPicture volumePicture(const Finished& finished, sim::Vec3 to_sun, c
   const WorldOccupancy& occupancy = *finished.occupancy;
   const render::Volume volume(
       finished.world.frame(), finished.world.occupied(), occupancy.full(),
-      [&](sim::Voxel v) { return render::VolumeVoxel{light.at(v), occupancy.at(v).stops}; });
+      [&](sim::Voxel v) {
+        const sim::Occupancy taken = occupancy.at(v);
+        const bool thin = taken.stops > taken.alpha;
+        return render::VolumeVoxel{light.at(v), thin ? render::shareOfThin(taken.stops) : taken.alpha};
+      });
   render::PanelPicture picture{
       {}, render::marchThrough(volume, camera, width_px, height_px), {"R", "G", "B", "A"}};
   picture.display = render::Image(width_px, height_px, 3);

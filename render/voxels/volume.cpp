@@ -170,7 +170,8 @@ Volume::Seen Volume::along(sim::Vec3 from_m, sim::Vec3 direction) const {
     if (number == kEmpty) {
       double out = 1e9;
       for (int axis = 0; axis < 3; ++axis) {
-        if (way[axis] != 0.0) out = std::min(out, (kSide * (brick[axis] + ahead[axis]) - at[axis]) * steps[axis]);
+        if (way[axis] != 0.0)
+          out = std::min(out, (kSide * (brick[axis] + ahead[axis]) - at[axis]) * steps[axis]);
       }
       step = std::max(step + 1.0, std::ceil(step + out));
       continue;
@@ -195,7 +196,8 @@ Volume::Seen Volume::along(sim::Vec3 from_m, sim::Vec3 direction) const {
 
 Image marchThrough(const Volume& volume, const Camera& camera, int width_px, int height_px) {
   if (width_px < 1 || height_px < 1)
-    throw sim::InputError(fmt::format("a picture of {} x {} pixels; expected at least one", width_px, height_px));
+    throw sim::InputError(
+        fmt::format("a picture of {} x {} pixels; expected at least one", width_px, height_px));
   const CameraRays rays(camera, static_cast<double>(width_px) / height_px);
   Image image(width_px, height_px, 4);
   sim::parallelForEach(static_cast<std::size_t>(height_px), [&](std::size_t row) {

@@ -25,8 +25,8 @@ struct VolumeVoxel {
 /// that cross it: 0..1 both. A leaf takes next to nothing of a volume.
 float shareOfThin(float stops);
 
-/// A world's voxels, made ready for rays: near all that is seen, the values of a voxel lie beside those of its
-/// neighbours. Between the voxels' centres shares run evenly (trilinear), and light in proportion to what
+/// A world's voxels, made ready for rays: near all that is seen, the values of a voxel lie beside those of
+/// its neighbours. Between the voxels' centres shares run evenly (trilinear), and light in proportion to what
 /// stops it, so that no empty voxel darkens its neighbours.
 class Volume {
  public:
@@ -41,8 +41,8 @@ class Volume {
     sim::Colour light{0.0f};
     float opacity = 0.0f;
   };
-  /// From a place in world space in a direction of unit length. The first voxel width is left out: a plant may
-  /// have grown around the eye.
+  /// From a place in world space in a direction of unit length. The first voxel width is left out: a plant
+  /// may have grown around the eye.
   Seen along(sim::Vec3 from_m, sim::Vec3 direction) const;
 
   /// What it takes.
@@ -71,8 +71,8 @@ class Volume {
   std::vector<Brick> bricks_;
 };
 
-/// What a camera sees: R, G, B times opacity, linear, and opacity. Each pixel is the mean of four rays. Throws
-/// sim::InputError where the size is not positive.
+/// What a camera sees: R, G, B times opacity, linear, and opacity. Each pixel is the mean of four rays.
+/// Throws sim::InputError where the size is not positive.
 Image marchThrough(const Volume& volume, const Camera& camera, int width_px, int height_px);
 
 }  // namespace espalier::render

@@ -51,7 +51,8 @@ sim::VoxelSet openLayers(const sim::BitVolume& scene, const sim::World& grown) {
 /// `layers`: free space where light is wanted too, beside all of it for images of vines, whose leaves are lit
 /// by what is around them. `bare`: what the scene alone occupies, for those that show no plant. `models`:
 /// those that are written.
-sim::Lighting lightFor(const Scene& scene, const Site& site, bool vines, bool volumes, const sim::BitVolume& bare,
+sim::Lighting lightFor(const Scene& scene, const Site& site, bool vines, bool volumes,
+                       const sim::BitVolume& bare,
                        std::shared_ptr<const sim::VoxelSet> layers, const ModelsWanted& models = {}) {
   sim::LightWanted wanted;
   if (models.diced == ImageKind::first_pass || scene.interreflection || volumes)

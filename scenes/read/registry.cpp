@@ -253,7 +253,8 @@ std::shared_ptr<const Table> imageKeys() {
   std::vector<std::pair<std::string, ImageKind>> kinds;
   for (const auto kind :
        {ImageKind::sun_exposure, ImageKind::sky_exposure, ImageKind::threshold, ImageKind::shadow_matte,
-        ImageKind::surface_colour, ImageKind::first_pass, ImageKind::volume, ImageKind::sun_hours, ImageKind::vines,
+        ImageKind::surface_colour, ImageKind::first_pass, ImageKind::volume, ImageKind::sun_hours,
+        ImageKind::vines,
         ImageKind::section, ImageKind::attempts, ImageKind::points, ImageKind::graph, ImageKind::field,
         ImageKind::narrow_band, ImageKind::sky_tables, ImageKind::contact_sheet}) {
     kinds.emplace_back(nameOf(kind), kind);

@@ -130,7 +130,8 @@ sim::Colour BouncedLight::at(sim::Vec3 place_vx, sim::Vec3f normal) const {
 LitKinds litKinds(const std::vector<ImageSpec>& images) {
   LitKinds kinds;
   for (const ImageSpec& image : images) {
-    kinds.first_pass = kinds.first_pass || image.kind == ImageKind::first_pass || image.kind == ImageKind::volume;
+    kinds.first_pass =
+        kinds.first_pass || image.kind == ImageKind::first_pass || image.kind == ImageKind::volume;
     kinds.vines = kinds.vines || image.kind == ImageKind::vines;
   }
   return kinds;

@@ -356,12 +356,11 @@ std::vector<OutputFile> drawPictures(const PicturesWanted& wanted, const Finishe
   forEach([](ImageKind kind) { return kind == ImageKind::volume; },
           [&](std::size_t i) {
             const ImageSpec& image = wanted.images[i];
-            const render::PanelPicture picture = volumePicture(finished, wanted.to_sun, cameraOf(wanted, image),
-                                                               wanted.width_px, wanted.height_px);
-            keepThumbnail(i, picture.display);
-            files[i] = {fileOf(image.name + ".png", render::encodePng(picture.display, metadata(image))),
-                        fileOf(image.name + ".exr", render::encodeExr(picture.measured, picture.channel_names,
-                                                                      metadata(image)))};
+            const auto [display, measured, channels] = volumePicture(
+                finished, wanted.to_sun, cameraOf(wanted, image), wanted.width_px, wanted.height_px);
+            keepThumbnail(i, display);
+            files[i] = {fileOf(image.name + ".png", render::encodePng(display, metadata(image))),
+                        fileOf(image.name + ".exr", render::encodeExr(measured, channels, metadata(image)))};
           });
   const auto drawEach = [&](ImageKind kind, const auto& drawn) {
     forEach([=](ImageKind other) { return other == kind; },

@@ -28,7 +28,8 @@ class TowardsEye {
         const double turned = glm::dot(sim::Vec3(surface.normal), towards(voxel));
         if (turned <= 0.0) continue;
         const sim::Colour light = seenLight(voxel, sim::PartKind::scene);
-        surfaces_[i] = {light, colours_.sentOn(light, voxel, sim::PartKind::scene), static_cast<float>(turned)};
+        surfaces_[i] = {light, colours_.sentOn(light, voxel, sim::PartKind::scene),
+                        static_cast<float>(turned)};
       }
     });
   }
@@ -41,8 +42,8 @@ class TowardsEye {
     Turned sum;
     for (int n = 0; n < 27; ++n) {
       const sim::Voxel step = sim::Voxel(n % 3, n / 9, n / 3 % 3) - 1;
-      add(voxel + step, 1.0f / static_cast<float>(1 << (std::abs(step.x) + std::abs(step.y) + std::abs(step.z))),
-          sum);
+      add(voxel + step,
+          1.0f / static_cast<float>(1 << (std::abs(step.x) + std::abs(step.y) + std::abs(step.z))), sum);
     }
     if (sum.turned == 0.0f) return colours_.sentOn(seenLight(voxel, kind), voxel, kind);
     if (!light_.where->has(voxel)) return sum.sent / sum.turned;
@@ -52,7 +53,7 @@ class TowardsEye {
  private:
   struct Turned {
     sim::Colour light{0.0f}, sent{0.0f};  // what falls on it, and what it sends on
-    float turned = 0.0f;  // how much it is towards the eye: a cosine
+    float turned = 0.0f;                  // how much it is towards the eye: a cosine
   };
   sim::Colour seenLight(sim::Voxel voxel, sim::PartKind kind) const {
     return colours_.lightSeen(towards(voxel), voxel, kind);
@@ -90,8 +91,7 @@ render::PanelPicture volumePicture(const Finished& finished, sim::Vec3 to_sun, c
   const TowardsEye light(finished, to_sun, camera.eye_m);
   const WorldOccupancy& occupancy = *finished.occupancy;
   const render::Volume volume(
-      finished.world.frame(), finished.world.occupied(), occupancy.full(),
-      [&](sim::Voxel v) {
+      finished.world.frame(), finished.world.occupied(), occupancy.full(), [&](sim::Voxel v) {
         const sim::Occupancy taken = occupancy.at(v);
         const bool thin = taken.stops > taken.alpha;
         return render::VolumeVoxel{light.at(v), thin ? render::shareOfThin(taken.stops) : taken.alpha};

@@ -18,10 +18,10 @@ sim::BitVolume without(sim::BitVolume set, const sim::BitVolume& other) {
   return set;
 }
 
-/// How slanting the sun falls on the faces of cubes along a surface, in the mean over what an eye sees of them.
-/// Along every axis the surface has as much of them as its normal has of the axis. Those that look away hide
-/// a part of the others, from the eye as from the sun: both from the same edges on, so that of what they hide
-/// along an axis the smaller part lies in the larger.
+/// How slanting the sun falls on the faces of cubes along a surface, in the mean over what an eye sees of
+/// them. Along every axis the surface has as much of them as its normal has of the axis. Those that look away
+/// hide a part of the others, from the eye as from the sun: both from the same edges on, so that of what they
+/// hide along an axis the smaller part lies in the larger.
 float slantOfCubes(const sim::Vec3& normal, const sim::Vec3& to_eye, const sim::Vec3& to_sun) {
   double seen = 0.0, sunny = 0.0, both = 0.0;
   sim::Vec3 hidden(0.0), dark(0.0);
@@ -102,7 +102,8 @@ VoxelColours::Light VoxelColours::lightOf(sim::Voxel v, const sim::Vec3* to_eye)
     sun += sunlit;
     slants += slant;
     if (to_eye == nullptr) continue;
-    const auto turned = static_cast<float>(std::max(0.0, glm::dot(sim::Vec3(sim::kFaceNormals[face]), *to_eye)));
+    const auto turned =
+        static_cast<float>(std::max(0.0, glm::dot(sim::Vec3(sim::kFaceNormals[face]), *to_eye)));
     seen += turned;
     seen_sun += turned * sunlit;
   }

@@ -9,7 +9,8 @@ namespace espalier::scenes {
 namespace {
 
 /// How thick a mesh is where it is open; of the scene's meshes, those that are tiled have names of their own.
-std::vector<double> thicknesses(const Scene& scene, const std::vector<sim::TiledMesh>& meshes, double voxel_m) {
+std::vector<double> thicknesses(const Scene& scene, const std::vector<sim::TiledMesh>& meshes,
+                                double voxel_m) {
   std::vector<double> result;
   for (const sim::TiledMesh& tiled : meshes) {
     double thickness_m = SceneMesh().thickness_m;

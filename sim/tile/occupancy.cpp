@@ -107,8 +107,8 @@ class Layer {
     const auto& numbers = mesh.layers[static_cast<std::size_t>(y_)];
     if (numbers.empty() || mesh.first_z > mesh.last_z) return;
     first_z_ = mesh.first_z;
-    flux_.assign(static_cast<std::size_t>(mesh.last_z - mesh.first_z + 1) * static_cast<std::size_t>(width_ + 1),
-                 {});
+    flux_.assign(
+        static_cast<std::size_t>(mesh.last_z - mesh.first_z + 1) * static_cast<std::size_t>(width_ + 1), {});
     for (const std::uint32_t i : numbers) {
       const auto& t = mesh.tiled->mesh.triangles[i];
       CutPolygon triangle;
@@ -176,8 +176,8 @@ class Layer {
     return g;
   }
 
-  /// Whether a voxel that this mesh does not touch lies inside it; nothing where other meshes have it, or where
-  /// tiling, which rounds, found it touched.
+  /// Whether a voxel that this mesh does not touch lies inside it; nothing where other meshes have it, or
+  /// where tiling, which rounds, found it touched.
   std::optional<bool> inside(const Layered& mesh, int x, int z) const {
     const Voxel v(x, y_, z);
     if (!scene_.at(v)) return false;

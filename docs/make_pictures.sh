@@ -54,6 +54,10 @@ trap 'rm -f scenes/library/unbounced.yaml' EXIT
 grow scenes/library/unbounced.yaml
 oiiotool $work/unbounced/first_pass.png $work/loggia/first_pass.png --mosaic:pad=12 2x1 -o $work/bounced.png
 small $work/bounced.png bounced 1200
+oiiotool --pattern constant:color=1,1,1 1132x560 3 -o $work/volume.png
+oiiotool $work/courtyard/first_pass.png --cut 560x560+380+30 $work/volume.png --paste +0+0 -o $work/volume.png
+oiiotool $work/courtyard/volume.png --cut 560x560+380+30 $work/volume.png --paste +572+0 -o $work/volume.png
+small $work/volume.png volume 1000
 if command -v blender >/dev/null; then  # the one picture that another program draws
   ${ESPALIER:-./run espalier} grow scenes/library/courtyard.yaml --diced first_pass --obj --no-pictures --quiet -o $work/diced
   blender -b -P docs/draw_diced.py -- $work/diced/diced.obj "$PWD/$work/diced/blender.png" 4.3 5.8 8.3 -0.1 0.85 -0.2 29

@@ -32,6 +32,8 @@ std::string_view nameOf(ImageKind kind) {
       return "surface_colour";
     case ImageKind::first_pass:
       return "first_pass";
+    case ImageKind::volume:
+      return "volume";
     case ImageKind::sun_hours:
       return "sun_hours";
     case ImageKind::vines:

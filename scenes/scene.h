@@ -58,7 +58,7 @@ struct SceneMesh {
   bool optional = false;  ///< a missing file skips the scene instead of being an error
   /// In place of a file, or an .obj file without faces: polylines; one of a single place is a point.
   std::vector<std::vector<sim::Vec3>> lines_m;
-  double thickness_m = 0.02;  ///< of lines and points as they are drawn
+  double thickness_m = 0.02;  ///< of lines and points as they are drawn; of what is open
   bool guide = false;         ///< is felt and stands in nobody's way (sim::TiledMesh)
   Placement placement;
   std::optional<sim::Colour> colour;     ///< instead of the file's materials; linear RGB
@@ -255,6 +255,7 @@ enum class ImageKind {
   shadow_matte,
   surface_colour,
   first_pass,   // Greene's figure 6
+  volume,       // the same, with opacity accumulated along rays
   sun_hours,    // of direct sun, a day
   vines,        // the plant itself, leaves and stems
   section,      // a cut through the world with its boundary layers

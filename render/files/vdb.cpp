@@ -13,6 +13,7 @@
 #include <memory>
 #include <sstream>
 #include <string_view>
+#include <type_traits>
 
 #include "sim/base/byte_sink.h"
 #include "sim/base/error.h"
@@ -105,9 +106,18 @@ openvdb::Vec3f toVdb(sim::Vec3f value) {
 }
 
 template <class Value>
-openvdb::GridBase::Ptr gridOf(const std::vector<VdbPart<Value>>& parts, sim::Voxel size) {
+openvdb::GridBase::Ptr gridOf(const std::vector<VdbPart<Value>>& parts, const VdbField& field,
+                              const sim::World& world) {
   using Tree = typename openvdb::tree::Tree4<decltype(toVdb(Value{})), 5, 4, 3>::Type;
+  const sim::Voxel size = world.frame().size;
   auto grid = openvdb::Grid<Tree>::create();
+  if constexpr (std::is_same_v<Value, float>) {
+    if (field.elsewhere) {
+      grid->setTree(std::make_shared<Tree>(world.grids().part->tree(), 0.0f, *field.elsewhere,
+                                           openvdb::TopologyCopy()));
+      grid->setGridClass(openvdb::GRID_FOG_VOLUME);
+    }
+  }
   for (const auto& part : parts) touchLeaves(grid->tree(), *part.where);
   // Not by LeafManager's own loop: ours hears when it shall stop, and sanitizers see what it orders.
   std::vector<typename Tree::LeafNodeType*> leaves;
@@ -146,8 +156,9 @@ void addFields(std::vector<MakeGrid>& out, const std::vector<VdbField>& fields, 
           }
         },
         field.parts);
-    out.push_back([&field, &world, size] {
-      const auto grid = std::visit([&](const auto& parts) { return gridOf(parts, size); }, field.parts);
+    out.push_back([&field, &world] {
+      const auto grid =
+          std::visit([&](const auto& parts) { return gridOf(parts, field, world); }, field.parts);
       grid->setTransform(world.grids().part->transform().copy());
       if (std::holds_alternative<std::vector<VdbPart<sim::Vec3f>>>(field.parts))
         grid->setVectorType(field.directions ? openvdb::VEC_COVARIANT_NORMALIZE

@@ -2,6 +2,7 @@
 #include <cstdint>
 #include <functional>
 #include <iosfwd>
+#include <optional>
 #include <string>
 #include <utility>
 #include <variant>
@@ -32,6 +33,9 @@ struct VdbField {
       parts;
   std::vector<std::pair<std::string, std::string>> about = {};  ///< more metadata: name and text
   bool directions = true;  ///< vectors are of length 1; otherwise turning a grid keeps their lengths
+  /// Of numbers: what all other voxels have that the scene occupies. Then the grid is one of densities, and
+  /// the insides of solids take no room.
+  std::optional<float> elsewhere = {};
 };
 
 /// A .vdb file of the world. Grids, all with one transform from voxels to world metres: `density` (1 where

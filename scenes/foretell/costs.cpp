@@ -63,6 +63,7 @@ StageCost drawingCost(const PicturesWanted& wanted, const std::vector<Seen>& cam
   } else {
     cost.work = {0.2 * panels_s, 0.8 * panels_s};
   }
+  cost.work.shared_s += 6.5e-6 * pixels * countOf(wanted, ImageKind::volume);
   // The ground that they are drawn on is seen once; segments have some four triangles each at least.
   const double graphs = countOf(wanted, ImageKind::points) + countOf(wanted, ImageKind::graph) +
                         countOf(wanted, ImageKind::field);

@@ -29,6 +29,8 @@
 #include "scenes/show/light_fields.h"
 #include "scenes/show/picture_memory.h"
 #include "scenes/show/pictures.h"
+#include "scenes/show/volume_picture.h"
+#include "scenes/show/world_occupancy.h"
 #include "scenes/show/vines_picture.h"
 #include "scenes/write/output_folder.h"
 #include "sim/base/counted.h"
@@ -43,8 +45,8 @@ constexpr const char *kSkeletonFile = "skeleton.json", *kWorldFile = "world.vdb"
 /// For pictures of what has grown on a site. Borrows all but the textures.
 Finished finishedOn(const Scene& scene, const Site& site, const sim::BitVolume& bare,
                     const sim::Growth& growth, const sim::Lighting& light,
-                    const PictureLight& lit, const std::vector<render::PlantModel>& models,
-                    render::KnownPictures textures) {
+                    const PictureLight& lit, const std::optional<WorldOccupancy>& occupancy,
+                    const std::vector<render::PlantModel>& models, render::KnownPictures textures) {
   return {site.meshes,
           site.world,
           bare,
@@ -53,7 +55,8 @@ Finished finishedOn(const Scene& scene, const Site& site, const sim::BitVolume& 
           models,
           std::move(textures),
           growthSettings(scene, site, {}).sky_table,
-          lit};
+          lit,
+          occupancy ? &*occupancy : nullptr};
 }
 
 /// What light and files take besides: of each voxel some bits, and two numbers where there are vines to draw;
@@ -191,9 +194,12 @@ Report runScene(const Scene& scene, const RunOptions& options, const Keeping& ke
   report.occupied_voxels = world.occupied().count();
 
   std::shared_ptr<const sim::VoxelSet> layers;
+  std::optional<WorldOccupancy> occupancy;
   sim::Lighting light = stages.run("lighting", [&] {
     layers = std::make_shared<const sim::VoxelSet>(openLayers(bare, world));
-    return lightFor(scene, site, options.pictures && drawsVines(scene.images), bare, layers, options.models);
+    occupancy.emplace(scene, site.meshes, world, bare, growth.plants);
+    return lightFor(scene, site, options.pictures ? scene.images : std::vector<ImageSpec>(), bare, layers,
+                    options.models);
   });
   const PictureLight lit = litFor(scene, site, growth.plants, light, options.pictures, options.models, stages);
   report.light = light.about;
@@ -217,6 +223,7 @@ Report runScene(const Scene& scene, const RunOptions& options, const Keeping& ke
                    }});
   files.push_back({kWorldFile, [&](std::ostream& out) {
                      std::vector<render::VdbField> fields = worldFields(light, *layers);
+                     fields.insert(fields.begin(), occupancy->alpha());
                      fields.insert(fields.end(), guides.fields.begin(), guides.fields.end());
                      render::writeVdb(out, world, fields, report.made_by);
                    }});
@@ -232,7 +239,8 @@ Report runScene(const Scene& scene, const RunOptions& options, const Keeping& ke
     stages.run("drawing", [&] {
       textures = texturesFor(drawsVines(scene.images) || scene.film, scene, site.meshes, options, report);
       for (const Problem& unread : textures.unread) late_warnings.push_back(unread.text);
-      const Finished finished = finishedOn(scene, site, bare, growth, light, lit, models, textures.pictures);
+      const Finished finished =
+          finishedOn(scene, site, bare, growth, light, lit, occupancy, models, textures.pictures);
       auto pictures =
           inScene(scene, [&] { return drawPictures(picturesOf(scene, report.made_by), finished); });
       for (OutputFile& file : pictures) files.push_back(std::move(file));
@@ -307,13 +315,15 @@ Report renderScene(Scene scene, const std::filesystem::path& from, const RunOpti
   const sim::Growth growth = takeUp(std::move(*state), from, scene, site, prepared.plantings, Same::plants);
   report.growth = growthReport(scene, site, bare, growth, prepared.seed_lights);
   report.occupied_voxels = site.world.occupied().count();
+  std::optional<WorldOccupancy> occupancy;
   sim::Lighting light = stages.run("lighting", [&] {
     if (options.on_foretold) {
       report.run.foretold = foretellPictures(site, prepared.plantings, grownIn(growth.plants),
                                              picturesOf(scene), stages.began());
       options.on_foretold(*report.run.foretold);
     }
-    return lightFor(scene, site, drawsVines(scene.images), bare, nullptr);
+    if (drawsVolumes(scene.images)) occupancy.emplace(scene, site.meshes, site.world, bare, growth.plants);
+    return lightFor(scene, site, scene.images, bare, nullptr);
   });
   const PictureLight lit = litFor(scene, site, growth.plants, light, true, {}, stages);
   report.light = light.about;
@@ -324,7 +334,8 @@ Report renderScene(Scene scene, const std::filesystem::path& from, const RunOpti
   std::vector<OutputFile> files = stages.run("drawing", [&] {
     textures = texturesFor(drawsVines(scene.images) || scene.film, scene, site.meshes, options, report);
     for (const Problem& one : textures.unread) late_warnings.push_back(one.text);
-    const Finished finished = finishedOn(scene, site, bare, growth, light, lit, models, textures.pictures);
+    const Finished finished =
+        finishedOn(scene, site, bare, growth, light, lit, occupancy, models, textures.pictures);
     return inScene(scene, [&] { return drawPictures(picturesOf(scene, report.made_by), finished); });
   });
   if (scene.film) {

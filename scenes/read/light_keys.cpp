@@ -67,7 +67,8 @@ std::optional<SunSpec::Hours> hoursOfSun(const SunSpec& spec) {
 }
 
 bool showsShadows(ImageKind kind) {
-  return kind == ImageKind::shadow_matte || kind == ImageKind::first_pass || kind == ImageKind::vines;
+  return kind == ImageKind::shadow_matte || kind == ImageKind::first_pass || kind == ImageKind::volume ||
+         kind == ImageKind::vines;
 }
 
 void checkShadowHour(const Scene& scene, const Given& given, const Complain& complain) {

@@ -83,7 +83,8 @@ std::shared_ptr<const Table> meshKeys() {
       .metres("thickness", &SceneMesh::thickness_m,
               {.unit = kMetres,
                .limits = {0.0, 1e6, true},
-               .meaning = "Of lines and points, where they are drawn."});
+               .meaning = "Of lines and points, where they are drawn; and of what encloses nothing, as the "
+                          "share of voxels that it takes (alpha) has it."});
   addPlacement(table);
   return table.colour("colour", &SceneMesh::colour, {.meaning = "Instead of the file's own colours."})
       .section("emits", &SceneMesh::emits, rules::emissionKeys(),
@@ -253,7 +254,8 @@ std::shared_ptr<const Table> imageKeys() {
   std::vector<std::pair<std::string, ImageKind>> kinds;
   for (const auto kind :
        {ImageKind::sun_exposure, ImageKind::sky_exposure, ImageKind::threshold, ImageKind::shadow_matte,
-        ImageKind::surface_colour, ImageKind::first_pass, ImageKind::sun_hours, ImageKind::vines,
+        ImageKind::surface_colour, ImageKind::first_pass, ImageKind::volume, ImageKind::sun_hours,
+        ImageKind::vines,
         ImageKind::section, ImageKind::attempts, ImageKind::points, ImageKind::graph, ImageKind::field,
         ImageKind::narrow_band, ImageKind::sky_tables, ImageKind::voxels, ImageKind::contact_sheet}) {
     kinds.emplace_back(nameOf(kind), kind);

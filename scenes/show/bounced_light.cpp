@@ -139,7 +139,8 @@ std::function<sim::Colour(sim::Vec3, sim::Vec3f)> bouncedIn(const PictureLight& 
 LitKinds litKinds(const std::vector<ImageSpec>& images) {
   LitKinds kinds;
   for (const ImageSpec& image : images) {
-    kinds.first_pass = kinds.first_pass || image.kind == ImageKind::first_pass;
+    kinds.first_pass =
+        kinds.first_pass || image.kind == ImageKind::first_pass || image.kind == ImageKind::volume;
     kinds.vines = kinds.vines || image.kind == ImageKind::vines;
   }
   return kinds;

@@ -26,7 +26,7 @@ constexpr double kFragment = sizeof(render::Fragment) + 1 + 12 * kFloat;
 /// where its own begin.
 constexpr double kSeen = 3 * sizeof(render::Fragment) + kFloat + sizeof(std::size_t);
 
-/// Channels of the measured values; none of what is no panel.
+/// Channels of the measured values; none of what has none.
 int measuredChannels(ImageKind kind) {
   switch (kind) {
     case ImageKind::sun_exposure:
@@ -38,6 +38,7 @@ int measuredChannels(ImageKind kind) {
       return 3;
     case ImageKind::surface_colour:
     case ImageKind::first_pass:
+    case ImageKind::volume:
       return 4;
     default:
       return 0;
@@ -90,7 +91,7 @@ double pictureBytes(const PicturesWanted& wanted, double fragments) {
       packed = std::max(packed, pixels * (kDisplay + 3 + kFloat * measured));
     }
     graphs = graphs || isGraph(image.kind);
-    if (measured > 0 && cameras.insert(image.camera).second)
+    if (isPanel(image.kind) && cameras.insert(image.camera).second)
       kept += pixels * (sizeof(std::size_t) + kFragment * fragments);
   }
   // Then either a camera is still looking, or each thread packs a picture: with its legend drawn on a copy,

@@ -20,8 +20,10 @@
 #include "scenes/show/light_texts.h"
 #include "scenes/show/model_parts.h"
 #include "scenes/show/picture_memory.h"
+#include "scenes/show/picture_sheet.h"
 #include "scenes/show/sky_table_pictures.h"
 #include "scenes/show/vines_picture.h"
+#include "scenes/show/volume_picture.h"
 #include "sim/base/error.h"
 #include "sim/base/parallel.h"
 #include "sim/base/stop.h"
@@ -234,29 +236,6 @@ Image Studio::vines(const ImageSpec& image) const {
   return picture;
 }
 
-/// By image, as contact sheets show them; empty where none does.
-using Thumbnails = std::vector<Image>;
-
-Image contactSheet(const PicturesWanted& wanted, const sim::LightAbout& about, const ImageSpec& sheet,
-                   const Thumbnails& thumbnails) {
-  std::vector<render::Captioned> captioned;
-  bool light = false;
-  for (const std::string& name : sheet.of) {
-    const auto spec = std::find_if(wanted.images.begin(), wanted.images.end(),
-                                   [&](const ImageSpec& image) { return image.name == name; });
-    light = light || panelOf(spec->kind).has_value();
-    const std::string letter(1, static_cast<char>('A' + captioned.size()));
-    captioned.push_back({&thumbnails[static_cast<std::size_t>(spec - wanted.images.begin())],
-                         spec->letter.empty() ? letter : spec->letter,
-                         spec->caption.empty() ? name : spec->caption});
-  }
-  render::SheetLook look;
-  look.columns = captioned.size() <= 4 ? static_cast<int>(captioned.size()) : captioned.size() <= 6 ? 3 : 4;
-  look.title = sheet.caption.empty() ? wanted.title : sheet.caption;
-  if (light) look.note = "sky: " + about.sky + (about.sun.empty() ? "" : "\n" + about.sun);
-  return render::contactSheet(captioned, look);
-}
-
 }  // namespace
 
 render::LightNeeds lightNeeds(const rules::RuleSet& rules) {
@@ -291,7 +270,7 @@ std::vector<std::string> fileNames(const std::vector<ImageSpec>& images) {
   std::vector<std::string> names;
   for (const ImageSpec& image : images) {
     names.push_back(image.name + ".png");
-    if (isPanel(image.kind)) names.push_back(image.name + ".exr");
+    if (isPanel(image.kind) || image.kind == ImageKind::volume) names.push_back(image.name + ".exr");
   }
   return names;
 }
@@ -300,7 +279,7 @@ std::vector<OutputFile> drawPictures(const PicturesWanted& wanted, const Finishe
   Studio studio(wanted, finished);
   // By image, so that threads may fill them in.
   std::vector<std::vector<OutputFile>> files(wanted.images.size());
-  const auto thumbnails = std::make_shared<Thumbnails>(wanted.images.size());
+  const auto thumbnails = std::make_shared<std::vector<Image>>(wanted.images.size());
   const auto metadata = [&](const ImageSpec& image) {
     return metadataOf(wanted, finished.light.about, image);
   };
@@ -357,6 +336,15 @@ std::vector<OutputFile> drawPictures(const PicturesWanted& wanted, const Finishe
   // The two that take time, side by side: each has stretches that keep one core alone busy. Panels are packed
   // as soon as they are painted, while there may still be vines to draw.
   sim::parallelInvoke(drawPanels, drawVines);
+  forEach([](ImageKind kind) { return kind == ImageKind::volume; },
+          [&](std::size_t i) {
+            const ImageSpec& image = wanted.images[i];
+            const auto [display, measured, channels] = volumePicture(
+                finished, wanted.to_sun, cameraOf(wanted, image), wanted.width_px, wanted.height_px);
+            keepThumbnail(i, display);
+            files[i] = {fileOf(image.name + ".png", render::encodePng(display, metadata(image))),
+                        fileOf(image.name + ".exr", render::encodeExr(measured, channels, metadata(image)))};
+          });
   const auto drawEach = [&](ImageKind kind, const auto& drawn) {
     forEach([=](ImageKind other) { return other == kind; },
             [&](std::size_t i) { keep(i, drawn(wanted.images[i])); });

@@ -9,6 +9,7 @@
 #include "scenes/scene.h"
 #include "scenes/show/bounced_light.h"
 #include "scenes/show/shown_field.h"
+#include "scenes/show/world_occupancy.h"
 #include "scenes/write/output_folder.h"
 #include "sim/base/provenance.h"
 #include "sim/grow/grow.h"
@@ -56,6 +57,7 @@ struct Finished {
   render::KnownPictures textures = {};            ///< of the meshes' materials, for images of vines
   std::function<sim::SkyTable()> sky_table = {};  ///< as growth has it, for images of sky tables
   PictureLight lit = {};                          ///< beside `light`
+  const WorldOccupancy* occupancy = nullptr;      ///< for images of volumes
 };
 
 /// Whether it is one of the panels of render/voxels/panels.h.

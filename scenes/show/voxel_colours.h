@@ -25,13 +25,19 @@ class VoxelColours {
   /// occupies it; else that of the nearest voxel where one does. A leaf in a stem's voxel is no less green.
   /// Where no such part has any voxel, everything's.
   sim::Colour at(sim::Voxel voxel, sim::PartKind kind) const;
+  /// The light that falls onto what an eye sees of it, of first_pass: as much as onto the cubes that stand
+  /// there, onto whose faces the sun falls slanting.
+  sim::Colour lightSeen(sim::Vec3 to_eye, sim::Voxel voxel, sim::PartKind kind) const;
+  /// What it sends on of such a light, linear, with what it sends out by itself.
+  sim::Colour sentOn(const sim::Colour& light, sim::Voxel voxel, sim::PartKind kind) const;
 
  private:
   struct Light {
     sim::Colour ambient{0.0f};  // all but the sun's
     float sun = 0.0f;           // as render::firstPass has it
   };
-  Light lightOf(sim::Voxel lit) const;
+  Light lightOf(sim::Voxel lit, const sim::Vec3* to_eye) const;
+  sim::Colour lightOnto(sim::Voxel voxel, sim::PartKind kind, const sim::Vec3* to_eye) const;
   sim::Colour ambientAtFace(sim::Voxel voxel, std::uint8_t face) const;
 
   const sim::World& world_;

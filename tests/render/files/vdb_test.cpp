@@ -108,6 +108,21 @@ TEST_F(Vdb, FieldsAreActiveWhereTheyAreKnownAndNowhereElse) {
   });
 }
 
+TEST_F(Vdb, AGridMayHaveOneValueInAllElseThatIsOccupied) {
+  std::vector<render::VdbField> one = fields();
+  one.resize(1);
+  one[0].elsewhere = 7.0f;
+  one[0].parts = std::vector<render::VdbPart<float>>{{&near_, [](Voxel v, std::size_t) { return number(v); }}};
+  const ReadBack file = readBack(render::vdbBytes(world_, one));
+  const auto place = file.grid<openvdb::FloatGrid>("place");
+  EXPECT_EQ(place->getGridClass(), openvdb::GRID_FOG_VOLUME);
+  forEachVoxel([&](Voxel v, openvdb::Coord at) {
+    const float expected = near_.has(v) ? number(v) : stands_.has(v) ? 7.0f : 0.0f;
+    ASSERT_EQ(place->tree().getValue(at), expected);
+    ASSERT_EQ(place->tree().isValueOn(at), near_.has(v) || stands_.has(v));
+  });
+}
+
 TEST_F(Vdb, SaysWhatItHolds) {
   const ReadBack file = readBack(render::vdbBytes(world_));
   EXPECT_EQ(file.grids.size(), 8u);  // no exposure was given

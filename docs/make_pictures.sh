@@ -50,13 +50,15 @@ small $work/courtyard/contact_sheet.png courtyard_panels 1100
 grow scenes/library/loggia.yaml
 small $work/loggia/vines.png loggia 480
 sed '/^interreflection/d' scenes/library/loggia.yaml >scenes/library/unbounced.yaml
-trap 'rm -f scenes/library/unbounced.yaml' EXIT
+trap 'rm -f scenes/library/{unbounced,court_volume}.yaml' EXIT
 grow scenes/library/unbounced.yaml
 oiiotool $work/unbounced/first_pass.png $work/loggia/first_pass.png --mosaic:pad=12 2x1 -o $work/bounced.png
 small $work/bounced.png bounced 1200
+sed 's/  - {kind: first_pass/  - volume\n&/' scenes/library/courtyard.yaml >scenes/library/court_volume.yaml
+grow scenes/library/court_volume.yaml
 oiiotool --pattern constant:color=1,1,1 1132x560 3 -o $work/volume.png
 oiiotool $work/courtyard/first_pass.png --cut 560x560+380+30 $work/volume.png --paste +0+0 -o $work/volume.png
-oiiotool $work/courtyard/volume.png --cut 560x560+380+30 $work/volume.png --paste +572+0 -o $work/volume.png
+oiiotool $work/court_volume/volume.png --cut 560x560+380+30 $work/volume.png --paste +572+0 -o $work/volume.png
 small $work/volume.png volume 1000
 if command -v blender >/dev/null; then  # the one picture that another program draws
   ${ESPALIER:-./run espalier} grow scenes/library/courtyard.yaml --diced first_pass --obj --no-pictures --quiet -o $work/diced
@@ -110,7 +112,7 @@ beside $work/figure_7_parts.png 640 $work/gallery/tendril/{sky_tables,vines}.png
 small $work/gallery/figure_1/figure_1.png ../gallery/figure_1 560 128
 small $work/gallery/figure_2/figure_2.png ../gallery/figure_2 800 64
 small $work/figure_3_parts.png ../gallery/figure_3 900
-small $work/gallery/courtyard/limbs.png ../gallery/figure_4 560
+small $work/gallery/garden_wall/vines.png ../gallery/figure_4 560
 small $work/gallery/courtyard/vines.png ../gallery/figure_5 640
 small $work/gallery/courtyard/contact_sheet.png ../gallery/figure_6 840
 small $work/figure_7_parts.png ../gallery/figure_7 860 128

@@ -84,8 +84,8 @@ std::span<const GalleryFigure> galleryFigures() {
 
       {.name = "figure_4",
        .title = "The rules of the vines",
-       .scene = "courtyard",
-       .pictures = {{"courtyard", "limbs", "", "What these rules grow, without leaves"}},
+       .scene = "garden_wall",
+       .pictures = {{"garden_wall", "vines", "", "What these rules grow on a wall in the sun"}},
        .rules = "courtyard_vine",
        .paper =
            "The growth rules of figure 5's vines as a listing: 17 seeds at the base of the walls, the limbs' "
@@ -97,13 +97,12 @@ std::span<const GalleryFigure> galleryFigures() {
        .differs = {"Our words are others: each trial is bent by bias, rejected by require, and what is left "
                    "is ranked "
                    "by prefer.",
-                   "Three of the 17 seeds are printed; our scene has these and 14 of our own. Seeds belong "
-                   "to scenes, "
-                   "rules to plants.",
-                   "Our rules also say what the stem looks like. In the bed, as the scene adds, vines branch "
-                   "less and grow steeper until they meet a wall.",
-                   "The paper has a listing here and no picture; ours is figure 5's court without leaves, "
-                   "blossoms and paving."},
+                   "Three of the 17 seeds are printed; our courtyard has these and 14 of our own. Seeds "
+                   "belong to scenes, rules to plants.",
+                   "Our rules also say what the stem looks like. In the courtyard's bed, as that scene adds, "
+                   "vines branch less and grow steeper until they meet a wall.",
+                   "The paper has a listing here and no picture; ours is of the same rules on another wall, "
+                   "which looks to the sun."},
        .numbers = {{"Limb", "length 2.4", Measured::said, "length: 2.4"},
                    {"Branching", "branch_age_range 1 3, branch_angle 60", Measured::said,
                     "branch_age_range: [1, 3], branch_angle: 60"},

@@ -110,13 +110,13 @@ Growth restore(State state, World& world, const std::vector<Planting>& plantings
       Plant& plant = growth.plants[number];
       require(plant.key == planting.seeds[k].key,
               fmt::format("seed {} of '{}' has another key or stands elsewhere", k + 1, planting.name));
+      // A seedling, grown: what a state does not hold is as its process has it.
+      Plant grown = seedling;
+      grown.key = plant.key;
+      grown.skeleton = std::move(plant.skeleton);
+      grown.elements = std::move(plant.elements);
+      plant = std::move(grown);
       plant.name = planting.seeds.size() == 1 ? planting.name : fmt::format("{} {}", planting.name, k + 1);
-      plant.shapes = seedling.shapes;
-      plant.stem_colour = seedling.stem_colour;
-      plant.stem_emits = seedling.stem_emits;
-      plant.bark = seedling.bark;
-      plant.bark_picture = seedling.bark_picture;
-      plant.girth = seedling.girth;
       plant.stem_part = part_of(plant.name, "stem", PartKind::stem, number);
       for (const ElementShape& shape : plant.shapes)
         plant.element_parts.push_back(part_of(plant.name, shape.name, PartKind::element, number));

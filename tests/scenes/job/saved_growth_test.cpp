@@ -166,6 +166,29 @@ TEST(KeptPictures, AreThoseThatItGoesOnWith) {
       << goOn("bark", 0.0f);
 }
 
+/// What a state does not hold, such as bark and glow, is as the rules have it.
+TEST(KeptLooks, OfPlantsThatWentOnAreThoseOfOneRun) {
+  const tests::Scratch scratch;
+  scratch.write("leaf.png", pngOf(1.0f));
+  const auto run = [&](const char* folder, const char* iterations, bool resume) {
+    std::string text = paintedPlot("bark, emits: {colour: \"#80ff80\", strength: 3}");
+    text.replace(text.find("size: 0.4"), 9, "size: 0.4, emits: \"#ff8080\"");
+    text.replace(text.find("iterations: 8"), 13, iterations);
+    auto scene = readScene(scratch.write("scene.yaml", text));
+    ASSERT_TRUE(scene) << format(scene.problems());
+    RunOptions options;
+    options.folder = scratch.path(folder);
+    options.pictures = false;
+    runScene(*scene, options, {.resume = resume});
+  };
+  run("at_once", "iterations: 8", false);
+  run("in_two", "iterations: 4", false);
+  run("in_two", "iterations: 8", true);
+  const std::string model = tests::fileText(scratch.path("at_once/plant.glb"));
+  EXPECT_NE(model.find("KHR_materials_emissive_strength"), std::string::npos);
+  EXPECT_TRUE(model == tests::fileText(scratch.path("in_two/plant.glb")));
+}
+
 TEST(KeptFront, ThatIsNoneIsADamagedStateToRunsAndPictures) {
   const tests::Scratch scratch;
   const std::string text =

@@ -268,6 +268,16 @@ TEST_F(MeshLooks, LightOfItsOwnMayBeStrong) {
   EXPECT_THROW(import("house.glb"), sim::InputError);
 }
 
+TEST_F(MeshLooks, WithATextureOfLightThatIsNotReadNothingShines) {
+  write("looks.bin", looksBuffer());
+  json document = texturedDocument();
+  document["materials"][0]["emissiveTexture"] = {{"index", 0}};
+  write("house.glb", tests::glb(document, tests::gltfBuffer()));
+  EXPECT_EQ(import("house.glb").materials.at(0).emissive, sim::Colour(0.0f));
+  EXPECT_NE(warning().find("'emissiveTexture' of its materials is of a kind that is not read"), std::string::npos)
+      << warning();
+}
+
 TEST_F(MeshLooks, NumbersOfMaterialsAreLookedAt) {
   write("looks.bin", looksBuffer());
   const auto changed = [&](const std::function<void(json & material)>& change) {

@@ -9,6 +9,7 @@
 #include "render/image/image_io.h"
 #include "scenes/accuracy/certificate.h"
 #include "scenes/foretell/foretell.h"
+#include "scenes/job/run_light.h"
 #include "scenes/job/stages.h"
 #include "scenes/job/warnings.h"
 #include "scenes/lights.h"
@@ -145,13 +146,7 @@ ExposeResult exposeScene(const Scene& scene, const RunOptions& options) {
     if (scene.interreflection && options.pictures) wanted.to_sun = shadowDirection(scene.sun);
     return sim::lightOf(site.world, site.sky, site.sun, wanted);
   });
-  PictureLight lit;
-  if (scene.interreflection && options.pictures) {
-    lit = stages.run("bouncing light", [&] {
-      return pictureLight(scene, site.meshes, site.world, {}, light, litKinds(pictures.images),
-                          shadowDirection(scene.sun));
-    });
-  }
+  const PictureLight lit = litFor(scene, site, {}, light, pictures, {}, stages);
   report.light = light.about;
   report.exposure = {light.surfaces.size(), light.gaps->count(), space ? space->count() : 0};
 

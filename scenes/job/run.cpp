@@ -201,7 +201,7 @@ Report runScene(const Scene& scene, const RunOptions& options, const Keeping& ke
     return lightFor(scene, site, options.pictures ? scene.images : std::vector<ImageSpec>(), bare, layers,
                     options.models);
   });
-  const PictureLight lit = litFor(scene, site, growth.plants, light, options.pictures, options.models, stages);
+  const PictureLight lit = litFor(scene, site, growth.plants, light, picturesAsked(scene, options), options.models, stages);
   report.light = light.about;
   std::vector<render::PlantModel> models;  // for pictures; else they are made while they are written
   if (options.pictures)
@@ -325,7 +325,7 @@ Report renderScene(Scene scene, const std::filesystem::path& from, const RunOpti
     if (drawsVolumes(scene.images)) occupancy.emplace(scene, site.meshes, site.world, bare, growth.plants);
     return lightFor(scene, site, scene.images, bare, nullptr);
   });
-  const PictureLight lit = litFor(scene, site, growth.plants, light, true, {}, stages);
+  const PictureLight lit = litFor(scene, site, growth.plants, light, picturesOf(scene), {}, stages);
   report.light = light.about;
   const auto models =
       stages.run("modelling", [&] { return modelPlants(site.world.frame(), growth.plants, bare); });

@@ -32,9 +32,10 @@ sim::Lighting lightFor(const Scene& scene, const Site& site, const std::vector<I
 }
 
 PictureLight litFor(const Scene& scene, const Site& site, const std::vector<sim::Plant>& plants,
-                    sim::Lighting& light, bool pictures, const ModelsWanted& models, Stages& stages) {
-  LitKinds kinds = pictures ? litKinds(scene.images) : LitKinds();
-  kinds.vines = kinds.vines || (pictures && scene.film);
+                    sim::Lighting& light, const PicturesWanted& pictures, const ModelsWanted& models,
+                    Stages& stages) {
+  LitKinds kinds = litKinds(pictures.images);
+  kinds.vines = kinds.vines || pictures.film_frames > 0;
   kinds.first_pass = kinds.first_pass || models.diced == ImageKind::first_pass;
   const auto find = [&] {
     return pictureLight(scene, site.meshes, site.world, plants, light, kinds, shadowDirection(scene.sun));

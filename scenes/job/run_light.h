@@ -6,6 +6,7 @@
 #include "scenes/job/stages.h"
 #include "scenes/prepare/site.h"
 #include "scenes/show/bounced_light.h"
+#include "scenes/show/pictures.h"
 #include "sim/light/lighting.h"
 
 /// The light of what has grown in a run.
@@ -21,9 +22,10 @@ sim::Lighting lightFor(const Scene& scene, const Site& site, const std::vector<I
                        const sim::BitVolume& bare, std::shared_ptr<const sim::VoxelSet> layers,
                        const ModelsWanted& models = {});
 
-/// How pictures of what has grown, a film if the scene has one, and models that look like them are lit.
-/// `light` is told of it.
+/// How the pictures that are drawn, of whatever has grown, a film if there is to be one, and models that look
+/// like them are lit. `light` is told of it.
 PictureLight litFor(const Scene& scene, const Site& site, const std::vector<sim::Plant>& plants,
-                    sim::Lighting& light, bool pictures, const ModelsWanted& models, Stages& stages);
+                    sim::Lighting& light, const PicturesWanted& pictures, const ModelsWanted& models,
+                    Stages& stages);
 
 }  // namespace espalier::scenes

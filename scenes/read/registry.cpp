@@ -88,7 +88,7 @@ std::shared_ptr<const Table> meshKeys() {
   addPlacement(table);
   return table.colour("colour", &SceneMesh::colour, {.meaning = "Instead of the file's own colours."})
       .section("emits", &SceneMesh::emits, rules::emissionKeys(),
-               {.meaning = "Light that it sends out, instead of the file's own; a colour stands for its own."},
+               {.meaning = "Light that it sends out, instead of the file's own, and with interreflection onto others too."},
                "colour")
       .oneOf({"file", "lines"})
       .shared();

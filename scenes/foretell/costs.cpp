@@ -31,6 +31,18 @@ StageCost lightingCost(const LitWorld& w) {
   return cost;
 }
 
+StageCost bouncingCost(const LitWorld& w, const InterreflectionSpec& asked, int kinds) {
+  constexpr double kReceiversAPlace = 1.3, kUsualPasses = 8.0;
+  const double directions = 2.0 * asked.directions, receivers = kReceiversAPlace * w.places;
+  const double passes = std::min<double>(asked.passes, kUsualPasses) - 1.0;
+  StageCost cost{"bouncing light", {}, 0.0, 0.0};
+  cost.work.shared_s = 0.6e-9 * w.voxels * directions + 10e-6 * receivers +
+                       3.5e-9 * receivers * directions * passes * kinds;
+  cost.bytes_kept = 60.0 * receivers * kinds;
+  cost.bytes_while = std::min(1e9, 4.0 * receivers * directions) + 400.0 * receivers;
+  return cost;
+}
+
 StageCost certifyingCost(const LitWorld& w) {
   return {
       "certifying", {0.05, 0.5 + 2e-3 * w.sky_directions + 8e-11 * w.voxels * w.sky_directions}, 60e6, 0.0};

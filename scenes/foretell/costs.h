@@ -34,6 +34,8 @@ struct Seen {
 };
 
 StageCost lightingCost(const LitWorld& world);
+/// Of a scene with interreflection; `kinds` of pictures have it, each by itself.
+StageCost bouncingCost(const LitWorld& world, const InterreflectionSpec& asked, int kinds);
 StageCost certifyingCost(const LitWorld& world);
 StageCost countingCost(const LitWorld& world);
 /// `triangles`: of the meshes and of all that has grown.

@@ -121,11 +121,20 @@ Foretold foretold(const Site& site, double seconds, const std::vector<StageCost>
   return told;
 }
 
+/// Of light that bounces, where pictures have it.
+void addBouncing(const PicturesWanted& pictures, const LitWorld& lit, std::vector<StageCost>& costs) {
+  const LitKinds kinds = litKinds(pictures.images);
+  const int count = int{kinds.first_pass} + int{kinds.vines || pictures.film_frames > 0};
+  if (pictures.interreflection && count > 0)
+    costs.push_back(bouncingCost(lit, *pictures.interreflection, count));
+}
+
 std::vector<StageCost> costsAfterGrowth(const PicturesWanted& pictures, double triangles, LitWorld lit,
                                         const std::vector<Seen>& seen) {
   lit.dense = std::any_of(pictures.images.begin(), pictures.images.end(),
                           [](const ImageSpec& image) { return image.kind == ImageKind::vines; });
   std::vector<StageCost> costs{lightingCost(lit)};
+  addBouncing(pictures, lit, costs);
   if (!pictures.images.empty()) {
     costs.push_back(modellingCost(triangles));
     costs.push_back(drawingCost(pictures, seen, triangles));
@@ -221,6 +230,7 @@ Foretold foretellExposure(const Site& site, const sim::VoxelSet* space, const Pi
   LitWorld lit = litWorld(site);
   if (space) lit.space = static_cast<double>(space->count());
   std::vector<StageCost> costs{lightingCost(lit)};
+  addBouncing(pictures, lit, costs);
   if (!site.random_sky) costs.push_back(certifyingCost(lit));
   costs.push_back(countingCost(lit));
   if (!pictures.images.empty())

@@ -253,7 +253,8 @@ PicturesWanted picturesOf(const Scene& scene, const sim::Provenance& made_by) {
                         shadowDirection(scene.sun),
                         {},
                         usedFields(scene),
-                        made_by};
+                        made_by,
+                        scene.interreflection};
   for (const PlantSpec& plant : scene.plants) wanted.plants.push_back({plant.name, lightNeeds(*plant.rules)});
   if (scene.film) {
     wanted.film_frames = framesOf(*scene.film, scene.iterations).size();

@@ -1,5 +1,6 @@
 #pragma once
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -36,6 +37,7 @@ struct PicturesWanted {
   std::vector<PlantLight> plants;      ///< those of the scene
   std::vector<UsedField> fields = {};  ///< likewise
   sim::Provenance made_by = {};        ///< for the files' headers
+  std::optional<InterreflectionSpec> interreflection = {};  ///< of first passes, volumes and vines
   std::size_t film_frames = 0;         ///< of the scene's film, which is drawn by others
   double film_pixels = 0.0;            ///< of each
 };

@@ -228,7 +228,6 @@ void check(const BounceSources& sources, std::size_t receivers) {
 
 Interreflection::Interreflection(const World& world, const Lighting& light, const BounceSettings& settings)
     : seen_(std::make_unique<Seen>(world, light, checked(settings))) {}
-Interreflection::Interreflection(Interreflection&&) noexcept = default;
 Interreflection::~Interreflection() = default;
 
 Bounced Interreflection::of(const BounceSources& sources) {

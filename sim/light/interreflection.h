@@ -56,7 +56,6 @@ class Interreflection {
  public:
   /// Throws InputError for settings that make no sense. Borrows the light.
   Interreflection(const World& world, const Lighting& light, const BounceSettings& settings);
-  Interreflection(Interreflection&&) noexcept;
   ~Interreflection();
 
   /// `sources` are of the light's receivers. Throws InputError for those that make no sense.

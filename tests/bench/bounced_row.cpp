@@ -39,7 +39,7 @@ sim::DirectionSet sphere() {
   return directions;
 }
 
-/// The scene lit by its sky and by a sun that stands where it is brightest.
+/// The scene in the light of its sky and, as much as each place gets of it in a day, of its sun.
 sim::BounceSources sourcesOf(const sim::World& world, const sim::Lighting& light) {
   sim::BounceSources sources;
   const std::size_t count = light.surfaces.size() + light.faces.size();

@@ -95,9 +95,12 @@ TEST_F(FilmOfGrowth, ShowsEveryNthIterationAndWhatIsThereInTheEnd) {
 
 /// But for what its header says of itself, the last frame is the picture of all that grew.
 TEST_F(FilmOfGrowth, EndsWithThePicture) {
-  const Files film = filmOf("film: {every: 9, camera: main, width: 40, height: 30}\n");
-  EXPECT_TRUE(pixelsOf(film.at("film_0001.png")) == pixelsOf(tests::fileText(scratch_.path("out/a.png"))));
-  EXPECT_FALSE(pixelsOf(film.at("film_0000.png")) == pixelsOf(film.at("film_0001.png")));
+  for (const std::string light : {"", "interreflection: {passes: 3, directions: 12}\n"}) {
+    const Files film = filmOf("film: {every: 9, camera: main, width: 40, height: 30}\n" + light);
+    EXPECT_TRUE(pixelsOf(film.at("film_0001.png")) == pixelsOf(tests::fileText(scratch_.path("out/a.png"))))
+        << light;
+    EXPECT_FALSE(pixelsOf(film.at("film_0000.png")) == pixelsOf(film.at("film_0001.png")));
+  }
 }
 
 TEST_F(FilmOfGrowth, FollowsItsCamera) {

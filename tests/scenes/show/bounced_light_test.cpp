@@ -5,8 +5,10 @@
 #include "render/voxels/panels.h"
 #include "scenes/prepare/site.h"
 #include "scenes/read/read_scene.h"
+#include "scenes/show/voxel_colours.h"
 #include "sim/base/faces.h"
 #include "tests/support/scratch.h"
+#include "tests/support/worlds.h"
 
 namespace espalier::scenes {
 namespace {
@@ -84,6 +86,44 @@ TEST_F(RedWall, ReddensTheFloorBeforeItAndNotWhatIsFar) {
   EXPECT_NEAR(found->lit.first_pass->ambientAtFace(v, 3, 2), outdoors.sky.b, 0.1f * outdoors.sky.b);
   EXPECT_FALSE(found->lit.emitted);
   EXPECT_NE(found->light.about.interreflection.find("128 directions over the sphere"), std::string::npos);
+}
+
+TEST_F(RedWall, ReddensDicedModelsToo) {
+  const auto bounced = find(scene("wall.obj"), kSun), plain = find(scene("wall.obj", ""), kSun);
+  const auto redness = [](const Found& found, double z) {
+    const sim::World& world = found.site.world;
+    const VoxelColours colours(world, world.occupied(), found.light, found.lit, ImageKind::first_pass, kSun);
+    const Colour c = colours.at(sim::voxelAt(sim::voxelFromWorld(world.frame(), Vec3(1.5, 0.0, z))),
+                                sim::PartKind::scene);
+    return c.r / c.b;
+  };
+  const auto redder = [&](double z) { return redness(*bounced, z) / redness(*plain, z); };
+  EXPECT_GT(redder(1.15), 1.03f) << "before the wall";
+  EXPECT_LT(redder(2.9) - 1.0f, 0.5f * (redder(1.15) - 1.0f)) << "far from it";
+}
+
+TEST_F(RedWall, StemsAndElementsSendOutAsMuchAsThereIsOfThem) {
+  sim::World world = makeSite(scene("wall.obj", "")).world;
+  sim::Plant plant;
+  plant.stem_emits = Colour(4.0f, 2.0f, 0.0f);
+  plant.shapes.resize(2);
+  plant.shapes[1].emits = Colour(0.0f, 0.0f, 6.0f);
+  plant.stem_part = world.addPart(tests::stemPart("vine"));
+  for (int i = 0; i < 2; ++i) plant.element_parts.push_back(world.addPart(tests::elementPart("vine")));
+  const auto put = [&](sim::Voxel v, sim::PartId part, float coverage) {
+    world.occupy(std::vector<sim::TiledVoxel>{{v, {.part = part, .coverage = coverage}}});
+  };
+  put({20, 10, 30}, plant.stem_part, 0.25f);
+  put({22, 10, 30}, plant.stem_part, 2.5f);
+  put({24, 10, 30}, plant.element_parts[0], 1.0f);
+  put({26, 10, 30}, plant.element_parts[1], 0.5f);
+  const EmittedLight emitted({}, world, {plant});
+  EXPECT_TRUE(emitted.any());
+  EXPECT_EQ(emitted.at({20, 10, 30}), Colour(1.0f, 0.5f, 0.0f));
+  EXPECT_EQ(emitted.at({22, 10, 30}), plant.stem_emits) << "no more than all of it";
+  EXPECT_EQ(emitted.at({24, 10, 30}), Colour(0.0f));
+  EXPECT_EQ(emitted.at({26, 10, 30}), Colour(0.0f, 0.0f, 3.0f));
+  EXPECT_FALSE(EmittedLight({}, world, {}).any());
 }
 
 TEST_F(RedWall, WithoutInterreflectionNothingBounces) {

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "render/voxels/panels.h"
+#include "scenes/job/expose.h"
 #include "scenes/prepare/site.h"
 #include "scenes/read/read_scene.h"
 #include "scenes/show/voxel_colours.h"
@@ -147,6 +148,25 @@ TEST_F(RedWall, ALampLightsWhatIsNear) {
   // Its own light, as the file has it.
   const auto own = find(scene("wall.obj, lamp.obj"), kSun);
   EXPECT_NEAR(own->lit.emitted->at(sim::voxelAt(sim::voxelFromWorld(frame, Vec3(1.5, 0.5, 1.5)))).g, 1.0f, 0.05f);
+}
+
+TEST_F(RedWall, ALampIsSeenInMapsOfExposureWithAndWithoutWhatItLights) {
+  const auto exposed = [&](const std::string& emits, const std::string& more) {
+    const Scene asked = scene("wall.obj, {file: lamp.obj" + emits + "}",
+                              "image: {width: 60, height: 40}\ncameras: {a: {eye: [1.5, 1.2, 6], target: [1.5, "
+                              "0.6, 1.5], fov: 40}}\n" +
+                                  more);
+    RunOptions options;
+    options.folder = folder_.path("out");
+    exposeScene(asked, options);
+    const std::string png = tests::fileText(folder_.path("out/first_pass.png"));
+    return png.substr(png.find("IDAT"));  // its header names the scene's light
+  };
+  const std::string dark = exposed(", emits: {strength: 0}", ""),
+                    glows = exposed(", emits: {strength: 5}", ""),
+                    lights = exposed(", emits: {strength: 5}", "interreflection: {directions: 16}\n");
+  EXPECT_FALSE(dark == glows);
+  EXPECT_FALSE(glows == lights);
 }
 
 TEST_F(RedWall, ALampInsideOfAWallIsRefused) {

@@ -63,7 +63,7 @@ struct SceneMesh {
   Placement placement;
   std::optional<sim::Colour> colour;     ///< instead of the file's materials; linear RGB
   std::optional<rules::Emission> emits;  ///< likewise
-  Place place = {};                   ///< where a scene file has it; without a path where none does
+  Place place = {};                      ///< where a scene file has it; without a path where none does
 };
 
 struct WorldSpec {
@@ -321,7 +321,8 @@ struct Scene {
   SkySpec sky;
   SunSpec sun;
   ExposureSpec exposure;
-  std::optional<InterreflectionSpec> interreflection;  ///< none: pictures are lit by the sky and the sun alone
+  std::optional<InterreflectionSpec>
+      interreflection;  ///< none: pictures are lit by the sky and the sun alone
   std::vector<AttractorsSpec> attractors;
   std::vector<FieldSpec> fields;
   std::vector<PlantSpec> plants;

@@ -21,8 +21,8 @@ struct ObjLibrary {
   std::vector<ObjPicture> pictures;  ///< each once
 };
 
-/// The materials of a model. Kd is a display value (sRGB), as a colour picker shows it; map_Kd a picture, and
-/// map_d the same one where it cuts out.
+/// The materials of a model. Kd and Ke, what is sent out, are display values (sRGB), as a colour picker shows
+/// them, up to 1; map_Kd is a picture, and map_d the same one where it cuts out.
 ObjLibrary objLibrary(const std::vector<const sim::Mesh*>& meshes, const PlantModels& plants,
                       const std::string& stem, const sim::Provenance& made_by = {});
 

@@ -18,8 +18,17 @@ std::string objName(const std::string& name) {
   return word;
 }
 
+namespace {
+
+std::array<float, 3> numbersOf(const sim::Colour& colour) {
+  return {colour.r, colour.g, colour.b};
+}
+
+}  // namespace
+
 const std::string& ObjMaterials::nameOf(const sim::Material& material) {
-  Look look{material.colour, material.alpha, material.alpha_mode == sim::Material::Alpha::mask, {}, {}};
+  Look look{material.colour,  material.alpha, material.alpha_mode == sim::Material::Alpha::mask, {}, {},
+            material.emissive};
   if (material.alpha_mode == sim::Material::Alpha::opaque) look.alpha = 1.0f;
   if (material.texture != nullptr) {
     look.picture = material.texture->bytes;
@@ -29,24 +38,30 @@ const std::string& ObjMaterials::nameOf(const sim::Material& material) {
 }
 
 const std::string& ObjMaterials::nameOf(const std::string& kind, const ModelMesh& mesh) {
-  if (mesh.picture == nullptr) return nameOf(kind, Look{mesh.base_colour, 1.0f, false, {}, {}});
-  return nameOf(kind, Look{sim::Colour(1.0f), 1.0f, !mesh.picture->tiles, mesh.picture->png, "image/png"});
+  if (mesh.picture == nullptr) return nameOf(kind, Look{mesh.base_colour, 1.0f, false, {}, {}, mesh.emits});
+  return nameOf(
+      kind, Look{sim::Colour(1.0f), 1.0f, !mesh.picture->tiles, mesh.picture->png, "image/png", mesh.emits});
 }
 
 const std::string& ObjMaterials::nameOf(const std::string& wish, const Look& look) {
   const std::string picture = look.picture.empty() ? "" : pictureFile(look);
   const auto [known, is_new] = names_.try_emplace(
-      {wish, look.colour.r, look.colour.g, look.colour.b, look.alpha, look.cut_out, picture}, "");
+      {wish, numbersOf(look.colour), look.alpha, look.cut_out, picture, numbersOf(look.emits)}, "");
   if (!is_new) return known->second;
   std::string name = objName(wish);
   for (int number = 2; !taken_.insert(name).second; ++number)
     name = fmt::format("{}_{}", objName(wish), number);
   known->second = name;
   if (!keep_) return known->second;
-  const sim::Colour shown = srgbFromLinear(glm::clamp(look.colour, 0.0f, 1.0f));
+  const auto shown = [](const sim::Colour& linear) { return srgbFromLinear(glm::clamp(linear, 0.0f, 1.0f)); };
+  const sim::Colour colour = shown(look.colour);
   auto out = std::back_inserter(library_.mtl);
-  fmt::format_to(out, "\nnewmtl {}\nKd {:.5f} {:.5f} {:.5f}\nKs 0 0 0\nillum 1\nd {:.4g}\n", name, shown.r,
-                 shown.g, shown.b, look.alpha);
+  fmt::format_to(out, "\nnewmtl {}\nKd {:.5f} {:.5f} {:.5f}\nKs 0 0 0\nillum 1\nd {:.4g}\n", name, colour.r,
+                 colour.g, colour.b, look.alpha);
+  if (look.emits != sim::Colour(0.0f)) {
+    const sim::Colour emits = shown(look.emits);
+    fmt::format_to(out, "Ke {:.5f} {:.5f} {:.5f}\n", emits.r, emits.g, emits.b);
+  }
   if (!picture.empty()) fmt::format_to(out, "map_Kd {}\n", picture);
   if (!picture.empty() && look.cut_out) fmt::format_to(out, "map_d -imfchan m {}\n", picture);
   return known->second;

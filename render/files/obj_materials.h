@@ -1,5 +1,6 @@
 #pragma once
 // Internal to the wing.
+#include <array>
 #include <map>
 #include <set>
 #include <string>
@@ -31,6 +32,7 @@ class ObjMaterials {
     bool cut_out = false;
     std::string_view picture;  // empty: none
     std::string mime_type;
+    sim::Colour emits{0.0f};
   };
   const std::string& nameOf(const std::string& wish, const Look& look);
   std::string pictureFile(const Look& look);
@@ -38,7 +40,8 @@ class ObjMaterials {
   std::string stem_;
   bool keep_;
   ObjLibrary library_;
-  std::map<std::tuple<std::string, float, float, float, float, bool, std::string>, std::string> names_;
+  using Key = std::tuple<std::string, std::array<float, 3>, float, bool, std::string, std::array<float, 3>>;
+  std::map<Key, std::string> names_;
   std::set<std::string> taken_;
   std::map<std::pair<std::uint64_t, std::size_t>, std::string> files_;  // by the pictures' hashes and sizes
 };

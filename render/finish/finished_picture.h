@@ -12,8 +12,8 @@
 
 namespace espalier::render {
 
-/// Light that a finished picture has: of the whole sky on level ground, of the ground all around on what looks
-/// down to it alone, and of the sun on what is square to it.
+/// Light that a finished picture has: of the whole sky on level ground, of the ground all around on what
+/// looks down to it alone, and of the sun on what is square to it.
 struct OutdoorLight {
   sim::Colour sky, ground, sun;
 };
@@ -26,8 +26,8 @@ struct FinishedScene {
   sim::Frame frame;
   const sim::BitVolume* occupied = nullptr;  ///< scene and plants, as tiled
   const sim::ExposureField* sky = nullptr;   ///< sky_exposure of every free voxel
-  /// Light that has bounced and falls onto a place with a unit normal, outdoorLight's ground included; without
-  /// it a guess.
+  /// Light that has bounced and falls onto a place with a unit normal, outdoorLight's ground included;
+  /// without it a guess.
   std::function<sim::Colour(sim::Vec3 p_m, sim::Vec3f normal)> bounced = {};
   sim::Vec3 to_sun{0.4, 0.75, 0.5};  ///< need not be of unit length; below the horizon there is no sun
 };

@@ -54,7 +54,8 @@ std::shared_ptr<const Table> stemKeys() {
   return TableOf<Stem>()
       .colour("colour", &Stem::colour, {.meaning = "Colour of the bark."})
       .section("emits", &Stem::emits, emissionKeys(),
-               {.meaning = "Light that it sends out, and with interreflection onto others too; a colour stands for its own."},
+               {.meaning = "Light that it sends out, and with interreflection onto others too; a colour "
+                           "stands for its own."},
                "colour")
       .file(
           "texture", &Stem::texture,
@@ -123,7 +124,8 @@ std::shared_ptr<const Table> elementKeys() {
                       "surface; free: by face and pitch."})
       .colour("colour", &Element::colour, {.meaning = "Colour of its polygons."})
       .section("emits", &Element::emits, emissionKeys(),
-               {.meaning = "Light that it sends out, and with interreflection onto others too; a colour stands for its own."},
+               {.meaning = "Light that it sends out, and with interreflection onto others too; a colour "
+                           "stands for its own."},
                "colour")
       .custom(
           "polygons", Kind::polygons,

@@ -36,8 +36,8 @@ StageCost bouncingCost(const LitWorld& w, const InterreflectionSpec& asked, int 
   const double directions = 2.0 * asked.directions, receivers = kReceiversAPlace * w.places;
   const double passes = std::min<double>(asked.passes, kUsualPasses) - 1.0;
   StageCost cost{"bouncing light", {}, 0.0, 0.0};
-  cost.work.shared_s = 0.6e-9 * w.voxels * directions + 10e-6 * receivers +
-                       3.5e-9 * receivers * directions * passes * kinds;
+  cost.work.shared_s =
+      0.6e-9 * w.voxels * directions + 10e-6 * receivers + 3.5e-9 * receivers * directions * passes * kinds;
   cost.bytes_kept = 60.0 * receivers * kinds;
   cost.bytes_while = std::min(1e9, 4.0 * receivers * directions) + 400.0 * receivers;
   return cost;

@@ -69,7 +69,8 @@ class Reader {
     const auto emissive = numbersIn(json, "emissiveFactor", {0, 0, 0});
     material.emissive = {share(emissive[0]), share(emissive[1]), share(emissive[2])};
     const Json& stronger = memberOf(memberOf(json, "extensions"), "KHR_materials_emissive_strength");
-    material.emissive *= static_cast<float>(std::clamp(numberIn(stronger, "emissiveStrength", 1.0), 0.0, 1000.0));
+    material.emissive *=
+        static_cast<float>(std::clamp(numberIn(stronger, "emissiveStrength", 1.0), 0.0, 1000.0));
     // Such a texture is black but for a few lamps; without it all of the mesh would shine.
     if (json.contains("emissiveTexture") && material.emissive != sim::Colour(0.0f)) {
       material.emissive = sim::Colour(0.0f);

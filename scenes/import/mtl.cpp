@@ -79,7 +79,7 @@ void readPicture(std::string_view rest, MtlMaterial& material) {
 
 struct NamedColour {
   std::string_view keyword, other;
-  sim::Colour sim::Material::* member;
+  sim::Colour sim::Material::*member;
 };
 
 /// The colour of a material that a keyword gives.

@@ -23,9 +23,10 @@ using MtlMaterials = std::map<std::string, MtlMaterial>;
 sim::Material unknownMaterial(const std::string& name);
 
 /// Adds an MTL file's materials with their diffuse colours and pictures, and what they emit (`newmtl`, `Kd`,
-/// `Ke`, `map_Kd` with its options -clamp, -s and -o) as linear light; the format does not say what its values are, so they are taken as display values (IEC 61966-2-1), as a colour picker shows
-/// them. All else in the file is not read. Read here as Assimp 5.2.5 takes 33 kB for
-/// each material. Gives the line of the first `Kd` or `Ke` back that is no colour, and is left out; 0: there is none.
+/// `Ke`, `map_Kd` with its options -clamp, -s and -o) as linear light; the format does not say what its
+/// values are, so they are taken as display values (IEC 61966-2-1), as a colour picker shows them. All else
+/// in the file is not read. Read here as Assimp 5.2.5 takes 33 kB for each material. Gives the line of the
+/// first `Kd` or `Ke` back that is no colour, and is left out; 0: there is none.
 int readMtl(std::string_view mtl, MtlMaterials& materials);
 
 }  // namespace espalier::scenes

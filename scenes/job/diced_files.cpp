@@ -81,8 +81,8 @@ std::vector<OutputFile> dicedFiles(const ModelsWanted& wanted, const ModelSource
   forEachOfPlants(
       sources, [&](const render::Uncut& uncut, sim::PartKind) { requireFits(uncut, sources.site, wanted); });
   const auto meshes =
-      dicedFrom(sources, std::make_shared<const VoxelColours>(sources.site.world, sources.bare, sources.light, sources.lit,
-                                                              *wanted.diced, sources.to_sun));
+      dicedFrom(sources, std::make_shared<const VoxelColours>(sources.site.world, sources.bare, sources.light,
+                                                              sources.lit, *wanted.diced, sources.to_sun));
   const auto light =
       *wanted.diced == ImageKind::first_pass ? render::DicedLight::given : render::DicedLight::wanted;
   std::vector<OutputFile> files;

@@ -172,7 +172,8 @@ ExposeResult exposeScene(const Scene& scene, const RunOptions& options) {
         wanted.cameras.push_back(overview(site.world.frame(), light.surfaces, site.sun, aspect));
       }
       wanted.images = exposureImages(scene, wanted.cameras, !site.sun.directions.empty());
-      const Finished finished{site.meshes, site.world, site.world.occupied(), no_growth, light, no_models, {}, {}, lit};
+      const Finished finished{site.meshes, site.world, site.world.occupied(), no_growth, light, no_models, {},
+                              {},          lit};
       auto drawn = inScene(scene, [&] { return drawPictures(wanted, finished); });
       for (OutputFile& file : drawn) files.push_back(std::move(file));
     });

@@ -29,9 +29,9 @@
 #include "scenes/show/light_fields.h"
 #include "scenes/show/picture_memory.h"
 #include "scenes/show/pictures.h"
+#include "scenes/show/vines_picture.h"
 #include "scenes/show/volume_picture.h"
 #include "scenes/show/world_occupancy.h"
-#include "scenes/show/vines_picture.h"
 #include "scenes/write/output_folder.h"
 #include "sim/base/counted.h"
 #include "sim/base/parallel.h"
@@ -44,8 +44,8 @@ constexpr const char *kSkeletonFile = "skeleton.json", *kWorldFile = "world.vdb"
 
 /// For pictures of what has grown on a site. Borrows all but the textures.
 Finished finishedOn(const Scene& scene, const Site& site, const sim::BitVolume& bare,
-                    const sim::Growth& growth, const sim::Lighting& light,
-                    const PictureLight& lit, const std::optional<WorldOccupancy>& occupancy,
+                    const sim::Growth& growth, const sim::Lighting& light, const PictureLight& lit,
+                    const std::optional<WorldOccupancy>& occupancy,
                     const std::vector<render::PlantModel>& models, render::KnownPictures textures) {
   return {site.meshes,
           site.world,
@@ -201,7 +201,8 @@ Report runScene(const Scene& scene, const RunOptions& options, const Keeping& ke
     return lightFor(scene, site, options.pictures ? scene.images : std::vector<ImageSpec>(), bare, layers,
                     options.models);
   });
-  const PictureLight lit = litFor(scene, site, growth.plants, light, picturesAsked(scene, options), options.models, stages);
+  const PictureLight lit =
+      litFor(scene, site, growth.plants, light, picturesAsked(scene, options), options.models, stages);
   report.light = light.about;
   std::vector<render::PlantModel> models;  // for pictures; else they are made while they are written
   if (options.pictures)
@@ -209,8 +210,8 @@ Report runScene(const Scene& scene, const RunOptions& options, const Keeping& ke
   const GuideVolumes guides = inScene(scene, [&] { return guideVolumes(growth, usedFields(scene), world); });
   for (const render::VdbField& field : guides.fields)
     report.growth->fields.push_back({field.name, guides.near->count()});
-  const ModelSources sources{
-      site, growth.plants, bare, models, report.made_by, light, lit, shadowDirection(scene.sun)};
+  const ModelSources sources{site,           growth.plants, bare, models,
+                             report.made_by, light,         lit,  shadowDirection(scene.sun)};
   std::vector<OutputFile> files =
       modelFiles(options.models, sources, [&](std::size_t plant, const render::PlantModel& model) {
         report.growth->plants[plant].meeting_limbs = model.meeting_limbs;
@@ -248,8 +249,8 @@ Report runScene(const Scene& scene, const RunOptions& options, const Keeping& ke
   }
   if (films(scene, options)) {
     stages.run("filming", [&] {
-      addFilm({scene, site, bare, growth, light, lit, textures.pictures, report.made_by}, options, files, report,
-              late_warnings);
+      addFilm({scene, site, bare, growth, light, lit, textures.pictures, report.made_by}, options, files,
+              report, late_warnings);
     });
   }
   stages.run("writing", [&] {
@@ -340,8 +341,8 @@ Report renderScene(Scene scene, const std::filesystem::path& from, const RunOpti
   });
   if (scene.film) {
     stages.run("filming", [&] {
-      addFilm({scene, site, bare, growth, light, lit, textures.pictures, report.made_by}, options, files, report,
-              late_warnings);
+      addFilm({scene, site, bare, growth, light, lit, textures.pictures, report.made_by}, options, files,
+              report, late_warnings);
     });
   }
   stages.run("writing", [&] {

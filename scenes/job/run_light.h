@@ -15,9 +15,10 @@ namespace espalier::scenes {
 /// The free voxels of the boundary layers, which lie around the scene.
 sim::VoxelSet openLayers(const sim::BitVolume& scene, const sim::World& grown);
 
-/// `images`: those that are drawn. `layers`: free space where light is wanted too, beside all of it for images
-/// of vines, whose leaves are lit by what is around them. `bare`: what the scene alone occupies, for those that
-/// show no plant. `models`: those that are written. Throws PlacedError where it does not fit into memory.
+/// `images`: those that are drawn. `layers`: free space where light is wanted too, beside all of it for
+/// images of vines, whose leaves are lit by what is around them. `bare`: what the scene alone occupies, for
+/// those that show no plant. `models`: those that are written. Throws PlacedError where it does not fit into
+/// memory.
 sim::Lighting lightFor(const Scene& scene, const Site& site, const std::vector<ImageSpec>& images,
                        const sim::BitVolume& bare, std::shared_ptr<const sim::VoxelSet> layers,
                        const ModelsWanted& models = {});

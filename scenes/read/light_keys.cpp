@@ -240,10 +240,11 @@ std::shared_ptr<const Table> interreflectionKeys() {
              {.unit = "directions",
               .limits = {1.0, sim::kMostSkyDirections},
               .meaning = "Over each half of the sphere, above the horizon and below."})
-      .choice<BounceWeighting>("weighting", &Spec::weighting,
-                               {{"lambert", BounceWeighting::lambert}, {"equal", BounceWeighting::equal}},
-                               {.meaning = "By the cosine with the surface's normal, or all directions before "
-                                           "it alike, as Greene had them."})
+      .choice<BounceWeighting>(
+          "weighting", &Spec::weighting,
+          {{"lambert", BounceWeighting::lambert}, {"equal", BounceWeighting::equal}},
+          {.meaning = "By the cosine with the surface's normal, or all directions before "
+                      "it alike, as Greene had them."})
       .shared();
 }
 

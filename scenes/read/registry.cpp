@@ -88,7 +88,8 @@ std::shared_ptr<const Table> meshKeys() {
   addPlacement(table);
   return table.colour("colour", &SceneMesh::colour, {.meaning = "Instead of the file's own colours."})
       .section("emits", &SceneMesh::emits, rules::emissionKeys(),
-               {.meaning = "Light that it sends out, instead of the file's own, and with interreflection onto others too."},
+               {.meaning = "Light that it sends out, instead of the file's own, and with interreflection "
+                           "onto others too."},
                "colour")
       .oneOf({"file", "lines"})
       .shared();
@@ -255,9 +256,9 @@ std::shared_ptr<const Table> imageKeys() {
   for (const auto kind :
        {ImageKind::sun_exposure, ImageKind::sky_exposure, ImageKind::threshold, ImageKind::shadow_matte,
         ImageKind::surface_colour, ImageKind::first_pass, ImageKind::volume, ImageKind::sun_hours,
-        ImageKind::vines,
-        ImageKind::section, ImageKind::attempts, ImageKind::points, ImageKind::graph, ImageKind::field,
-        ImageKind::narrow_band, ImageKind::sky_tables, ImageKind::voxels, ImageKind::contact_sheet}) {
+        ImageKind::vines, ImageKind::section, ImageKind::attempts, ImageKind::points, ImageKind::graph,
+        ImageKind::field, ImageKind::narrow_band, ImageKind::sky_tables, ImageKind::voxels,
+        ImageKind::contact_sheet}) {
     kinds.emplace_back(nameOf(kind), kind);
   }
   return TableOf<ImageSpec>()
@@ -314,9 +315,10 @@ Table makeTable() {
       .section("sky", &Scene::sky, skyKeys(), {.meaning = "How sky_exposure is found."})
       .section("sun", &Scene::sun, sunKeys(),
                {.meaning = "How sun_exposure is found: Greene's inclined arc, or with a place the real sun."})
-      .section("interreflection", &Scene::interreflection, interreflectionKeys(),
-               {.meaning = "Light that bounces from surface to surface, in images of kinds first_pass and vines."},
-               "passes")
+      .section(
+          "interreflection", &Scene::interreflection, interreflectionKeys(),
+          {.meaning = "Light that bounces from surface to surface, in images of kinds first_pass and vines."},
+          "passes")
       .section("exposure", &Scene::exposure, exposureKeys(),
                {.meaning =
                     "What espalier expose finds beside the exposure of surfaces, and what its tables count."})

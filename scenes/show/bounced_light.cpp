@@ -55,9 +55,9 @@ sim::BounceSettings bounceSettings(const Scene& scene) {
 
 std::string describe(const sim::BounceSettings& settings, const BouncedLight& light) {
   return fmt::format("{} of at most {}, {} directions over the sphere, {}; last change {:.2g}",
-                     sim::counted(static_cast<std::uint64_t>(light.passes()), "pass", "passes"), settings.passes,
-                     2 * settings.directions, settings.lambert ? "by Lambert's cosine" : "all alike",
-                     light.change());
+                     sim::counted(static_cast<std::uint64_t>(light.passes()), "pass", "passes"),
+                     settings.passes, 2 * settings.directions,
+                     settings.lambert ? "by Lambert's cosine" : "all alike", light.change());
 }
 
 }  // namespace
@@ -146,9 +146,9 @@ LitKinds litKinds(const std::vector<ImageSpec>& images) {
   return kinds;
 }
 
-PictureLight pictureLight(const Scene& scene, const std::vector<sim::TiledMesh>& meshes, const sim::World& world,
-                          const std::vector<sim::Plant>& plants, sim::Lighting& light,
-                          const LitKinds& kinds, sim::Vec3 to_sun) {
+PictureLight pictureLight(const Scene& scene, const std::vector<sim::TiledMesh>& meshes,
+                          const sim::World& world, const std::vector<sim::Plant>& plants,
+                          sim::Lighting& light, const LitKinds& kinds, sim::Vec3 to_sun) {
   PictureLight lit;
   if (!kinds.any()) return lit;
   auto emitted = std::make_shared<EmittedLight>(meshes, world, plants);
@@ -167,8 +167,7 @@ PictureLight pictureLight(const Scene& scene, const std::vector<sim::TiledMesh>&
       for (const sim::TiledMesh& tiled : meshes) {
         if (!tiled.guide) scene_meshes.push_back(&tiled.mesh);
       }
-      const render::OutdoorLight outdoors =
-          render::outdoorLight(scene_meshes, world.frame().voxel_m, to_sun);
+      const render::OutdoorLight outdoors = render::outdoorLight(scene_meshes, world.frame().voxel_m, to_sun);
       lit.vines = bounced({outdoors.sky, outdoors.ground, outdoors.sun, to_sun});
     }
     light.about.interreflection = describe(settings, lit.first_pass ? *lit.first_pass : *lit.vines);

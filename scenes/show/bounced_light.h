@@ -15,8 +15,8 @@ namespace espalier::scenes {
 /// Light that bounces, as one kind of picture is lit: what falls onto the surfaces of a finished world.
 class BouncedLight {
  public:
-  /// Light of the whole sky on level ground, of rays that leave the world below the horizon, and of the sun on
-  /// what is square to it.
+  /// Light of the whole sky on level ground, of rays that leave the world below the horizon, and of the sun
+  /// on what is square to it.
   struct Outdoors {
     sim::Colour sky{0.0f}, below{0.0f}, sun{0.0f};
     sim::Vec3 to_sun{0.0, 1.0, 0.0};  ///< unit
@@ -64,7 +64,7 @@ class BouncedLight {
 
 /// How a scene's pictures are lit beside its Lighting.
 struct PictureLight {
-  std::shared_ptr<const EmittedLight> emitted;              ///< null: nothing shines
+  std::shared_ptr<const EmittedLight> emitted;            ///< null: nothing shines
   std::shared_ptr<const BouncedLight> first_pass, vines;  ///< null: what bounces is left out
 };
 
@@ -82,8 +82,8 @@ LitKinds litKinds(const std::vector<ImageSpec>& images);
 
 /// Finds what such pictures need of a scene that grew. If it asks for interreflection, `light` must know
 /// sun_now of `to_sun`, and says of it (LightAbout) what was found. Borrows the world and the light.
-PictureLight pictureLight(const Scene& scene, const std::vector<sim::TiledMesh>& meshes, const sim::World& world,
-                          const std::vector<sim::Plant>& plants, sim::Lighting& light,
-                          const LitKinds& kinds, sim::Vec3 to_sun);
+PictureLight pictureLight(const Scene& scene, const std::vector<sim::TiledMesh>& meshes,
+                          const sim::World& world, const std::vector<sim::Plant>& plants,
+                          sim::Lighting& light, const LitKinds& kinds, sim::Vec3 to_sun);
 
 }  // namespace espalier::scenes

@@ -21,7 +21,7 @@ class EmittedLight {
 
  private:
   const sim::World& world_;
-  std::vector<sim::EmittingVoxel> lamps_;                      // in rows
+  std::vector<sim::EmittingVoxel> lamps_;                   // in rows
   std::vector<std::pair<sim::PartId, sim::Colour>> parts_;  // of plants
 };
 

@@ -8,7 +8,7 @@
 namespace espalier::scenes {
 
 render::Image contactSheet(const PicturesWanted& wanted, const sim::LightAbout& about, const ImageSpec& sheet,
-                   const std::vector<render::Image>& thumbnails) {
+                           const std::vector<render::Image>& thumbnails) {
   std::vector<render::Captioned> captioned;
   bool light = false;
   for (const std::string& name : sheet.of) {

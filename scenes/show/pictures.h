@@ -38,8 +38,8 @@ struct PicturesWanted {
   std::vector<UsedField> fields = {};  ///< likewise
   sim::Provenance made_by = {};        ///< for the files' headers
   std::optional<InterreflectionSpec> interreflection = {};  ///< of first passes, volumes and vines
-  std::size_t film_frames = 0;         ///< of the scene's film, which is drawn by others
-  double film_pixels = 0.0;            ///< of each
+  std::size_t film_frames = 0;                              ///< of the scene's film, which is drawn by others
+  double film_pixels = 0.0;                                 ///< of each
 };
 
 /// What a plant's outermost rule set asks for.

@@ -61,7 +61,7 @@ struct ElementShape {
   /// and y. Without either they have the colour alone. Growth does not look at it.
   std::string drawn = {};
   std::shared_ptr<const Picture> picture = nullptr;
-  bool body = false;  ///< its polygons close a body, such as a stone: no light comes through it
+  bool body = false;   ///< its polygons close a body, such as a stone: no light comes through it
   Colour emits{0.0f};  ///< light that it sends out by itself, linear; growth does not look at it
 };
 

@@ -35,8 +35,8 @@ Givers giversOf(const DirectionSet& directions, bool lambert) {
   return {directions, amounts, Givers::Along::nothing};
 }
 
-/// How often what is brought is evened: few directions meet what is small and bright, so that it errs more than
-/// a sky does, and there is nothing in it with an edge.
+/// How often what is brought is evened: few directions meet what is small and bright, so that it errs more
+/// than a sky does, and there is nothing in it with an edge.
 constexpr int kEvenings = 4;
 
 /// Radiosities in whole numbers, with a 1 behind them; the last is of what is not there, all zeros.
@@ -107,8 +107,8 @@ class Interreflection::Seen {
   Met kept_;  // of all directions, if there is room for it
 };
 
-void Interreflection::Seen::add(const Met& met, std::size_t first, std::size_t count, const std::vector<Whole>& whole,
-                 std::vector<Sums>& sums) const {
+void Interreflection::Seen::add(const Met& met, std::size_t first, std::size_t count,
+                                const std::vector<Whole>& whole, std::vector<Sums>& sums) const {
   const Givers givers = giversOf(directions_, settings_.lambert);
   constexpr std::size_t kGrain = 2048;
   parallelFor(sums.size(), kGrain, [&](std::size_t begin, std::size_t end) {
@@ -149,12 +149,14 @@ std::vector<Colour> Interreflection::Seen::pass(const std::vector<Colour>& radio
   std::vector<Whole> whole(count + 1);
   for (std::size_t i = 0; i < count; ++i) {
     for (int c = 0; c < 3; ++c)
-      whole[i][static_cast<std::size_t>(c)] = static_cast<std::uint32_t>(std::lround(radiosities[i][c] / unit));
+      whole[i][static_cast<std::size_t>(c)] =
+          static_cast<std::uint32_t>(std::lround(radiosities[i][c] / unit));
     whole[i][3] = 1;
   }
   std::vector<Sums> sums(count);
   const std::size_t at_once = std::clamp<std::size_t>(
-      settings_.most_bytes / (sizeof(std::uint32_t) * std::max<std::size_t>(count, 1)), 1, directions_.size());
+      settings_.most_bytes / (sizeof(std::uint32_t) * std::max<std::size_t>(count, 1)), 1,
+      directions_.size());
   for (std::size_t first = 0; first < directions_.size(); first += at_once) {
     const std::size_t some = std::min(at_once, directions_.size() - first);
     const bool all = some == directions_.size();
@@ -219,8 +221,8 @@ void check(const BounceSources& sources, std::size_t receivers) {
   };
   if (!allWithin(sources.albedo, 1.0f))
     throw InputError("a surface reflects more light than falls onto it; expected colours of 0 to 1");
-  if (!within(sources.sky, kAnything) || !within(sources.below, kAnything) || !allWithin(sources.sun, kAnything) ||
-      !allWithin(sources.emitted, kAnything))
+  if (!within(sources.sky, kAnything) || !within(sources.below, kAnything) ||
+      !allWithin(sources.sun, kAnything) || !allWithin(sources.emitted, kAnything))
     throw InputError("light below 0 or without end; expected 0 or more");
 }
 
@@ -235,7 +237,8 @@ Bounced Interreflection::of(const BounceSources& sources) {
   const BounceSettings& settings = passes.settings();
   const std::size_t count = passes.sky().size();
   check(sources, count);
-  Bounced bounced{passes.sky(), passes.below(), passes.covered(), std::vector<Colour>(count, Colour(0.0f)), 1, 0.0};
+  Bounced bounced{passes.sky(), passes.below(), passes.covered(), std::vector<Colour>(count, Colour(0.0f)), 1,
+                  0.0};
   std::vector<Colour> sent(count);
   const auto send = [&] {
     double change = 0.0, most = 0.0;

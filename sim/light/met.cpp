@@ -37,8 +37,9 @@ class Shown {
 
   std::uint32_t none() const { return none_; }
 
-  /// The voxel's surface if it looks that way, else the face; where there is neither, a surface that lies right
-  /// before it: voxels of solids take light where their middle is inside, and a surface may lie in the next.
+  /// The voxel's surface if it looks that way, else the face; where there is neither, a surface that lies
+  /// right before it: voxels of solids take light where their middle is inside, and a surface may lie in the
+  /// next.
   std::uint32_t by(Voxel v, std::uint8_t face) const {
     std::uint32_t own = none_;
     if (light_.where->has(v)) {
@@ -120,17 +121,17 @@ std::vector<Voxel> viewpoints(const SurfaceSensors& sensors) {
   parallelFor(from.size(), [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       const auto taps = sensors.of(i);
-      const auto most = std::max_element(taps.begin(), taps.end(), [](const auto& a, const auto& b) {
-        return a.weight < b.weight;
-      });
+      const auto most = std::max_element(taps.begin(), taps.end(),
+                                         [](const auto& a, const auto& b) { return a.weight < b.weight; });
       if (most != taps.end()) from[i] = places[most->place];
     }
   });
   return from;
 }
 
-Met meet(const Stops<std::uint32_t>& stops, const SurfaceSensors& sensors, const std::vector<Voxel>& viewpoints,
-         const DirectionSet& directions, std::size_t first, std::size_t count) {
+Met meet(const Stops<std::uint32_t>& stops, const SurfaceSensors& sensors,
+         const std::vector<Voxel>& viewpoints, const DirectionSet& directions, std::size_t first,
+         std::size_t count) {
   const auto receivers = static_cast<std::uint32_t>(viewpoints.size());
   const auto slices = static_cast<std::size_t>(stops.where.size().y);
   struct Look {

@@ -29,7 +29,8 @@ std::vector<Voxel> viewpoints(const SurfaceSensors& sensors);
 
 /// For each viewpoint what lies where its ray ends. The stairs of a slanting surface show rays their risers,
 /// which the surface itself does not: what turns its back to a ray is not met. `stops`: of receiversMet.
-Met meet(const Stops<std::uint32_t>& stops, const SurfaceSensors& sensors, const std::vector<Voxel>& viewpoints,
-         const DirectionSet& directions, std::size_t first, std::size_t count);
+Met meet(const Stops<std::uint32_t>& stops, const SurfaceSensors& sensors,
+         const std::vector<Voxel>& viewpoints, const DirectionSet& directions, std::size_t first,
+         std::size_t count);
 
 }  // namespace espalier::sim

@@ -201,8 +201,8 @@ Field<std::uint16_t> carriedSum(const Stops<std::uint16_t>& stops, const Directi
     }
     if (!batch.empty()) batches.push_back(std::move(batch));
   }
-  const std::size_t count = static_cast<std::size_t>(size.x) * static_cast<std::size_t>(size.y) *
-                            static_cast<std::size_t>(size.z);
+  const std::size_t count =
+      static_cast<std::size_t>(size.x) * static_cast<std::size_t>(size.y) * static_cast<std::size_t>(size.z);
   // Whole numbers: in what order threads add theirs does not matter.
   const std::size_t shares = std::clamp<std::size_t>(static_cast<std::size_t>(threadCount()), 1,
                                                      std::max<std::size_t>(1, batches.size()));

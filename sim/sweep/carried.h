@@ -16,8 +16,8 @@
 /// to the voxels.
 namespace espalier::sim {
 
-/// Voxels at which rays end, with a value for each of their faces (sim/base/faces.h) that has no other of them
-/// before it: a ray sees that of the face through which it comes.
+/// Voxels at which rays end, with a value for each of their faces (sim/base/faces.h) that has no other of
+/// them before it: a ray sees that of the face through which it comes.
 template <typename Value>
 struct Stops {
   struct OfFace {

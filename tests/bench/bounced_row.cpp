@@ -147,8 +147,7 @@ sim::Voxel behind(const VoxelFaces& faces, std::size_t face, const sim::BitVolum
 
 sim::Bounced bounced(const sim::World& world, const sim::Lighting& light, const sim::BounceSources& sources,
                      int passes) {
-  return sim::Interreflection(world, light,
-                              {.directions = kDirections, .passes = passes, .tolerance = 0.0})
+  return sim::Interreflection(world, light, {.directions = kDirections, .passes = passes, .tolerance = 0.0})
       .of(sources);
 }
 
@@ -165,8 +164,8 @@ void benchDoubling(Report& report) {
     sim::Stops<std::uint16_t> stops(site.world.opaque());
     for (auto& face : stops.faces) std::fill(face.values.begin(), face.values.end(), std::uint16_t{30000});
     const sim::DirectionSet directions = sphere();
-    const auto seconds = medianSeconds({[&] { bounced(site.world, light, sources, 2); },
-                                        [&] { sim::carriedSum(stops, directions); }});
+    const auto seconds = medianSeconds(
+        {[&] { bounced(site.world, light, sources, 2); }, [&] { sim::carriedSum(stops, directions); }});
     surfaces.push_back(seconds[0]);
     voxels.push_back(seconds[1]);
     receivers.push_back(sources.sun.size());
@@ -194,15 +193,16 @@ void benchSurfacesLit(const sim::World& world, const sim::Lighting& light, const
   const sim::DirectionSet directions = sphere();
   sim::Bounced one, four;
   std::vector<float> theirs;
-  const std::vector<double> seconds =
-      medianSeconds({[&] { one = bounced(world, light, sources, 2); }, [&] { four = bounced(world, light, sources, 4); },
-                     [&] { theirs = byEmbree(embree, from, &normals, directions, values); }});
+  const std::vector<double> seconds = medianSeconds(
+      {[&] { one = bounced(world, light, sources, 2); }, [&] { four = bounced(world, light, sources, 4); },
+       [&] { theirs = byEmbree(embree, from, &normals, directions, values); }});
   report.note(fmt::format("  {} surfaces and {} faces, {} directions", light.surfaces.size(),
                           light.faces.size(), directions.size()));
   report.add({kRow, "every surface, colour, two passes, whole", seconds[0], "s"});
   report.add({kRow, "every surface, colour, four passes, whole", seconds[1], "s", 0, Target{1.5, false}});
   report.add({kRow, "Embree's closest hits before the same surfaces, once, and their sums", seconds[2], "s"});
-  report.add({kRow, "Embree's time over that of two passes", seconds[2] / seconds[0], "times", 0, Target{1.0}});
+  report.add(
+      {kRow, "Embree's time over that of two passes", seconds[2] / seconds[0], "times", 0, Target{1.0}});
 }
 
 void benchEveryVoxelLit(const sim::World& world, const ClosestHits& embree, Report& report) {
@@ -211,7 +211,8 @@ void benchEveryVoxelLit(const sim::World& world, const ClosestHits& embree, Repo
   const sim::DirectionSet directions = sphere();
   sim::Stops<std::uint16_t> stops(opaque);
   const auto valueOf = [](sim::Voxel v) {
-    return static_cast<std::uint16_t>(1 + static_cast<unsigned>((v.y * 613 + v.z) * 757 + v.x) * 40503u % 65535u);
+    return static_cast<std::uint16_t>(1 +
+                                      static_cast<unsigned>((v.y * 613 + v.z) * 757 + v.x) * 40503u % 65535u);
   };
   for (auto& face : stops.faces) {
     const std::vector<sim::Voxel> voxels = face.where.voxels();
@@ -241,18 +242,19 @@ void benchEveryVoxelLit(const sim::World& world, const ClosestHits& embree, Repo
   sim::Field<std::uint16_t> field;
   std::vector<std::uint16_t> plain(places.size());
   std::vector<float> theirs;
-  const std::vector<double> seconds = medianSeconds(
-      {[&] { field = sim::carriedSum(stops, directions); },
-       [&] {
-         sim::parallelFor(places.size(), 64, [&](std::size_t begin, std::size_t end) {
-           for (std::size_t i = begin; i < end; ++i) {
-             std::uint64_t sum = 0;
-             for (const auto& d : directions) sum += std::uint64_t{d.weight} * cast(places[i], d);
-             plain[i] = static_cast<std::uint16_t>((sum + 32767) / 65535);
-           }
-         });
-       },
-       [&] { theirs = byEmbree(embree, places, nullptr, directions, of_faces); }});
+  const std::vector<double> seconds =
+      medianSeconds({[&] { field = sim::carriedSum(stops, directions); },
+                     [&] {
+                       sim::parallelFor(places.size(), 64, [&](std::size_t begin, std::size_t end) {
+                         for (std::size_t i = begin; i < end; ++i) {
+                           std::uint64_t sum = 0;
+                           for (const auto& d : directions)
+                             sum += std::uint64_t{d.weight} * cast(places[i], d);
+                           plain[i] = static_cast<std::uint16_t>((sum + 32767) / 65535);
+                         }
+                       });
+                     },
+                     [&] { theirs = byEmbree(embree, places, nullptr, directions, of_faces); }});
   std::size_t other = 0;
   double off = 0.0;
   for (std::size_t i = 0; i < places.size(); ++i) {
@@ -265,10 +267,10 @@ void benchEveryVoxelLit(const sim::World& world, const ClosestHits& embree, Repo
   report.add({kRow, "  rays", voxels * static_cast<double>(directions.size()) / seconds[0] / 1e6, "Mray/s"});
   report.note(fmt::format("  {} of {} places differ from plain rays; Embree's by {:.5f} in the mean", other,
                           places.size(), off / n));
-  report.add({kRow, "plain rays' time for as many voxels over it", seconds[1] / n * voxels / seconds[0], "times", 0,
-              Target{200.0}});
-  report.add({kRow, "Embree's (closest hits, 16 of one direction) over it", seconds[2] / n * voxels / seconds[0],
-              "times", 0, Target{30.0}});
+  report.add({kRow, "plain rays' time for as many voxels over it", seconds[1] / n * voxels / seconds[0],
+              "times", 0, Target{200.0}});
+  report.add({kRow, "Embree's (closest hits, 16 of one direction) over it",
+              seconds[2] / n * voxels / seconds[0], "times", 0, Target{30.0}});
 }
 
 }  // namespace
@@ -276,8 +278,9 @@ void benchEveryVoxelLit(const sim::World& world, const ClosestHits& embree, Repo
 void benchBounced(Report& report) {
   const scenes::Site site = courtyard();
   const sim::Voxel size = site.world.frame().size;
-  report.title(fmt::format("11. Light that bounces: courtyard, {} x {} x {} voxels, {} directions over the sphere",
-                           size.x, size.y, size.z, 2 * kDirections));
+  report.title(
+      fmt::format("11. Light that bounces: courtyard, {} x {} x {} voxels, {} directions over the sphere",
+                  size.x, size.y, size.z, 2 * kDirections));
   const sim::Lighting light = sim::lightOf(site.world, site.sky, site.sun);
   const ClosestHits embree(site.world.opaque());
   benchSurfacesLit(site.world, light, embree, report);

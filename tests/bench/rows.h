@@ -35,7 +35,8 @@ void benchStems(Report& report);
 /// Paving floors of three sizes.
 void benchLaying(Report& report);
 
-/// Light that bounces in the courtyard: what its surfaces and what all voxels receive, and Embree in its place.
+/// Light that bounces in the courtyard: what its surfaces and what all voxels receive, and Embree in its
+/// place.
 void benchBounced(Report& report);
 
 /// A sky of at least so many directions, of equal weight for equal parts.

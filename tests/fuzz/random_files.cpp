@@ -18,25 +18,12 @@ namespace {
 using rules::Kind;
 
 /// What keeps scenes small and plants alive, and would be large by default.
-const std::set<std::string> kAlways = {"scene:iterations",
-                                       "scene:plants",
-                                       "scene:plants[].seeds",
-                                       "scene:cameras",
-                                       "scene:image",
-                                       "scene:image.width",
-                                       "scene:image.height",
-                                       "scene:film.width",
-                                       "scene:film.height",
-                                       "scene:meshes[].file",
-                                       "scene:meshes[].scale",
-                                       "scene:meshes[].translate",
-                                       "scene:world.voxel",
-                                       "scene:world.resolution",
-                                       "scene:world.bounds",
-                                       "scene:world.margin",
-                                       "scene:sky",
-                                       "scene:sky.rays",
-                                       "scene:sky.directions"};
+const std::set<std::string> kAlways = {
+    "scene:iterations",  "scene:plants",           "scene:plants[].seeds", "scene:cameras",
+    "scene:image",       "scene:image.width",      "scene:image.height",   "scene:film.width",
+    "scene:film.height", "scene:meshes[].file",    "scene:meshes[].scale", "scene:meshes[].translate",
+    "scene:world.voxel", "scene:world.resolution", "scene:world.bounds",   "scene:world.margin",
+    "scene:sky",         "scene:sky.rays",         "scene:sky.directions"};
 
 /// What there must be where plants colonize.
 const std::set<std::string> kOfFronts = {"scene:attractors",

@@ -93,6 +93,15 @@ TEST_F(Obj, MaterialsNameEachPictureOnce) {
             std::set<std::string>(statements["newmtl"].begin(), statements["newmtl"].end()));
 }
 
+TEST_F(Obj, MaterialsSayWhatTheySendOut) {
+  EXPECT_FALSE(statementsOf(library().mtl).contains("Ke"));
+  wall_.materials[1].emissive = sim::Colour(0.0f, 0.25f, 7.0f);
+  vine_.elements[0].emits = sim::Colour(1.0f);
+  auto statements = statementsOf(library().mtl);
+  EXPECT_EQ(statements["Ke"],
+            (std::vector<std::string>{"0.00000 0.53710 1.00000", "1.00000 1.00000 1.00000"}));
+}
+
 TEST_F(Obj, StrangeNamesAndMeshes) {
   vine_.name = "a # b\n";
   EXPECT_EQ(statementsOf(obj())["o"][1], "a___b_");

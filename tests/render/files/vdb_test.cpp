@@ -112,7 +112,8 @@ TEST_F(Vdb, AGridMayHaveOneValueInAllElseThatIsOccupied) {
   std::vector<render::VdbField> one = fields();
   one.resize(1);
   one[0].elsewhere = 7.0f;
-  one[0].parts = std::vector<render::VdbPart<float>>{{&near_, [](Voxel v, std::size_t) { return number(v); }}};
+  one[0].parts =
+      std::vector<render::VdbPart<float>>{{&near_, [](Voxel v, std::size_t) { return number(v); }}};
   const ReadBack file = readBack(render::vdbBytes(world_, one));
   const auto place = file.grid<openvdb::FloatGrid>("place");
   EXPECT_EQ(place->getGridClass(), openvdb::GRID_FOG_VOLUME);

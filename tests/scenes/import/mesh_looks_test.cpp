@@ -274,7 +274,8 @@ TEST_F(MeshLooks, WithATextureOfLightThatIsNotReadNothingShines) {
   document["materials"][0]["emissiveTexture"] = {{"index", 0}};
   write("house.glb", tests::glb(document, tests::gltfBuffer()));
   EXPECT_EQ(import("house.glb").materials.at(0).emissive, sim::Colour(0.0f));
-  EXPECT_NE(warning().find("'emissiveTexture' of its materials is of a kind that is not read"), std::string::npos)
+  EXPECT_NE(warning().find("'emissiveTexture' of its materials is of a kind that is not read"),
+            std::string::npos)
       << warning();
 }
 

@@ -215,8 +215,7 @@ inline std::vector<std::string> badTexts(const rules::Key& key) {
               "{others: {nmae: x}}"};
     case Kind::section: {
       const auto* const brief = rules::briefOf(key);
-      const bool any_text =
-          brief != nullptr && (brief->kind == Kind::file || brief->kind == Kind::text);
+      const bool any_text = brief != nullptr && (brief->kind == Kind::file || brief->kind == Kind::text);
       return {"[[]]", "{unknown_key: 1}", any_text ? "\"\"" : "few_words"};
     }
     case Kind::entries:

@@ -31,16 +31,17 @@ class RedWall : public testing::Test {
       "f 1 2 3 4\nf 5 8 7 6\nf 1 5 6 2\nf 2 6 7 3\nf 3 7 8 4\nf 4 8 5 1\n";
 
   RedWall() {
-    folder_.write("wall.mtl",
-                 "newmtl white\nKd 0.9 0.9 0.9\nnewmtl red\nKd 0.9 0.1 0.1\nnewmtl lamp\nKd 0.5 0.5 0.5\nKe 1 1 1\n");
+    folder_.write(
+        "wall.mtl",
+        "newmtl white\nKd 0.9 0.9 0.9\nnewmtl red\nKd 0.9 0.1 0.1\nnewmtl lamp\nKd 0.5 0.5 0.5\nKe 1 1 1\n");
     folder_.write("wall.obj", kMesh);
     folder_.write("lamp.obj", kLamp);
   }
 
   Scene scene(const std::string& meshes, const std::string& more = "interreflection: {directions: 64}") {
-    folder_.write("scene.yaml",
-                 "espalier: scene\nmeshes: [" + meshes +
-                     "]\nworld: {voxel: 6 cm, margin: 12 cm}\nsky: {directions: 64}\n" + more + "\n");
+    folder_.write("scene.yaml", "espalier: scene\nmeshes: [" + meshes +
+                                    "]\nworld: {voxel: 6 cm, margin: 12 cm}\nsky: {directions: 64}\n" + more +
+                                    "\n");
     auto read = readScene(folder_.path("scene.yaml"));
     if (!read) throw std::runtime_error(format(read.problems()));
     return *read;
@@ -94,8 +95,8 @@ TEST_F(RedWall, ReddensDicedModelsToo) {
   const auto redness = [](const Found& found, double z) {
     const sim::World& world = found.site.world;
     const VoxelColours colours(world, world.occupied(), found.light, found.lit, ImageKind::first_pass, kSun);
-    const Colour c = colours.at(sim::voxelAt(sim::voxelFromWorld(world.frame(), Vec3(1.5, 0.0, z))),
-                                sim::PartKind::scene);
+    const Colour c =
+        colours.at(sim::voxelAt(sim::voxelFromWorld(world.frame(), Vec3(1.5, 0.0, z))), sim::PartKind::scene);
     return c.r / c.b;
   };
   const auto redder = [&](double z) { return redness(*bounced, z) / redness(*plain, z); };
@@ -138,24 +139,29 @@ TEST_F(RedWall, ALampLightsWhatIsNear) {
   const std::string lamp = ", {file: lamp.obj, emits: {colour: \"#ffffff\", strength: 30}}";
   const auto dark = find(scene("wall.obj"), kSun), lit = find(scene("wall.obj" + lamp), kSun);
   const auto below = [](const Found& found) {
-    return found.lit.vines->at(sim::voxelFromWorld(found.site.world.frame(), Vec3(1.5, 0.0, 1.5)), Vec3f(0, 1, 0));
+    return found.lit.vines->at(sim::voxelFromWorld(found.site.world.frame(), Vec3(1.5, 0.0, 1.5)),
+                               Vec3f(0, 1, 0));
   };
   EXPECT_GT(below(*lit).g, below(*dark).g + 1.0f);
   ASSERT_TRUE(lit->lit.emitted);
   const sim::Frame& frame = lit->site.world.frame();
-  EXPECT_NEAR(lit->lit.emitted->at(sim::voxelAt(sim::voxelFromWorld(frame, Vec3(1.5, 0.5, 1.5)))).g, 30.0f, 0.5f);
-  EXPECT_EQ(lit->lit.emitted->at(sim::voxelAt(sim::voxelFromWorld(frame, Vec3(0.5, 0.0, 2.5)))), Colour(0.0f));
+  EXPECT_NEAR(lit->lit.emitted->at(sim::voxelAt(sim::voxelFromWorld(frame, Vec3(1.5, 0.5, 1.5)))).g, 30.0f,
+              0.5f);
+  EXPECT_EQ(lit->lit.emitted->at(sim::voxelAt(sim::voxelFromWorld(frame, Vec3(0.5, 0.0, 2.5)))),
+            Colour(0.0f));
   // Its own light, as the file has it.
   const auto own = find(scene("wall.obj, lamp.obj"), kSun);
-  EXPECT_NEAR(own->lit.emitted->at(sim::voxelAt(sim::voxelFromWorld(frame, Vec3(1.5, 0.5, 1.5)))).g, 1.0f, 0.05f);
+  EXPECT_NEAR(own->lit.emitted->at(sim::voxelAt(sim::voxelFromWorld(frame, Vec3(1.5, 0.5, 1.5)))).g, 1.0f,
+              0.05f);
 }
 
 TEST_F(RedWall, ALampIsSeenInMapsOfExposureWithAndWithoutWhatItLights) {
   const auto exposed = [&](const std::string& emits, const std::string& more) {
-    const Scene asked = scene("wall.obj, {file: lamp.obj" + emits + "}",
-                              "image: {width: 60, height: 40}\ncameras: {a: {eye: [1.5, 1.2, 6], target: [1.5, "
-                              "0.6, 1.5], fov: 40}}\n" +
-                                  more);
+    const Scene asked =
+        scene("wall.obj, {file: lamp.obj" + emits + "}",
+              "image: {width: 60, height: 40}\ncameras: {a: {eye: [1.5, 1.2, 6], target: [1.5, "
+              "0.6, 1.5], fov: 40}}\n" +
+                  more);
     RunOptions options;
     options.folder = folder_.path("out");
     exposeScene(asked, options);
@@ -171,8 +177,8 @@ TEST_F(RedWall, ALampIsSeenInMapsOfExposureWithAndWithoutWhatItLights) {
 
 TEST_F(RedWall, ALampInsideOfAWallIsRefused) {
   folder_.write("block.obj",
-               "v 1 0.2 1.1\nv 2 0.2 1.1\nv 2 0.2 2\nv 1 0.2 2\nv 1 1 1.1\nv 2 1 1.1\nv 2 1 2\nv 1 1 2\n"
-               "f 1 2 3 4\nf 5 8 7 6\nf 1 5 6 2\nf 2 6 7 3\nf 3 7 8 4\nf 4 8 5 1\n");
+                "v 1 0.2 1.1\nv 2 0.2 1.1\nv 2 0.2 2\nv 1 0.2 2\nv 1 1 1.1\nv 2 1 1.1\nv 2 1 2\nv 1 1 2\n"
+                "f 1 2 3 4\nf 5 8 7 6\nf 1 5 6 2\nf 2 6 7 3\nf 3 7 8 4\nf 4 8 5 1\n");
   const Scene buried = scene("{file: block.obj, solid: true}, lamp.obj");
   const Site site = makeSite(buried);
   try {
@@ -181,9 +187,11 @@ TEST_F(RedWall, ALampInsideOfAWallIsRefused) {
   } catch (const PlacedError& error) {
     ASSERT_EQ(error.problems().size(), 1u);
     const std::string said = format(error.problems());
-    EXPECT_NE(said.find("scene.yaml:2:42: mesh 'lamp' sends out light, and none gets out: it lies inside of 'block'; "
-                        "expected it in the open"),
-              std::string::npos)
+    EXPECT_NE(
+        said.find(
+            "scene.yaml:2:42: mesh 'lamp' sends out light, and none gets out: it lies inside of 'block'; "
+            "expected it in the open"),
+        std::string::npos)
         << said;
   }
   const Scene open = scene("wall.obj, lamp.obj");

@@ -163,7 +163,8 @@ Lit discs(double n, double lamp, double patch, double apart) {
   const double most = n * std::max(lamp, patch);
   const Vec3 centre(most + 4.5, 4.5, most + 4.5);
   return lit(Voxel(Vec3(2 * most + 10, n * apart + 10, 2 * most + 10)),
-             {disc("patch", centre, n * patch, true), disc("lamp", centre + Vec3(0, n * apart, 0), n * lamp, false)});
+             {disc("patch", centre, n * patch, true),
+              disc("lamp", centre + Vec3(0, n * apart, 0), n * lamp, false)});
 }
 Lit corner(double n) {
   const double x = 4.5, y = 4.5, z = 4.5;
@@ -206,8 +207,8 @@ Lit court(double n = 1.0) {
 }
 
 bool same(const Bounced& a, const Bounced& b) {
-  return a.light == b.light && a.sky == b.sky && a.below == b.below && a.covered == b.covered && a.passes == b.passes &&
-         a.change == b.change;
+  return a.light == b.light && a.sky == b.sky && a.below == b.below && a.covered == b.covered &&
+         a.passes == b.passes && a.change == b.change;
 }
 
 TEST(Interreflection, IsTheSameOnAnyThreadsAtAnyLevelAndWithAnyMemory) {
@@ -229,7 +230,8 @@ TEST(Interreflection, MeetsWhatItsRaysMeet) {
   const SurfaceSensors sensors = sensorsOf(lit.world, lit.light);
   const std::vector<Voxel> from = viewpoints(sensors);
   DirectionSet directions = makeSky({.directions = 20}).directions;
-  for (std::size_t i = 0; i < 20; ++i) directions.push_back({-directions[i].v, crossedVoxels(-directions[i].v), 1});
+  for (std::size_t i = 0; i < 20; ++i)
+    directions.push_back({-directions[i].v, crossedVoxels(-directions[i].v), 1});
   const Met met = meet(receiversMet(lit.world, lit.light), sensors, from, directions, 0, directions.size());
   std::size_t hits = 0, surfaces = 0, backs = 0;
   for (std::size_t i = 0; i < lit.light.surfaces.size(); i += 5) {
@@ -311,7 +313,8 @@ TEST(Interreflection, EndsByItsTolerance) {
   EXPECT_GT(bounced.passes, 2);
   EXPECT_LT(bounced.passes, 30);
   EXPECT_LE(bounced.change, 0.01);
-  EXPECT_EQ(lit.bounced({.directions = 32, .passes = 1}).light, std::vector<Colour>(lit.count(), Colour(0.0f)));
+  EXPECT_EQ(lit.bounced({.directions = 32, .passes = 1}).light,
+            std::vector<Colour>(lit.count(), Colour(0.0f)));
 }
 
 TEST(Interreflection, OnAPlainWallNeighboursDifferByLittle) {
@@ -322,9 +325,7 @@ TEST(Interreflection, OnAPlainWallNeighboursDifferByLittle) {
   for (const Case of : {Case{true, true}, {false, true}, {true, false}}) {
     if (!of.sun) lit.sources.sun.assign(lit.count(), Colour(0.0f));
     const Bounced bounced = lit.bounced({.directions = 512, .passes = 4, .lambert = of.lambert});
-    const auto sent = [&](Voxel v) {
-      return radiosity(lit.sources, bounced, lit.light.where->number(v));
-    };
+    const auto sent = [&](Voxel v) { return radiosity(lit.sources, bounced, lit.light.where->number(v)); };
     float most = 0.0f, off_line = 0.0f;  // before a sunny floor light rises steeply, but evenly
     for (const TiledVoxel& t : lit.light.surfaces) {
       if (lit.world.part(t.surface.part).object != "white" || t.surface.normal.x > -0.999f) continue;

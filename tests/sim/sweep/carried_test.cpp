@@ -57,7 +57,8 @@ std::vector<Voxel> everyWay() {
       }
     }
   }
-  for (const Voxel v : {Voxel(3, 2, -1), {-5, 1, 4}, {2, -7, 1}, {-1, -3, -63}, {40, 3, 2}, {7, 0, -3}, {-2, 0, 9}})
+  for (const Voxel v :
+       {Voxel(3, 2, -1), {-5, 1, 4}, {2, -7, 1}, {-1, -3, -63}, {40, 3, 2}, {7, 0, -3}, {-2, 0, 9}})
     ways.push_back(v);
   return ways;
 }
@@ -101,7 +102,8 @@ TEST(Carried, SumsAreThoseOfTheRaysOnAnyNumberOfThreads) {
           ASSERT_EQ(field.values[field.index({x, y, z})], 0);
           continue;
         }
-        for (const auto& d : directions) sum += d.weight * static_cast<double>(cast(stops, {x, y, z}, d).value_or(0));
+        for (const auto& d : directions)
+          sum += d.weight * static_cast<double>(cast(stops, {x, y, z}, d).value_or(0));
         ASSERT_EQ(field.values[field.index({x, y, z})], std::lround(sum / sim::ExposureField::kWhole));
       }
     }

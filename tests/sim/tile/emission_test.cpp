@@ -29,7 +29,8 @@ TEST(Emission, OfALampIsItsLightInEachOfItsVoxels) {
     EXPECT_NEAR(v.light.r, 2.0f, 1e-3f);
     EXPECT_NEAR(v.light.b, 0.5f, 1e-3f);
   }
-  for (std::size_t i = 1; i < voxels.size(); ++i) EXPECT_TRUE(beforeInRows(voxels[i - 1].voxel, voxels[i].voxel));
+  for (std::size_t i = 1; i < voxels.size(); ++i)
+    EXPECT_TRUE(beforeInRows(voxels[i - 1].voxel, voxels[i].voxel));
   EXPECT_TRUE(emission(lamp, true).empty());
 }
 
@@ -39,7 +40,7 @@ TEST(Emission, OfAPartOfWhatLiesInAVoxelIsLess) {
   floor.materials.push_back({"lamp"});
   floor.materials[1].emissive = Colour(4.0f);
   floor.regions.emplace_back("lamp");
-  floor.vertices_m = {{0, 4, 0}, {6.5, 4, 0}, {7.25, 4, 0}, {15, 4, 0},
+  floor.vertices_m = {{0, 4, 0},  {6.5, 4, 0},  {7.25, 4, 0},  {15, 4, 0},
                       {0, 4, 15}, {6.5, 4, 15}, {7.25, 4, 15}, {15, 4, 15}};
   for (std::uint32_t i = 0; i < 3; ++i) {
     tests::addTriangle(floor, i, i + 4, i + 5, i == 1);

@@ -144,6 +144,7 @@ sim::Plant seedlingOf(const RuleBook& book) {
   plant.bark = stem.picture ? "" : stem.texture;
   plant.bark_picture = stem.picture;
   plant.girth = {stem.by, stem.radius.number, stem.exponent, stem.thickens.number, stem.thickest.number};
+  plant.form.forks = stem.forks;
   plant.skeleton.columns["proximity_vx"];
   if (book.hasOrders()) plant.skeleton.columns["order"];
   if (book.hasPhyllotaxis()) {

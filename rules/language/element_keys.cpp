@@ -50,6 +50,7 @@ std::shared_ptr<const Table> variationKeys() {
 }  // namespace
 
 std::shared_ptr<const Table> stemKeys() {
+  using Forks = sim::StemForm::Forks;
   using By = sim::StemGirth::By;
   return TableOf<Stem>()
       .colour("colour", &Stem::colour, {.meaning = "Colour of the bark."})
@@ -79,6 +80,10 @@ std::shared_ptr<const Table> stemKeys() {
                 {.unit = kWidths,
                  .limits = {0.0, 1000.0, true},
                  .meaning = "Greatest radius of any stem. Without it trunks are as thick as they come."})
+      .choice<Forks>(
+          "forks", &Stem::forks, {{"grown", Forks::grown}, {"murray", Forks::murray}},
+          {.meaning = "Once it has grown: as it forked; or turned to the angles at which vessels of "
+                      "such radii cost least."})
       .shared();
 }
 

@@ -14,6 +14,7 @@
 #include "rules/language/value.h"
 #include "sim/base/vec.h"
 #include "sim/grow/plant.h"
+#include "sim/grow/stem_form.h"
 #include "sim/grow/stem_girth.h"
 
 /// Rule sets as plain values: what a rule file says. rules/language/registry.h describes every key (type,
@@ -285,7 +286,7 @@ struct Element {
   std::optional<Emission> emits;
 };
 
-/// What a plant's stems are like: see sim::StemGirth.
+/// What a plant's stems are like: see sim::StemGirth and sim::StemForm.
 struct Stem {
   sim::Colour colour{0.16f, 0.10f, 0.05f};  ///< linear RGB
   Distance radius{0.08};                    ///< of a twig that does not fork
@@ -293,6 +294,7 @@ struct Stem {
   double exponent = 2.05;
   Distance thickens{0.02};  ///< by age: in an iteration
   Distance thickest{kNoLimit};
+  sim::StemForm::Forks forks = sim::StemForm::Forks::grown;
   std::string texture;                          ///< as Element::texture
   std::shared_ptr<const sim::Picture> picture;  ///< of a file; who reads it puts it here
   std::optional<Emission> emits;

@@ -9,6 +9,7 @@
 
 #include "sim/base/picture.h"
 #include "sim/base/vec.h"
+#include "sim/grow/stem_form.h"
 #include "sim/grow/stem_girth.h"
 #include "sim/sense/intersection.h"
 #include "sim/world/world.h"
@@ -90,6 +91,7 @@ struct Plant {
   std::shared_ptr<const Picture> bark_picture = nullptr;
   Colour stem_emits{0.0f};  ///< as ElementShape::emits
   StemGirth girth;
+  StemForm form;
   PartId stem_part = kFree;
   std::vector<PartId> element_parts;  ///< a part for each shape
   std::uint64_t key = 0;              ///< its seed's: what its random numbers follow from

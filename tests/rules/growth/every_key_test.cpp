@@ -118,6 +118,7 @@ const std::map<std::string, std::string> kWithoutEffect = {
     {"stem.exponent", "the same"},
     {"stem.thickens", "the same"},
     {"stem.thickest", "the same"},
+    {"stem.forks", "what has grown is formed by it"},
     {"otherwise", "has tests of its own below"},
     {"regions", "the same"},
     // Of a front: tests/rules/growth/colonization_test.cpp says what they change.
@@ -369,6 +370,7 @@ TEST(Stem, ItsGirthIsForModelsAlone) {
   girth.stem.exponent = 3.0;
   girth.stem.thickens = {4e-4, true};
   girth.stem.thickest = {0.08, true};
+  girth.stem.forks = sim::StemForm::Forks::murray;
   EXPECT_EQ(resultOf(girth).state, resultOf(lively()).state);
   const sim::StemGirth made = makeProcess(shared(girth), 0.04)->seedling().girth;
   EXPECT_EQ(made.by, sim::StemGirth::By::age);

@@ -3,6 +3,7 @@
 #include "scenes/job/film.h"
 #include "scenes/job/warnings.h"
 #include "scenes/prepare/front_warnings.h"
+#include "scenes/prepare/shut_out.h"
 #include "scenes/prepare/unknown_regions.h"
 #include "scenes/show/cube_pictures.h"
 
@@ -31,6 +32,7 @@ Prepared prepare(const Scene& scene, const RunOptions& options, Report& report, 
   std::vector<Problem> warnings = scene.warnings;
   for (const auto& more : {prepared.site.warnings, of_attractors,
                            frontWarnings(scene, prepared.site.world.frame(), prepared.attractors),
+                           shutOutWarnings(scene, prepared.site, prepared.plantings),
                            unknownRegions(scene, prepared.site.world), filmWarnings(scene, options)})
     warnings.insert(warnings.end(), more.begin(), more.end());
   warn(warnings, scene.file, options, report);

@@ -1,8 +1,10 @@
 #include "render/form/forks.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
-#include <limits>
+#include <numbers>
+#include <optional>
 
 #include "render/form/one_by_one.h"
 #include "render/form/reshaped.h"
@@ -18,9 +20,10 @@ namespace {
 using sim::NodeId;
 using sim::Vec3;
 
-constexpr double kSamePlace = 1e-6;    // voxel widths
-constexpr double kMostStraight = 0.4;  // of a stretch, at each of its ends
-constexpr int kHalvings = 3;
+constexpr double kSamePlace = 1e-6;  // voxel widths
+// Shares of a stretch that are straight, at most: behind the fork in which it starts, before the one in which
+// it ends, and of one to a tip.
+constexpr double kMostAtStart = 0.65, kMostAtEnd = 0.2, kMostToTip = 0.8;
 
 Vec3 unitOr(Vec3 v, Vec3 otherwise) {
   const double length = glm::length(v);
@@ -54,7 +57,53 @@ struct Plan {
   std::vector<Ends> ends;
 };
 
-Plan planOf(const sim::Plant& plant) {
+bool enters(Vec3 from, Vec3 to, const KeptFree& blocked) {
+  std::vector<sim::Voxel> voxels;
+  sim::tileSegment(from, to, voxels);
+  return std::any_of(voxels.begin(), voxels.end(), [&](sim::Voxel v) { return blocked(v); });
+}
+
+/// A unit vector, turned about another by an angle, radians; square to it.
+Vec3 turned(Vec3 v, Vec3 about, double angle) {
+  return std::cos(angle) * v + std::sin(angle) * glm::cross(about, v);
+}
+
+/// The ways in which a fork's daughters leave it.
+struct Fork {
+  Vec3 in{0.0}, first{0.0}, second{0.0};  // unit
+};
+
+/// In the plane in which it grew, or else in the next one to that in which its straight pieces have room.
+Fork forkAt(const Stretch& in, const Stretch& first, const Stretch& second, ForkAngles angles,
+            double straight, double first_weight, double second_weight, const KeptFree& blocked) {
+  constexpr int kPlanes = 16;
+  const Vec3 fork = in.at(in.length());
+  const double look = 2.0 * straight;
+  const Vec3 came = unitOr(fork - in.at(in.length() - look), Vec3(0, 1, 0));
+  const Vec3 to_first = unitOr(first.at(look) - fork, came), to_second = unitOr(second.at(look) - fork, came);
+  // The way there is a compromise of where it comes from and where its daughters go, each as strong as it is
+  // wide.
+  const Vec3 pulled = unitOr(first_weight * to_first + second_weight * to_second, came);
+  const Vec3 way = unitOr(came + pulled, came);
+  std::optional<Fork> grown;
+  for (const Vec3 along : {way, came}) {
+    const Vec3 side = unitOr(across(to_second - to_first, along), aside(along));
+    for (int k = 0; k < kPlanes; ++k) {
+      const double turn = (k % 2 == 0 ? 1 : -1) * ((k + 1) / 2) * 2.0 * std::numbers::pi / kPlanes;
+      const Vec3 out = turned(side, along, turn);
+      const Fork tried{along, std::cos(angles.first) * along - std::sin(angles.first) * out,
+                       std::cos(angles.second) * along + std::sin(angles.second) * out};
+      if (!grown) grown = tried;
+      if (!enters(fork - straight * tried.in, fork, blocked) &&
+          !enters(fork, fork + straight * tried.first, blocked) &&
+          !enters(fork, fork + straight * tried.second, blocked))
+        return tried;
+    }
+  }
+  return *grown;
+}
+
+Plan planOf(const sim::Plant& plant, const KeptFree& blocked) {
   Plan plan;
   plan.stretches = stretchesOf(plant.skeleton);
   plan.ends.resize(plan.stretches.size());
@@ -65,35 +114,31 @@ Plan planOf(const sim::Plant& plant) {
   std::vector<std::vector<std::size_t>> leaving(static_cast<std::size_t>(plant.skeleton.size()));
   for (std::size_t i = 0; i < plan.stretches.size(); ++i)
     leaving[static_cast<std::size_t>(plan.stretches[i].from)].push_back(i);
-  for (std::size_t i = 0; i < plan.stretches.size(); ++i) {
+  sim::parallelForEach(plan.stretches.size(), [&](std::size_t i) {
     const Stretch& in = plan.stretches[i];
     const auto& out = leaving[static_cast<std::size_t>(in.nodes.back())];
-    if (out.size() != 2 || in.length() <= kSamePlace) continue;
+    if (out.size() != 2 || in.length() <= kSamePlace) return;
     const Stretch &first = plan.stretches[out[0]], &second = plan.stretches[out[1]];
-    if (first.length() <= kSamePlace || second.length() <= kSamePlace) continue;
+    if (first.length() <= kSamePlace || second.length() <= kSamePlace) return;
     const double r0 = radius(in), r1 = radius(first), r2 = radius(second);
     const double straight = kStraightRadii * r0;
-    const Vec3 fork = in.at(in.length());
-    // The way there is a compromise of where it comes from and where its daughters go, each as strong as it
-    // is wide.
-    const double look = 2.0 * straight;
-    const Vec3 came = unitOr(fork - in.at(in.length() - look), Vec3(0, 1, 0));
-    const Vec3 to_first = unitOr(first.at(look) - fork, came),
-               to_second = unitOr(second.at(look) - fork, came);
-    const Vec3 way = unitOr(came + unitOr(r1 * r1 * to_first + r2 * r2 * to_second, came), came);
-    const Vec3 apart = across(to_second - to_first, way);
-    const Vec3 side = unitOr(apart, aside(way));
-    const ForkAngles angles = murrayAngles(r0, r1, r2);
-    plan.ends[i].end = way;
-    plan.ends[i].straight_end = std::min(straight, kMostStraight * in.length());
-    const auto leave = [&](std::size_t one, double angle, double to_side) {
-      const double most = kMostStraight * plan.stretches[one].length();
-      plan.ends[one].start = std::cos(angle) * way + to_side * std::sin(angle) * side;
+    const Fork fork =
+        forkAt(in, first, second, murrayAngles(r0, r1, r2), straight, r1 * r1, r2 * r2, blocked);
+    plan.ends[i].end = fork.in;
+    plan.ends[i].straight_end = std::min(straight, kMostAtEnd * in.length());
+    const auto leave = [&](std::size_t one, Vec3 way) {
+      const double length = plan.stretches[one].length();
+      const bool to_tip = leaving[static_cast<std::size_t>(plan.stretches[one].nodes.back())].empty();
+      // A twig that hardly leaves what it grows from is turned whole.
+      const double most = !to_tip                           ? kMostAtStart * length
+                          : kMostToTip * length >= straight ? straight
+                                                            : length;
+      plan.ends[one].start = way;
       plan.ends[one].straight_start = std::min(straight, most);
     };
-    leave(out[0], angles.first, -1.0);
-    leave(out[1], angles.second, 1.0);
-  }
+    leave(out[0], fork.first);
+    leave(out[1], fork.second);
+  });
   return plan;
 }
 
@@ -102,22 +147,30 @@ Vec3 hermite(Vec3 a, Vec3 a_way, Vec3 b, Vec3 b_way, double width, double t) {
   return u * u * (1.0 + 2.0 * t) * a + t * t * (3.0 - 2.0 * t) * b + width * t * u * (u * a_way - t * b_way);
 }
 
+/// How much of what is planned is tried: shares of the straight ends, and how far, in these, it bends back.
+struct Attempt {
+  double start, end, blend;
+};
+constexpr std::array kAttempts{Attempt{1, 1, 2.5}, Attempt{1, 1, 1.5},     Attempt{1, 0.5, 1.5},
+                               Attempt{1, 0, 2.5}, Attempt{1, 0, 1.2},     Attempt{0.5, 1, 2.0},
+                               Attempt{0, 1, 2.0}, Attempt{0.5, 0.5, 2.0}, Attempt{0.25, 0.25, 2.0}};
+
 /// A stretch with ends of its own.
 class Turned {
  public:
-  Turned(const Stretch& stretch, const Ends& ends, double share) : s_(stretch), ends_(ends) {
+  Turned(const Stretch& stretch, const Ends& ends, const Attempt& attempt) : s_(stretch), ends_(ends) {
     const double length = s_.length();
-    start_ = share * ends.straight_start;
-    end_ = length - share * ends.straight_end;
+    start_ = attempt.start * ends.straight_start;
+    end_ = length - attempt.end * ends.straight_end;
     const double middle = 0.5 * (start_ + end_);
-    blend_start_ = start_ > 0.0 ? std::min(middle, 2.5 * start_) : 0.0;
-    blend_end_ = end_ < length ? std::max(middle, length - 2.5 * (length - end_)) : length;
+    blend_start_ = start_ > 0.0 ? std::min(end_ < length ? middle : length, attempt.blend * start_) : 0.0;
+    blend_end_ = end_ < length ? std::max(middle, length - attempt.blend * (length - end_)) : length;
   }
 
   /// Where it is so far along as it was: as far as it grew.
   Vec3 at(double arc) const {
     const double length = s_.length();
-    if (start_ > 0.0 && arc < blend_start_) {
+    if (start_ > 0.0 && (arc <= start_ || arc < blend_start_)) {
       const Vec3 fork = s_.at(0.0);
       if (arc <= start_) return fork + arc * ends_.start;
       const double width = blend_start_ - start_;
@@ -179,22 +232,20 @@ std::vector<Reshaped> waysOn(const Stretch& stretch, const Turned& turned) {
       ways[k].shares.push_back((*next - begin) / (end - begin));
       last = *next;
     }
-    const bool forked = k + 1 == ways.size();
-    ways[k].through.push_back(forked ? stretch.points.back() : turned.at(end));
+    ways[k].through.push_back(turned.at(end));
     ways[k].shares.push_back(1.0);
   }
   return ways;
 }
 
 bool enters(Vec3 start, const std::vector<Reshaped>& ways, const KeptFree& blocked) {
-  std::vector<sim::Voxel> voxels;
   for (const Reshaped& way : ways) {
     for (const Vec3 place : way.through) {
-      sim::tileSegment(start, place, voxels);
+      if (enters(start, place, blocked)) return true;
       start = place;
     }
   }
-  return std::any_of(voxels.begin(), voxels.end(), [&](sim::Voxel v) { return blocked(v); });
+  return false;
 }
 
 }  // namespace
@@ -205,14 +256,13 @@ ForkAngles murrayAngles(double r0, double r1, double r2) {
 
 sim::Plant withMurrayForks(const sim::Plant& grown, const KeptFree& blocked) {
   const sim::Plant plant = leavingOneByOne(grown, blocked);
-  const Plan plan = planOf(plant);
+  const Plan plan = planOf(plant, blocked);
   std::vector<Reshaped> ways = asGrown(plant.skeleton);
   sim::parallelForEach(plan.stretches.size(), [&](std::size_t i) {
     sim::throwIfStopped();
     const Stretch& stretch = plan.stretches[i];
-    double share = 1.0;
-    for (int tried = 0; tried <= kHalvings; ++tried, share *= 0.5) {
-      std::vector<Reshaped> turned = waysOn(stretch, Turned(stretch, plan.ends[i], share));
+    for (const Attempt& attempt : kAttempts) {
+      std::vector<Reshaped> turned = waysOn(stretch, Turned(stretch, plan.ends[i], attempt));
       if (enters(stretch.points.front(), turned, blocked)) continue;
       for (std::size_t k = 0; k < turned.size(); ++k)
         ways[static_cast<std::size_t>(stretch.nodes[k])] = std::move(turned[k]);

@@ -95,7 +95,7 @@ TEST(MurrayForks, DrawnForksHaveThem) {
   }
 }
 
-TEST(MurrayForks, ForksAndTipsStayWhereTheyAre) {
+TEST(MurrayForks, ForksAndTipsOfLongTwigsStayWhereTheyAre) {
   const sim::Plant plant = wanderer(4, 30, 5);
   const sim::Plant after = withMurrayForks(plant, kNothing);
   const sim::Skeleton& s = plant.skeleton;

@@ -125,6 +125,10 @@ Guidance ColonizationProcess::guidance(const sim::StandView& stand, const sim::C
   return guidance;
 }
 
+std::span<const std::int32_t> wavesIn(const sim::Columns& attractors) {
+  return sim::column<std::int32_t>(attractors, kAttractorWave);
+}
+
 void ColonizationProcess::begin(const sim::StandView& stand, sim::Columns& memory,
                                 sim::Commons& commons) const {
   sim::Columns& columns = home(commons);
@@ -132,6 +136,7 @@ void ColonizationProcess::begin(const sim::StandView& stand, sim::Columns& memor
   const bool first = !holdsFront(columns);
   if (first) {
     Front fresh = frontOf(places);
+    holdBack(fresh, wavesIn(columns));
     fresh.moved = {stand.iteration};
     const LentFront kept(columns, std::move(fresh));
   }
@@ -162,6 +167,51 @@ void ColonizationProcess::begin(const sim::StandView& stand, sim::Columns& memor
   keep(own, memory);
 }
 
+/// Sends those of a planting's nodes that meet others of their plants. Such a site has a number of its own.
+void sendMeetings(FrontMemory& own, Front& front, const sim::StandView& stand) {
+  const auto find = [&](std::int32_t number) -> const FrontNode* {
+    const auto at = std::lower_bound(own.active.begin(), own.active.end(), number,
+                                     [](const FrontNode& node, std::int32_t n) { return node.front < n; });
+    return at == own.active.end() || at->front != number ? nullptr : &*at;
+  };
+  const Meetings all = takeMeetings(front);
+  std::uint32_t number = 0;
+  for (std::size_t i = 0; i < all.from.size(); ++i) {
+    const FrontNode *const from = find(all.from[i]), *const to = find(all.to[i]);
+    if (from == nullptr) {  // another planting's
+      front.links.meetings.from.push_back(all.from[i]);
+      front.links.meetings.to.push_back(all.to[i]);
+      continue;
+    }
+    if (to == nullptr || to->plant != from->plant) continue;
+    number = i > 0 && all.from[i - 1] == all.from[i] ? number + 1 : 1;
+    const auto& places = stand.plants[static_cast<std::size_t>(from->plant)].skeleton.position_vx;
+    const sim::Vec3 end_vx = places[static_cast<std::size_t>(to->node)];
+    const sim::Vec3 way = end_vx - places[static_cast<std::size_t>(from->node)];
+    own.errands.push_back(
+        {*from, number, Gait::straight, false, glm::normalize(way), end_vx, kNobody, to->node});
+  }
+}
+
+/// Brings the next wave of attractors where nothing moves any more, and lets a planting's nodes meet what has
+/// come since they last did.
+void meetWaves(FrontMemory& own, Front& front, std::span<const std::int32_t> waves, int iteration,
+               const OrderRules& rules) {
+  if (waves.empty()) return;
+  auto coming = comingWave(front, waves);
+  if (coming && iteration > front.moved.front() + 1) {
+    bringWave(front, waves, *coming);
+    front.moved = {iteration};
+    coming = comingWave(front, waves);
+  }
+  const std::int32_t come = coming.value_or(1 + *std::max_element(waves.begin(), waves.end())) - 1;
+  if (own.wave >= come) return;
+  own.wave = come;
+  std::vector<std::int32_t> numbers;
+  for (const FrontNode& node : own.active) numbers.push_back(node.front);
+  meetAgain(front, numbers, rules);
+}
+
 std::vector<sim::Site> ColonizationProcess::due(const sim::StandView& stand, sim::Columns& memory,
                                                 sim::Commons& commons) const {
   LentFront lent(home(commons));
@@ -169,24 +219,32 @@ std::vector<sim::Site> ColonizationProcess::due(const sim::StandView& stand, sim
   const OrderRules rules = rulesIn(memory, stand.iteration);
   FrontMemory own = frontMemory(memory, stand);
   own.errands.clear();
-  std::vector<std::int32_t> numbers;
   for (const FrontNode& node : own.active) requireNodes(front, {&node.front, 1});
-  std::erase_if(own.active, [&](const FrontNode& node) {
+  const std::span<const std::int32_t> waves = wavesIn(home(commons));
+  meetWaves(own, front, waves, stand.iteration, rules);
+  const bool more_come = comingWave(front, waves).has_value();
+  std::vector<FrontNode> may = own.active;
+  std::erase_if(may, [&](const FrontNode& node) {
     return !mayBranch(stand, book_, node, front.order[static_cast<std::size_t>(node.front)]);
   });
-  for (const FrontNode& node : own.active) numbers.push_back(node.front);
+  std::vector<std::int32_t> numbers;
+  for (const FrontNode& node : may) numbers.push_back(node.front);
   const std::vector<Way> ways = waysOf(front, numbers, rules);
   std::size_t kept = 0;  // of those that are still active, and of their ways
   auto way = ways.begin();
-  for (const FrontNode& node : std::vector<FrontNode>(own.active)) {
+  for (const FrontNode& node : std::vector<FrontNode>(may)) {
     if (kept == numbers.size() || numbers[kept] != node.front) continue;
-    own.active[kept++] = node;
+    may[kept++] = node;
     for (; way != ways.end() && way->node == node.front; ++way) {
       const auto gait = static_cast<Gait>(front.gait[static_cast<std::size_t>(node.front)]);
       aim(own.errands.emplace_back(Errand{node, way->number, gait}), front, *way, rules);
     }
   }
-  own.active.resize(kept);
+  may.resize(kept);
+  sendMeetings(own, front, stand);
+  // What nothing pulls now may be met, or pulled by what comes later.
+  const bool keeps_all = more_come || front_.acts == Acts::on_all_neighbours;
+  if (!keeps_all) own.active = std::move(may);
   std::erase_if(own.trunks, [&](const FrontNode& tip) {
     requireNodes(front, {&tip.front, 1});
     const Way up = trunkWay(front, tip.front, rules);
@@ -197,7 +255,7 @@ std::vector<sim::Site> ColonizationProcess::due(const sim::StandView& stand, sim
   if (!own.errands.empty()) front.moved = {stand.iteration};
   // Nodes that pick an attractor wait for another to come to it. If none of those that share it goes
   // anywhere, they would wait for ever.
-  if (stand.iteration > front.moved.front() + 1) own.active.clear();
+  if (stand.iteration > front.moved.front() + 1 && !more_come) own.active.clear();
   bend(own.errands, front, stand, book_, rules, guidance(stand, memory, commons));
   const auto place = [](const Errand& e) { return std::tuple(e.from.plant, e.from.node, e.number); };
   std::sort(own.errands.begin(), own.errands.end(),
@@ -217,12 +275,11 @@ sim::Proposal ColonizationProcess::propose(const sim::SiteView& view, const sim:
   const Errand errand = errandOf(view.memory, site);
   bool limb_goes_on = true;
   view.kin.forEachChild(site.node, [&](sim::NodeId) { limb_goes_on = false; });
-  sim::Proposal proposal =
-      proposeByBook(view, site, key, book_, orderOf(view.plant, site.node) + (limb_goes_on ? 0 : 1),
-                    [&](const RuleSet& rules, const Surroundings& around, const Senses& senses, unsigned set,
-                        sim::Proposal& counts) {
-                      return frontStep(view, rules, around, senses, errand, key, set, counts);
-                    });
+  sim::Proposal proposal = proposeByBook(
+      view, site, key, book_, orderOf(view.plant, site.node) + (limb_goes_on ? 0 : 1),
+      [&](const RuleSet& rules, const Surroundings& around, const Senses& senses, unsigned set,
+          sim::Proposal& counts) { return frontStep(view, rules, around, senses, errand, key, set, counts); },
+      errand.meets);
   proposal.retire = proposal.outcome != Outcome::resting;
   return proposal;
 }
@@ -271,13 +328,18 @@ void ColonizationProcess::settle(const sim::StandView& stand, std::span<const si
   own.trunks.clear();
   std::vector<NewNode> joined;
   std::vector<std::pair<Errand, std::int32_t>>
-      aside;  // that came no nearer to what they went for, and whereto
+      aside;                  // that came no nearer to what they went for, and whereto
+  std::vector<Errand> again;  // that will meet others in the next iteration
   for (std::size_t i = 0; i < verdicts.size(); ++i) {
     const sim::Verdict& verdict = verdicts[i];
     const Errand& errand = own.errands[i];
     if (verdict.node != sim::kNoNode) {
       const sim::Vec3 at = stand.plants[static_cast<std::size_t>(errand.from.plant)]
                                .skeleton.position_vx[static_cast<std::size_t>(verdict.node)];
+      if (errand.meets != sim::kNoNode) {
+        joined.push_back({at, errand.from.front, true});
+        continue;
+      }
       if (!errand.trunk) taken(front, errand.attractor, rules);
       const FrontNode fresh{static_cast<std::int32_t>(front.nodes.size() + joined.size()), errand.from.plant,
                             verdict.node};
@@ -286,6 +348,8 @@ void ColonizationProcess::settle(const sim::StandView& stand, std::span<const si
       if (errand.trunk) own.trunks.push_back(fresh);
       if (!errand.trunk && at != errand.end_vx && !cameNearer(errand, at, front, rules.trunk()))
         aside.push_back({errand, fresh.front});
+    } else if (errand.meets != sim::kNoNode) {
+      if (waitsForNext(verdict)) again.push_back(errand);
     } else if (waitsForNext(verdict)) {
       if (errand.trunk) own.trunks.push_back(errand.from);
       if (!errand.trunk) keepForLater(front, errand.from.front);
@@ -294,6 +358,14 @@ void ColonizationProcess::settle(const sim::StandView& stand, std::span<const si
     }
   }
   join(front, joined, rules);
+  for (const Errand& errand : again) {
+    const auto to = std::find_if(own.active.begin(), own.active.end(), [&](const FrontNode& node) {
+      return node.plant == errand.from.plant && node.node == errand.meets;
+    });
+    if (to == own.active.end()) continue;
+    front.links.meetings.from.push_back(errand.from.front);
+    front.links.meetings.to.push_back(to->front);
+  }
   for (const auto& [errand, to] : aside) {
     const auto n = static_cast<std::size_t>(errand.from.front);
     if (goesForOneOfMany(rules.trunk())) {

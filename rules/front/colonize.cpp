@@ -35,6 +35,12 @@ Colony colonize(std::span<const sim::Vec3> attractors, std::span<const sim::Vec3
   colony.parent.assign(starts.size(), kNobody);
   colony.born.assign(starts.size(), 0);
   colony.joins.assign(starts.size(), kNobody);
+  const FrontRules last = rules;
+  const auto reachTo = [&](std::int32_t wave) {
+    rules.influence = reachIn(waves, wave) * last.influence;
+    rules.kill = reachIn(waves, wave) * last.kill;
+  };
+  reachTo(0);
   std::vector<NewNode> joining;
   for (const sim::Vec3& start : starts) joining.push_back({start});
   join(front, joining, rules);
@@ -63,6 +69,7 @@ Colony colonize(std::span<const sim::Vec3> attractors, std::span<const sim::Vec3
       const auto wave = comingWave(front, waves);
       if (!wave) break;
       bringWave(front, waves, *wave);
+      reachTo(*wave);
       active = all;
       meetAgain(front, active, rules);
       continue;

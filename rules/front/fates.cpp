@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "rules/front/front.h"
@@ -30,6 +31,11 @@ void bringWave(Front& front, std::span<const std::int32_t> waves, std::int32_t w
     if (waves[number] == wave && front.attractors.fate[asIndex(at)] == static_cast<std::int32_t>(Fate::later))
       bring(front.attractors, at);
   }
+}
+
+double reachIn(std::span<const std::int32_t> waves, std::int32_t wave) {
+  if (waves.empty()) return 1.0;
+  return std::ldexp(1.0, std::max(0, *std::max_element(waves.begin(), waves.end()) - wave));
 }
 
 Meetings takeMeetings(Front& front) {

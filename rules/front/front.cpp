@@ -54,31 +54,31 @@ Way straightWay(Front& front, std::int32_t node, const FrontRules& rules) {
 }
 
 /// What became of it with on_all_neighbours: as above, but that the others are pulled on.
-Way straightWayOfNeighbour(Front& front, std::int32_t node, const FrontRules& own, const OrderRules& rules) {
+Way straightWayOfNeighbour(Front& front, std::int32_t node, const FrontRules& own) {
   const sim::Vec3 from = front.nodes[asIndex(node)];
   while (front.pulls.count[asIndex(node)] > 0) {
-    const std::int32_t at = nearestPulling(front, node, rules);
+    const std::int32_t at = nearestPulling(front, node);
     const sim::Vec3 to = front.attractors.at(at);
     const std::int32_t number = front.attractors.number[asIndex(at)];
     if (leadsNearer(from, to, own)) return {node, 0, unitTo(from, to), number};
-    letGoOfNeighbour(front, node, number, rules);
+    letGoOfNeighbour(front, node, number, own.iteration);
   }
   return {kNobody};
 }
 
 /// The same way as below, where an attractor pulls several nodes.
-Way wayOfNeighbour(Front& front, std::int32_t node, const FrontRules& own, const OrderRules& rules) {
+Way wayOfNeighbour(Front& front, std::int32_t node, const FrontRules& own) {
   const std::size_t n = asIndex(node);
   const bool same = front.tried[n] == front.pulls.count[n];
   bool straight = same;
   if (same && front.gait[n] == static_cast<std::int32_t>(Gait::straight)) {
-    const std::int32_t at = nearestPulling(front, node, rules);
-    letGoOfNeighbour(front, node, front.attractors.number[asIndex(at)], rules);
+    const std::int32_t at = nearestPulling(front, node);
+    letGoOfNeighbour(front, node, front.attractors.number[asIndex(at)], own.iteration);
     straight = false;
   }
   Way way{node, 0, pulled(front, n)};
   straight = straight || way.direction == sim::Vec3(0.0);
-  if (straight) way = straightWayOfNeighbour(front, node, own, rules);
+  if (straight) way = straightWayOfNeighbour(front, node, own);
   setGait(front, n, front.pulls.count[n], straight ? Gait::straight : Gait::pulled);
   return way;
 }
@@ -276,7 +276,7 @@ std::vector<Way> waysOf(Front& front, std::vector<std::int32_t>& active, const O
   for (const std::int32_t node : active) {
     const FrontRules& own = rules.at(nextOrder(front, node));
     if (rules.trunk().acts == Acts::on_all_neighbours) {
-      const Way way = wayOfNeighbour(front, node, own, rules);
+      const Way way = wayOfNeighbour(front, node, own);
       if (way.node != kNobody) ways.push_back(way);
     } else if (rules.trunk().repeated) {
       allWaysOf(front, node, own, ways);
@@ -319,8 +319,8 @@ void taken(Front& front, std::int32_t attractor, const OrderRules& by_order) {
 
 void giveUp(Front& front, std::int32_t node, const OrderRules& by_order) {
   if (by_order.trunk().acts == Acts::on_all_neighbours) {
-    for (const std::int32_t number : pulling(front, node, by_order))
-      letGoOfNeighbour(front, node, number, by_order);
+    for (const std::int32_t number : pulling(front, node))
+      letGoOfNeighbour(front, node, number, by_order.trunk().iteration);
     return;
   }
   const FrontRules& rules = by_order.at(front.order[asIndex(node)]);
@@ -337,7 +337,7 @@ void handOver(Front& front, std::int32_t node, std::int32_t to, const OrderRules
 void giveUpOne(Front& front, std::int32_t node, std::int32_t attractor, const OrderRules& by_order) {
   const FrontRules& rules = by_order.trunk();
   if (!waits(front.attractors, attractor)) return;
-  if (rules.acts == Acts::on_all_neighbours) return letGoOfNeighbour(front, node, attractor, by_order);
+  if (rules.acts == Acts::on_all_neighbours) return letGoOfNeighbour(front, node, attractor, rules.iteration);
   const auto number = asIndex(attractor);
   if (rules.acts == Acts::on_nearest_node) {
     const std::int32_t at = front.attractors.place[number];

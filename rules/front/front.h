@@ -77,10 +77,17 @@ struct Meetings {
   std::vector<std::int32_t> from, to;
 };
 
+/// What an attractor does to a relative neighbour.
+enum class Link : std::int32_t {
+  pulls,
+  let_go,  ///< the node has let go of it
+  near     ///< the node stood within its kill distance when it met it
+};
+
 /// Relative neighbours of attractors that wait, by the attractors' numbers and then by nodes.
 struct Links {
   std::vector<std::int32_t> attractor, node;
-  std::vector<std::int32_t> let_go;  ///< 1 where the node has let go of it, else 0
+  std::vector<std::int32_t> state;  ///< Link
   // Nodes that arrived at attractors that wait still, in the same order, and what sent them.
   std::vector<std::int32_t> arrived_at, arrived, arrived_from;
   Meetings meetings;  ///< that are to come
@@ -132,6 +139,8 @@ void holdBack(Front& front, std::span<const std::int32_t> waves);
 std::optional<std::int32_t> comingWave(const Front& front, std::span<const std::int32_t> waves);
 /// Its attractors come.
 void bringWave(Front& front, std::span<const std::int32_t> waves, std::int32_t wave);
+/// By how many times influence and kill distance are longer while this is the last wave that has come.
+double reachIn(std::span<const std::int32_t> waves, std::int32_t wave);
 /// Nodes meet attractors that came after them. Numbers, ascending.
 void meetAgain(Front& front, std::span<const std::int32_t> nodes, const OrderRules& rules);
 

@@ -55,7 +55,7 @@ class NodeTree {
 /// Of one attractor.
 struct Neighbour {
   std::int32_t node = 0;
-  std::int32_t let_go = 0;
+  Link link = Link::pulls;
   double away2 = 0.0;
 };
 
@@ -84,20 +84,13 @@ class NeighbourMeeting {
     std::vector<Neighbour> old;
     for (std::size_t i = first; i < last; ++i) {
       const std::int32_t node = front_.links.node[i];
-      old.push_back({node, front_.links.let_go[i], distance2(front_.nodes[asIndex(node)], at)});
+      old.push_back(
+          {node, static_cast<Link>(front_.links.state[i]), distance2(front_.nodes[asIndex(node)], at)});
     }
     kept.neighbours = old;
     for (std::size_t i = 0; i < fresh_.size(); ++i) meetOne(i, at, old, kept);
-    for (const Neighbour& one : old) {
-      const bool stays = std::any_of(kept.neighbours.begin(), kept.neighbours.end(),
-                                     [&](const Neighbour& other) { return other.node == one.node; });
-      if (!stays && pulls(one)) change(one, at, -1);
-    }
-    for (const Neighbour& one : kept.neighbours) {
-      const bool was =
-          std::any_of(old.begin(), old.end(), [&](const Neighbour& other) { return other.node == one.node; });
-      if (!was && pulls(one)) change(one, at, 1);
-    }
+    change(old, kept.neighbours, at, -1);
+    change(kept.neighbours, old, at, 1);
     std::sort(kept.neighbours.begin(), kept.neighbours.end(),
               [](const Neighbour& a, const Neighbour& b) { return a.node < b.node; });
     std::sort(kept.arrived.begin(), kept.arrived.end(),
@@ -111,12 +104,12 @@ class NeighbourMeeting {
     return front_.attractors.at(front_.attractors.place[asIndex(number)]);
   }
   const FrontRules& rulesOf(std::int32_t node) const { return rules_.at(front_.order[asIndex(node)]); }
-  bool isNear(const Neighbour& one) const { return one.away2 < square(rulesOf(one.node).kill); }
-  bool pulls(const Neighbour& one) const { return one.let_go == 0 && !isNear(one); }
+  bool isNear(std::int32_t node, double away2) const { return away2 < square(rulesOf(node).kill); }
 
-  bool endsBy(const std::vector<Neighbour>& all) const {
-    return std::any_of(all.begin(), all.end(), [&](const Neighbour& one) { return isNear(one); }) &&
-           std::none_of(all.begin(), all.end(), [&](const Neighbour& one) { return pulls(one); });
+  static bool endsBy(const std::vector<Neighbour>& all) {
+    const auto is = [](Link link) { return [link](const Neighbour& one) { return one.link == link; }; };
+    return std::any_of(all.begin(), all.end(), is(Link::near)) &&
+           std::none_of(all.begin(), all.end(), is(Link::pulls));
   }
 
   void meetOne(std::size_t i, sim::Vec3 at, const std::vector<Neighbour>& old, Kept& kept) {
@@ -124,18 +117,20 @@ class NeighbourMeeting {
     const sim::Vec3 place = front_.nodes[asIndex(node)];
     const double away2 = distance2(place, at);
     const std::int32_t parent = parents_.empty() ? kNobody : parents_[i];
-    if (parent != kNobody && away2 < square(rulesOf(node).kill) &&
-        std::any_of(old.begin(), old.end(),
-                    [&](const Neighbour& one) { return one.node == parent && pulls(one); }))
-      kept.arrived.push_back({node, parent});
+    const bool near = isNear(node, away2);
+    if (parent != kNobody && near && isPulled(old, parent)) kept.arrived.push_back({node, parent});
     std::erase_if(kept.neighbours, [&](const Neighbour& one) {
       return away2 < one.away2 && distance2(place, front_.nodes[asIndex(one.node)]) < one.away2;
     });
     if (away2 >= square(rulesOf(node).influence)) return;
     if (isBlocked(place, away2, parent, at, kept)) return;
-    const bool known = std::any_of(kept.neighbours.begin(), kept.neighbours.end(),
-                                   [&](const Neighbour& one) { return one.node == node; });
-    if (!known) kept.neighbours.push_back({node, 0, away2});
+    const auto known = std::find_if(kept.neighbours.begin(), kept.neighbours.end(),
+                                    [&](const Neighbour& one) { return one.node == node; });
+    if (known == kept.neighbours.end()) {
+      kept.neighbours.push_back({node, near ? Link::near : Link::pulls, away2});
+    } else if (known->link == Link::near && !near) {  // the kill distance is another in this wave
+      known->link = Link::pulls;
+    }
   }
 
   /// Mostly its parent stands between, or who is a neighbour already.
@@ -150,8 +145,17 @@ class NeighbourMeeting {
     return tree_.holdsNear(at, place, away2);
   }
 
-  void change(const Neighbour& one, sim::Vec3 at, int sign) {
-    addPull(front_.pulls, one.node, front_.nodes[asIndex(one.node)], at, sign);
+  static bool isPulled(const std::vector<Neighbour>& all, std::int32_t node) {
+    return std::any_of(all.begin(), all.end(),
+                       [&](const Neighbour& one) { return one.node == node && one.link == Link::pulls; });
+  }
+  /// Those pulled of some that are not among others.
+  void change(const std::vector<Neighbour>& some, const std::vector<Neighbour>& others, sim::Vec3 at,
+              int sign) {
+    for (const Neighbour& one : some) {
+      if (one.link == Link::pulls && !isPulled(others, one.node))
+        addPull(front_.pulls, one.node, front_.nodes[asIndex(one.node)], at, sign);
+    }
   }
 
   Front& front_;
@@ -197,10 +201,6 @@ void endAt(Front& front, std::int32_t number, std::span<const Arrival> arrived, 
   end(front.attractors, front.attractors.place[asIndex(number)], fate, iteration, front.nodes, front.pulls);
 }
 
-bool isNear(const Front& front, std::int32_t node, sim::Vec3 attractor, const OrderRules& rules) {
-  return distance2(front.nodes[asIndex(node)], attractor) < square(rules.at(front.order[asIndex(node)]).kill);
-}
-
 sim::Vec3 placeOf(const Front& front, std::int32_t number) {
   return front.attractors.at(front.attractors.place[asIndex(number)]);
 }
@@ -214,7 +214,7 @@ void forget(Links& links, std::int32_t number) {
     for (std::vector<std::int32_t>* other : with) other->erase(other->begin() + from, other->begin() + to);
     by.erase(first, last);
   };
-  cut(links.attractor, {&links.node, &links.let_go});
+  cut(links.attractor, {&links.node, &links.state});
   cut(links.arrived_at, {&links.arrived, &links.arrived_from});
 }
 
@@ -247,7 +247,7 @@ void meetNeighbours(Front& front, std::span<const std::int32_t> fresh, std::span
     for (const Neighbour& one : kept[n].neighbours) {
       front.links.attractor.push_back(number);
       front.links.node.push_back(one.node);
-      front.links.let_go.push_back(one.let_go);
+      front.links.state.push_back(static_cast<std::int32_t>(one.link));
     }
     for (const Arrival& one : kept[n].arrived) {
       front.links.arrived_at.push_back(number);
@@ -257,25 +257,24 @@ void meetNeighbours(Front& front, std::span<const std::int32_t> fresh, std::span
   }
 }
 
-void letGoOfNeighbour(Front& front, std::int32_t node, std::int32_t attractor, const OrderRules& rules) {
+void letGoOfNeighbour(Front& front, std::int32_t node, std::int32_t attractor, int iteration) {
   Links& links = front.links;
   const auto [first, last] = std::equal_range(links.attractor.begin(), links.attractor.end(), attractor);
   const auto from = static_cast<std::size_t>(first - links.attractor.begin()),
              to = static_cast<std::size_t>(last - links.attractor.begin());
+  const auto is = [&](std::size_t i, Link link) { return links.state[i] == static_cast<std::int32_t>(link); };
   std::size_t own = from;
   while (own < to && links.node[own] != node) ++own;
+  if (own == to || !is(own, Link::pulls)) return;
   const sim::Vec3 at = placeOf(front, attractor);
-  if (own == to || links.let_go[own] != 0 || isNear(front, node, at, rules)) return;
-  links.let_go[own] = 1;
+  links.state[own] = static_cast<std::int32_t>(Link::let_go);
   addPull(front.pulls, node, front.nodes[asIndex(node)], at, -1);
-  const int iteration = rules.trunk().iteration;
   const auto place = asIndex(front.attractors.place[asIndex(attractor)]);
   const bool given_up = ++front.attractors.let_go[place] == kMostLetGo;
   bool reached = false, pulls = false;
   for (std::size_t i = from; i < to; ++i) {
-    const bool near = isNear(front, links.node[i], at, rules);
-    reached = reached || near;
-    if (near || links.let_go[i] != 0) continue;
+    reached = reached || is(i, Link::near);
+    if (!is(i, Link::pulls)) continue;
     pulls = true;
     if (given_up) addPull(front.pulls, links.node[i], front.nodes[asIndex(links.node[i])], at, -1);
   }
@@ -284,21 +283,19 @@ void letGoOfNeighbour(Front& front, std::int32_t node, std::int32_t attractor, c
   forget(links, attractor);
 }
 
-std::vector<std::int32_t> pulling(const Front& front, std::int32_t node, const OrderRules& rules) {
+std::vector<std::int32_t> pulling(const Front& front, std::int32_t node) {
   std::vector<std::int32_t> found;
   for (std::size_t i = 0; i < front.links.node.size(); ++i) {
-    const std::int32_t number = front.links.attractor[i];
-    if (front.links.node[i] == node && front.links.let_go[i] == 0 &&
-        !isNear(front, node, placeOf(front, number), rules))
-      found.push_back(number);
+    if (front.links.node[i] == node && front.links.state[i] == static_cast<std::int32_t>(Link::pulls))
+      found.push_back(front.links.attractor[i]);
   }
   return found;
 }
 
-std::int32_t nearestPulling(const Front& front, std::int32_t node, const OrderRules& rules) {
+std::int32_t nearestPulling(const Front& front, std::int32_t node) {
   std::int32_t best = kNobody;
   double least2 = kFar;
-  for (const std::int32_t number : pulling(front, node, rules)) {
+  for (const std::int32_t number : pulling(front, node)) {
     const sim::Vec3 to = placeOf(front, number);
     const double away2 = distance2(front.nodes[asIndex(node)], to);
     if (away2 > least2 || (away2 == least2 && !before(to, front.attractors.at(best)))) continue;

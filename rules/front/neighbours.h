@@ -16,12 +16,12 @@ void meetNeighbours(Front& front, std::span<const std::int32_t> fresh, std::span
                     const OrderRules& rules);
 
 /// A node lets go of an attractor, by its number; nothing where it has not got it.
-void letGoOfNeighbour(Front& front, std::int32_t node, std::int32_t attractor, const OrderRules& rules);
+void letGoOfNeighbour(Front& front, std::int32_t node, std::int32_t attractor, int iteration);
 
 /// What pulls a node, by the attractors' numbers, ascending.
-std::vector<std::int32_t> pulling(const Front& front, std::int32_t node, const OrderRules& rules);
+std::vector<std::int32_t> pulling(const Front& front, std::int32_t node);
 
 /// The nearest of those, by its index; kNobody where nothing pulls. Equally near ones by their places.
-std::int32_t nearestPulling(const Front& front, std::int32_t node, const OrderRules& rules);
+std::int32_t nearestPulling(const Front& front, std::int32_t node);
 
 }  // namespace espalier::rules

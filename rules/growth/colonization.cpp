@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <tuple>
+#include <utility>
 
 #include "rules/front/lengths.h"
 #include "rules/growth/book_site.h"
@@ -43,7 +44,7 @@ class ColonizationProcess final : public sim::Process {
 
  private:
   sim::Columns& home(sim::Commons& commons) const;
-  OrderRules rulesIn(const sim::Columns& memory, int iteration) const;
+  OrderRules rulesIn(const sim::Columns& memory, int iteration, double reach) const;
   FrontLengths lengths(FrontLengths suitable, int order) const;
   Guidance guidance(const sim::StandView& stand, const sim::Columns& memory,
                     const sim::Commons& commons) const;
@@ -60,14 +61,14 @@ sim::Columns& ColonizationProcess::home(sim::Commons& commons) const {
                                     book_.top().name, front_.attractors));
 }
 
-OrderRules ColonizationProcess::rulesIn(const sim::Columns& memory, int iteration) const {
+OrderRules ColonizationProcess::rulesIn(const sim::Columns& memory, int iteration, double reach) const {
   const auto& lengths = sim::column<double>(memory, kLengths);
   if (lengths.size() != 3 * (kTwig + 1)) throw sim::BrokenContract("a front without its lengths");
   OrderRules rules{FrontRules{}};
   for (std::size_t order = 0; order <= kTwig; ++order) {
     rules.of_order[order] = {lengths[3 * order],
-                             lengths[3 * order + 1],
-                             lengths[3 * order + 2],
+                             reach * lengths[3 * order + 1],
+                             reach * lengths[3 * order + 2],
                              front_.acts,
                              front_.onto,
                              front_.repeated,
@@ -163,7 +164,7 @@ void ColonizationProcess::begin(const sim::StandView& stand, sim::Columns& memor
     sim::column<double>(memory, kFarthest) = farthestOf(lent.front.attractors, starts);
     guidance(stand, memory, commons);  // says at once what is not there
   }
-  join(lent.front, joining, rulesIn(memory, stand.iteration));
+  join(lent.front, joining, rulesIn(memory, stand.iteration, reachIn(wavesIn(columns), 0)));
   keep(own, memory);
 }
 
@@ -193,11 +194,10 @@ void sendMeetings(FrontMemory& own, Front& front, const sim::StandView& stand) {
   }
 }
 
-/// Brings the next wave of attractors where nothing moves any more, and lets a planting's nodes meet what has
-/// come since they last did.
-void meetWaves(FrontMemory& own, Front& front, std::span<const std::int32_t> waves, int iteration,
-               const OrderRules& rules) {
-  if (waves.empty()) return;
+/// Brings the next wave of attractors where nothing moves any more. Whether a planting's nodes have not met
+/// yet what has come.
+bool waveComes(FrontMemory& own, Front& front, std::span<const std::int32_t> waves, int iteration) {
+  if (waves.empty()) return false;
   auto coming = comingWave(front, waves);
   if (coming && iteration > front.moved.front() + 1) {
     bringWave(front, waves, *coming);
@@ -205,8 +205,10 @@ void meetWaves(FrontMemory& own, Front& front, std::span<const std::int32_t> wav
     coming = comingWave(front, waves);
   }
   const std::int32_t come = coming.value_or(1 + *std::max_element(waves.begin(), waves.end())) - 1;
-  if (own.wave >= come) return;
-  own.wave = come;
+  return std::exchange(own.wave, std::max(own.wave, come)) < come;
+}
+
+void meetAgain(const FrontMemory& own, Front& front, const OrderRules& rules) {
   std::vector<std::int32_t> numbers;
   for (const FrontNode& node : own.active) numbers.push_back(node.front);
   meetAgain(front, numbers, rules);
@@ -216,12 +218,13 @@ std::vector<sim::Site> ColonizationProcess::due(const sim::StandView& stand, sim
                                                 sim::Commons& commons) const {
   LentFront lent(home(commons));
   Front& front = lent.front;
-  const OrderRules rules = rulesIn(memory, stand.iteration);
   FrontMemory own = frontMemory(memory, stand);
   own.errands.clear();
   for (const FrontNode& node : own.active) requireNodes(front, {&node.front, 1});
   const std::span<const std::int32_t> waves = wavesIn(home(commons));
-  meetWaves(own, front, waves, stand.iteration, rules);
+  const bool comes = waveComes(own, front, waves, stand.iteration);
+  const OrderRules rules = rulesIn(memory, stand.iteration, reachIn(waves, own.wave));
+  if (comes) meetAgain(own, front, rules);
   const bool more_come = comingWave(front, waves).has_value();
   std::vector<FrontNode> may = own.active;
   std::erase_if(may, [&](const FrontNode& node) {
@@ -321,8 +324,8 @@ void ColonizationProcess::settle(const sim::StandView& stand, std::span<const si
                                  sim::Columns& memory, sim::Commons& commons) const {
   LentFront lent(home(commons));
   Front& front = lent.front;
-  const OrderRules rules = rulesIn(memory, stand.iteration);
   FrontMemory own = frontMemory(memory, stand);
+  const OrderRules rules = rulesIn(memory, stand.iteration, reachIn(wavesIn(home(commons)), own.wave));
   if (own.errands.size() != verdicts.size())
     throw sim::BrokenContract("a front that was told of other sites");
   own.trunks.clear();

@@ -53,7 +53,7 @@ void forEachLink(Front_& front, Visit visit) {
   auto& links = front.links;
   visit("link_attractor", links.attractor);
   visit("link_node", links.node);
-  visit("link_let_go", links.let_go);
+  visit("link_state", links.state);
   visit("link_arrived_at", links.arrived_at);
   visit("link_arrived", links.arrived);
   visit("link_arrived_from", links.arrived_from);
@@ -84,7 +84,7 @@ void requireLengths(const Front& front) {
               (front.picker.empty() || front.picker.size() == a.x.size()),
           "picks whose columns differ in length");
   const Links& links = front.links;
-  require(same(links.attractor.size(), {links.node.size(), links.let_go.size()}) &&
+  require(same(links.attractor.size(), {links.node.size(), links.state.size()}) &&
               same(links.arrived_at.size(), {links.arrived.size(), links.arrived_from.size()}) &&
               links.meetings.from.size() == links.meetings.to.size(),
           "links whose columns differ in length");
@@ -150,7 +150,7 @@ void requireSoundLinks(const Front& front) {
   const std::size_t attractors = front.attractors.x.size(), nodes = front.nodes.size();
   require(all(links.attractor, attractors) && all(links.arrived_at, attractors), "links of no attractor");
   require(all(links.node, nodes) && all(links.arrived, nodes) && all(links.arrived_from, nodes) &&
-              all(links.meetings.from, nodes) && all(links.meetings.to, nodes) && all(links.let_go, 2),
+              all(links.meetings.from, nodes) && all(links.meetings.to, nodes) && all(links.state, 3),
           "links of a node that is not there");
   require(std::is_sorted(links.attractor.begin(), links.attractor.end()) &&
               std::is_sorted(links.arrived_at.begin(), links.arrived_at.end()),
@@ -175,13 +175,11 @@ void requireSoundNumbers(const Front& front) {
     if (a.nearest[i] != kNobody && a.fate[i] == static_cast<std::int32_t>(Fate::waiting))
       ++pulled[static_cast<std::size_t>(a.nearest[i])];
   }
-  // Who of those that are linked pulls depends on lengths that are not here.
-  for (const std::int32_t node : front.links.node) ++pulled[asIndex(node)];
-  for (std::size_t n = 0; n < pulled.size(); ++n) {
-    const std::int32_t count = front.pulls.count[n];
-    require(front.links.node.empty() ? count == pulled[n] : count >= 0 && count <= pulled[n],
-            "nodes that others pull than say so");
+  for (std::size_t i = 0; i < front.links.node.size(); ++i) {
+    if (front.links.state[i] == static_cast<std::int32_t>(Link::pulls))
+      ++pulled[asIndex(front.links.node[i])];
   }
+  require(pulled == front.pulls.count, "nodes that others pull than say so");
   for (const std::int32_t gait : front.gait) require(between(gait, 0, 4), "a node of no known gait");
   for (const std::int32_t order : front.order)
     require(between(order, 0, front.nodes.size()), "a node of no order");
@@ -320,7 +318,10 @@ FrontMemory frontMemory(const sim::Columns& memory, const sim::StandView& stand)
   for (std::size_t i = 0; i < from.size(); ++i) {
     read.errands.push_back(unpackedErrand(from[i], number[i], how[i], direction[i], end[i], attractor[i]));
   }
-  if (const Whole& wave = sim::column<std::int32_t>(memory, kWave); !wave.empty()) read.wave = wave.front();
+  if (const Whole& wave = sim::column<std::int32_t>(memory, kWave); !wave.empty()) {
+    require(between(wave.front(), 0, 1000), "a wave that is none");
+    read.wave = wave.front();
+  }
   return read;
 }
 

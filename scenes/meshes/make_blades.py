@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""Builds blade_ovate.obj and blade_lobed.obj (with their .mtl files) beside this script: the outlines of leaves, flat and open.
+"""Builds blade_ovate.obj, blade_lobed.obj and leaf_sheet.obj (with their .mtl files) beside this script: the outlines of leaves,
+flat and open, and a sheet of paper that they are laid before.
 
     python3 scenes/meshes/make_blades.py
 
@@ -13,9 +14,9 @@ import pathlib
 import masonry
 from masonry import Model
 
-masonry.COLOURS.update({"blade_green": (92, 132, 58), "blade_red": (156, 62, 38)})
+masonry.COLOURS.update({"blade_green": (92, 132, 58), "blade_red": (156, 62, 38), "paper": (238, 231, 214)})
 
-STALK, STALK_HALF = 1.4, 0.11
+STALK, STALK_HALF = 1.4, 0.09
 
 
 def half_width(t):
@@ -70,8 +71,15 @@ def lobed():
     return model
 
 
+def sheet():
+    model = Model()
+    model.face("sheet", "paper", [(-9, -0.9, -0.5), (9, -0.9, -0.5), (9, 12.3, -0.5), (-9, 12.3, -0.5)])
+    return model
+
+
 if __name__ == "__main__":
     here = pathlib.Path(__file__).resolve().parent
     maker = pathlib.Path(__file__).name
     ovate().write(here / "blade_ovate.obj", "The outline of an ovate leaf", maker, "centimetres, y up")
+    sheet().write(here / "leaf_sheet.obj", "A sheet of paper behind leaves", maker, "centimetres, y up")
     lobed().write(here / "blade_lobed.obj", "The outline of a lobed leaf", maker, "centimetres, y up")

@@ -29,6 +29,7 @@ struct Definition {
   std::vector<std::pair<int, int>> meetings;   // to come
   mutable std::map<int, std::pair<std::size_t, std::vector<int>>> known_neighbours;  // among so many nodes
   std::vector<int> waves;  // of each attractor, if there are several
+  rules::FrontRules last;  // as they are given: of the last wave
   int wave = 0;
 
   Definition(std::vector<Vec3> a, std::vector<Vec3> starts, rules::FrontRules r, std::vector<int> w = {})
@@ -36,7 +37,9 @@ struct Definition {
         rules(r),
         waits(attractors.size(), true),
         times_let_go(attractors.size()),
-        waves(std::move(w)) {
+        waves(std::move(w)),
+        last(r) {
+    reachIn(0);
     for (std::size_t i = 0; i < waves.size(); ++i) waits[i] = waves[i] == 0;
     for (const Vec3& start : starts) {
       trunks.push_back(static_cast<int>(nodes.size()));
@@ -53,6 +56,13 @@ struct Definition {
   Vec3 node(int n) const { return nodes[static_cast<std::size_t>(n)]; }
   bool nearerStep(Vec3 from, Vec3 to) const { return 2.0 * away(from, to) > rules.step; }
   static bool before(Vec3 a, Vec3 b) { return a.x != b.x ? a.x < b.x : a.y != b.y ? a.y < b.y : a.z < b.z; }
+
+  void reachIn(int now) {
+    wave = now;
+    const int left = waves.empty() ? 0 : *std::max_element(waves.begin(), waves.end()) - now;
+    rules.influence = last.influence * std::pow(2.0, left);
+    rules.kill = last.kill * std::pow(2.0, left);
+  }
 
   void kill(std::size_t first_new) {
     if (rules.acts == rules::Acts::on_all_neighbours) {
@@ -315,7 +325,7 @@ struct Definition {
 
   bool nextWave() {
     if (std::none_of(waves.begin(), waves.end(), [&](int w) { return w > wave; })) return false;
-    ++wave;
+    reachIn(wave + 1);
     for (std::size_t a = 0; a < waves.size(); ++a) {
       if (waves[a] == wave) waits[a] = true;
     }

@@ -1,12 +1,12 @@
 #!/usr/bin/env python3
-"""Builds blade_ovate.obj, blade_lobed.obj and leaf_sheet.obj (with their .mtl files) beside this script: the outlines of leaves,
-flat and open, and a sheet of paper that they are laid before.
+"""Builds blade_ovate.obj, blade_lobed.obj, leaf_stalk.obj and leaf_sheet.obj (with their .mtl files) beside this script: the
+outlines of leaves, flat and open, and a sheet of paper that they are laid before.
 
     python3 scenes/meshes/make_blades.py
 
 Standard library only; the same bytes on every run. Centimetres, y up. They stand upright in the plane z = 0 and show their faces to
-+z; the end of the stalk is at the origin, the bottom of a picture that is cut out along them. The ovate one is a blade of 10 cm
-with a drawn-out tip, the lobed one has five lobes about the point where its stalk ends.
++z. The ovate one is a blade of 10 cm with a drawn-out tip, its foot at the origin, and the stalk that goes with it ends there. The
+lobed one has five lobes about the point where its stalk ends, which is part of it and begins at the origin.
 """
 import math
 import pathlib
@@ -14,7 +14,7 @@ import pathlib
 import masonry
 from masonry import Model
 
-masonry.COLOURS.update({"blade_green": (92, 132, 58), "blade_red": (156, 62, 38), "paper": (238, 231, 214)})
+masonry.COLOURS.update({"blade_green": (92, 132, 58), "blade_red": (156, 62, 38), "paper": (249, 246, 238)})
 
 STALK, STALK_HALF = 1.4, 0.09
 
@@ -29,16 +29,21 @@ def half_width(t):
 
 def ovate():
     model, length, rows = Model(), 10, 130
-    model.face("blade", "blade_green", [(-STALK_HALF, 0, 0), (STALK_HALF, 0, 0), (STALK_HALF, STALK, 0), (-STALK_HALF, STALK, 0)])
     lines = []
     for i in range(rows + 1):
         t = i / rows
-        lines.append((STALK + length * t, max(half_width(t), STALK_HALF if i == 0 else 0.0)))
+        lines.append((length * t, max(half_width(t), STALK_HALF if i == 0 else 0.0)))
     for (y0, w0), (y1, w1) in zip(lines, lines[1:]):
         if w1 > 1e-3:
             model.face("blade", "blade_green", [(-w0, y0, 0), (w0, y0, 0), (w1, y1, 0), (-w1, y1, 0)])
         else:
             model.face("blade", "blade_green", [(-w0, y0, 0), (w0, y0, 0), (0, y1, 0)])
+    return model
+
+
+def stalk():
+    model = Model()
+    model.face("stalk", "blade_green", [(-STALK_HALF, -STALK, 0), (STALK_HALF, -STALK, 0), (STALK_HALF, 0, 0), (-STALK_HALF, 0, 0)])
     return model
 
 
@@ -73,7 +78,7 @@ def lobed():
 
 def sheet():
     model = Model()
-    model.face("sheet", "paper", [(-9, -0.9, -0.5), (9, -0.9, -0.5), (9, 12.3, -0.5), (-9, 12.3, -0.5)])
+    model.face("sheet", "paper", [(-9, -2.3, -0.2), (9, -2.3, -0.2), (9, 10.9, -0.2), (-9, 10.9, -0.2)])
     return model
 
 
@@ -81,5 +86,6 @@ if __name__ == "__main__":
     here = pathlib.Path(__file__).resolve().parent
     maker = pathlib.Path(__file__).name
     ovate().write(here / "blade_ovate.obj", "The outline of an ovate leaf", maker, "centimetres, y up")
+    stalk().write(here / "leaf_stalk.obj", "The stalk of a leaf", maker, "centimetres, y up")
     sheet().write(here / "leaf_sheet.obj", "A sheet of paper behind leaves", maker, "centimetres, y up")
     lobed().write(here / "blade_lobed.obj", "The outline of a lobed leaf", maker, "centimetres, y up")

@@ -24,7 +24,7 @@ std::vector<CutOutTriangle> diamond(vec2 at, float size) {
   return {{{left, foot, right}, kBody}, {{left, right, top}, kBody}};
 }
 
-double covered(const Image& image) {
+double coverageOf(const Image& image) {
   double sum = 0.0;
   for (int y = 0; y < image.height; ++y) {
     for (int x = 0; x < image.width; ++x) sum += image.at(x, y)[3];
@@ -38,7 +38,7 @@ TEST(CutOut, FillsThePictureAndCoversWhatTheBodyDoes) {
     EXPECT_EQ(image.channels, 4);
     EXPECT_EQ(image.height, 202);
     EXPECT_EQ(image.width, 102);
-    EXPECT_NEAR(covered(image), 100.0 * 200.0 / 2.0, 25.0);
+    EXPECT_NEAR(coverageOf(image), 100.0 * 200.0 / 2.0, 25.0);
     EXPECT_EQ(image.at(0, 0)[3], 0.0f);
     EXPECT_EQ(image.at(51, 101)[3], 1.0f);
     for (std::size_t c = 0; c < 3; ++c)
@@ -59,7 +59,7 @@ TEST(CutOut, DrawsLinesAsWideAsTheyAre) {
   EXPECT_LT(image.at(51 + 6, 101)[1], bare.at(51 + 6, 101)[1] + 0.3f);
   EXPECT_NE(image.at(51 + 12, 101)[1], bare.at(51 + 12, 101)[1]) << "lighter along it";
   EXPECT_EQ(image.at(51, 101)[3], 1.0f);
-  EXPECT_NEAR(covered(image), covered(bare), 1e-3) << "a line covers nothing beyond the body";
+  EXPECT_NEAR(coverageOf(image), coverageOf(bare), 1e-3) << "a line covers nothing beyond the body";
 }
 
 TEST(CutOut, IsSeenOnPaper) {

@@ -54,6 +54,8 @@ std::string_view nameOf(ImageKind kind) {
       return "voxels";
     case ImageKind::narrow_band:
       return "narrow_band";
+    case ImageKind::cut_out:
+      return "cut_out";
     case ImageKind::contact_sheet:
       return "contact_sheet";
   }

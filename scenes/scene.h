@@ -239,6 +239,7 @@ struct AttractorsSpec {
   PointTable table;                 ///< or a file that lists them
   rules::StrewingSpec strewing;     ///< spread and density: of a solid
   std::optional<double> spacing_m;  ///< on a surface: the least between two
+  int waves = 1;  ///< in which they come: each twice as dense as those before it, when nothing moves any more
   Place place = {};                 ///< where a scene file has it
 };
 
@@ -264,6 +265,7 @@ enum class ImageKind {
   graph,        // the plants' out-trees as lines
   field,        // a guide field as arrows
   narrow_band,  // a cut through the level set of a mesh
+  cut_out,      // a mesh straight on with what grew on it, and nothing beyond its outline
   sky_tables,   // what a limb's tips saw of the sky (Greene's figure 7)
   voxels,       // a small world's voxels as cubes, with what occupies them (his figure 1)
   contact_sheet
@@ -281,7 +283,7 @@ struct ImageSpec {
   std::string letter;            ///< on a contact sheet; empty: A, B, C .. in order
   char axis = 'y';               ///< section, narrow_band: which way the cut looks
   double at_m = 0.0;             ///< section, narrow_band: where the cut lies on that axis
-  std::string mesh;              ///< narrow_band: of which of the meshes; empty: of the first one
+  std::string mesh;              ///< narrow_band, cut_out: which of the meshes; empty: the first one
   std::string field;             ///< field: which of the fields; empty: the first one
   std::optional<int> iteration;  ///< points, graph: what stands after so many iterations; without: at the end
   std::vector<std::string> of;   ///< contact_sheet: names of the images on it, in order

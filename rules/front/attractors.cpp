@@ -322,6 +322,26 @@ void end(Attractors& attractors, std::int32_t at, Fate fate, int iteration, std:
   leaveLeaf(attractors, leafOf(attractors, at), n, fate, iteration);
 }
 
+void bring(Attractors& attractors, std::int32_t at) {
+  const std::size_t leaf = leafOf(attractors, at);
+  attractors.fate[asIndex(at)] = static_cast<std::int32_t>(Fate::waiting);
+  const std::int32_t to = attractors.first[leaf] + attractors.waiting[leaf]++;
+  exchange(attractors, asIndex(at), asIndex(to));
+  raiseFarthest(attractors, to);
+}
+
+void addPull(Pulls& pulls, std::int32_t node, sim::Vec3 node_at, sim::Vec3 attractor_at, int sign) {
+  const auto pull = pullOf(node_at, attractor_at);
+  const auto add = [sign]<typename Number>(Number& to, Number what) {
+    std::atomic_ref(to).fetch_add(static_cast<Number>(sign * what), std::memory_order_relaxed);
+  };
+  const std::size_t n = asIndex(node);
+  add(pulls.x[n], pull[0]);
+  add(pulls.y[n], pull[1]);
+  add(pulls.z[n], pull[2]);
+  add(pulls.count[n], 1);
+}
+
 void letGoOf(Attractors& attractors, std::int32_t at, std::span<const sim::Vec3> nodes, int iteration,
              Pulls& pulls) {
   const auto n = asIndex(at);

@@ -14,7 +14,8 @@ enum class Fate : std::int32_t {
   waiting,   ///< it pulls, or would if a node came within reach
   reached,   ///< a node came within its kill distance
   given_up,  ///< it pulled where no step led nearer
-  taken      ///< a node stands on it
+  taken,     ///< a node stands on it
+  later      ///< it comes with a later wave
 };
 
 inline constexpr std::int32_t kNobody = -1;
@@ -104,6 +105,13 @@ std::vector<std::int32_t> waitingFor(const Attractors& attractors, std::int32_t 
 /// Ends an attractor, and its pull; `at` is its index, and after this another's.
 void end(Attractors& attractors, std::int32_t at, Fate fate, int iteration, std::span<const sim::Vec3> nodes,
          Pulls& pulls);
+
+/// One of a later wave comes, and waits for nobody. `at` is its index, and may be another's after this.
+void bring(Attractors& attractors, std::int32_t at);
+
+/// Adds an attractor's pull to what pulls a node, or takes it away: sign 1 or -1. Several threads may do so
+/// at once.
+void addPull(Pulls& pulls, std::int32_t node, sim::Vec3 node_at, sim::Vec3 attractor_at, int sign);
 
 /// How often an attractor waits for another node before it is given up: where none can come to it, those that
 /// try would go on for ever.

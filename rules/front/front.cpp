@@ -5,7 +5,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
+#include "rules/front/neighbours.h"
 #include "sim/base/error.h"
 
 namespace espalier::rules {
@@ -49,6 +51,36 @@ Way straightWay(Front& front, std::int32_t node, const FrontRules& rules) {
     end(front.attractors, at, Fate::given_up, rules.iteration, front.nodes, front.pulls);
   }
   return {kNobody};
+}
+
+/// What became of it with on_all_neighbours: as above, but that the others are pulled on.
+Way straightWayOfNeighbour(Front& front, std::int32_t node, const FrontRules& own) {
+  const sim::Vec3 from = front.nodes[asIndex(node)];
+  while (front.pulls.count[asIndex(node)] > 0) {
+    const std::int32_t at = nearestPulling(front, node);
+    const sim::Vec3 to = front.attractors.at(at);
+    const std::int32_t number = front.attractors.number[asIndex(at)];
+    if (leadsNearer(from, to, own)) return {node, 0, unitTo(from, to), number};
+    letGoOfNeighbour(front, node, number, own.iteration);
+  }
+  return {kNobody};
+}
+
+/// The same way as below, where an attractor pulls several nodes.
+Way wayOfNeighbour(Front& front, std::int32_t node, const FrontRules& own) {
+  const std::size_t n = asIndex(node);
+  const bool same = front.tried[n] == front.pulls.count[n];
+  bool straight = same;
+  if (same && front.gait[n] == static_cast<std::int32_t>(Gait::straight)) {
+    const std::int32_t at = nearestPulling(front, node);
+    letGoOfNeighbour(front, node, front.attractors.number[asIndex(at)], own.iteration);
+    straight = false;
+  }
+  Way way{node, 0, pulled(front, n)};
+  straight = straight || way.direction == sim::Vec3(0.0);
+  if (straight) way = straightWayOfNeighbour(front, node, own);
+  setGait(front, n, front.pulls.count[n], straight ? Gait::straight : Gait::pulled);
+  return way;
 }
 
 /// By the attractors that have the node as their nearest.
@@ -160,8 +192,8 @@ Front frontOf(std::span<const sim::Vec3> attractors) {
 
 namespace {
 
-/// Those of new nodes that reach as far as each other meet the attractors together.
-void meetByReach(Front& front, std::int32_t first, const OrderRules& rules) {
+/// Those of some nodes that reach as far as each other meet the attractors together.
+void meetByReach(Front& front, std::span<const std::int32_t> nodes, const OrderRules& rules) {
   const auto reachOf = [&](std::int32_t order) {
     const FrontRules& own = rules.at(order);
     const double influence = rules.trunk().acts == Acts::on_nearest_node ? own.influence : 0.0;
@@ -176,11 +208,27 @@ void meetByReach(Front& front, std::int32_t first, const OrderRules& rules) {
     if (std::any_of(met.begin(), met.end(), [&](const Reach& r) { return same(r, reach); })) continue;
     met.push_back(reach);
     std::vector<std::int32_t> fresh;
-    for (std::int32_t node = first; asIndex(node) < front.nodes.size(); ++node) {
+    for (const std::int32_t node : nodes) {
       if (same(reachOf(front.order[asIndex(node)]), reach)) fresh.push_back(node);
     }
     meet(front.attractors, front.nodes, fresh, reach, front.pulls);
   }
+}
+
+}  // namespace
+
+namespace {
+
+/// Those of new nodes on which something may act meet the attractors.
+void meetAsNeighbours(Front& front, std::int32_t first, std::span<const NewNode> nodes,
+                      const OrderRules& rules) {
+  std::vector<std::int32_t> fresh, parents;
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    if (nodes[i].meets) continue;
+    fresh.push_back(first + static_cast<std::int32_t>(i));
+    parents.push_back(nodes[i].from);
+  }
+  meetNeighbours(front, fresh, parents, rules);
 }
 
 }  // namespace
@@ -200,7 +248,22 @@ void join(Front& front, std::span<const NewNode> nodes, const OrderRules& rules)
   front.pulls.count.resize(count);
   front.tried.resize(count, kNobody);
   front.gait.resize(count, static_cast<std::int32_t>(Gait::none));
-  meetByReach(front, first, rules);
+  if (rules.trunk().acts == Acts::on_all_neighbours) {
+    meetAsNeighbours(front, first, nodes, rules);
+  } else {
+    std::vector<std::int32_t> fresh(nodes.size());
+    std::iota(fresh.begin(), fresh.end(), first);
+    meetByReach(front, fresh, rules);
+  }
+}
+
+void meetAgain(Front& front, std::span<const std::int32_t> nodes, const OrderRules& rules) {
+  for (const std::int32_t node : nodes) keepForLater(front, node);
+  if (rules.trunk().acts == Acts::on_all_neighbours) {
+    meetNeighbours(front, nodes, {}, rules);
+  } else {
+    meetByReach(front, nodes, rules);
+  }
 }
 
 std::vector<Way> waysOf(Front& front, std::vector<std::int32_t>& active, const OrderRules& rules) {
@@ -212,7 +275,10 @@ std::vector<Way> waysOf(Front& front, std::vector<std::int32_t>& active, const O
   std::erase_if(active, [&](std::int32_t node) { return front.pulls.count[asIndex(node)] == 0; });
   for (const std::int32_t node : active) {
     const FrontRules& own = rules.at(nextOrder(front, node));
-    if (rules.trunk().repeated) {
+    if (rules.trunk().acts == Acts::on_all_neighbours) {
+      const Way way = wayOfNeighbour(front, node, own);
+      if (way.node != kNobody) ways.push_back(way);
+    } else if (rules.trunk().repeated) {
       allWaysOf(front, node, own, ways);
     } else if (const Way way = wayOf(front, node, own); way.node != kNobody) {
       ways.push_back(way);
@@ -252,12 +318,18 @@ void taken(Front& front, std::int32_t attractor, const OrderRules& by_order) {
 }
 
 void giveUp(Front& front, std::int32_t node, const OrderRules& by_order) {
+  if (by_order.trunk().acts == Acts::on_all_neighbours) {
+    for (const std::int32_t number : pulling(front, node))
+      letGoOfNeighbour(front, node, number, by_order.trunk().iteration);
+    return;
+  }
   const FrontRules& rules = by_order.at(front.order[asIndex(node)]);
   letGo(front.attractors, node, front.nodes, {rules.influence, rules.kill, rules.iteration}, front.pulls);
 }
 
 void handOver(Front& front, std::int32_t node, std::int32_t to, const OrderRules& by_order) {
   giveUp(front, node, by_order);
+  if (by_order.trunk().acts == Acts::on_all_neighbours) return;  // it has met them when it joined
   const FrontRules& rules = by_order.at(front.order[asIndex(to)]);
   meet(front.attractors, front.nodes, {&to, 1}, {rules.influence, rules.kill, rules.iteration}, front.pulls);
 }
@@ -265,6 +337,7 @@ void handOver(Front& front, std::int32_t node, std::int32_t to, const OrderRules
 void giveUpOne(Front& front, std::int32_t node, std::int32_t attractor, const OrderRules& by_order) {
   const FrontRules& rules = by_order.trunk();
   if (!waits(front.attractors, attractor)) return;
+  if (rules.acts == Acts::on_all_neighbours) return letGoOfNeighbour(front, node, attractor, rules.iteration);
   const auto number = asIndex(attractor);
   if (rules.acts == Acts::on_nearest_node) {
     const std::int32_t at = front.attractors.place[number];
@@ -297,36 +370,6 @@ void requireSound(const FrontRules& rules) {
   require(std::isfinite(rules.step) && rules.step > 0.0, "step", rules.step, "a number above 0");
   require(rules.influence > 0.0, "influence radius", rules.influence, "a number above 0");
   require(std::isfinite(rules.kill) && rules.kill >= 0.0, "kill distance", rules.kill, "a number from 0 on");
-}
-
-Fates fatesOf(std::span<const std::int32_t> fate) {
-  Fates fates;
-  for (const std::int32_t one : fate) {
-    switch (static_cast<Fate>(one)) {
-      case Fate::waiting:
-        ++fates.waiting;
-        break;
-      case Fate::reached:
-        ++fates.reached;
-        break;
-      case Fate::given_up:
-        ++fates.given_up;
-        break;
-      case Fate::taken:
-        ++fates.taken;
-        break;
-    }
-  }
-  return fates;
-}
-
-std::string endingOf(const Fates& fates, bool moves) {
-  const std::size_t came = fates.reached + fates.taken, all = came + fates.given_up + fates.waiting;
-  if (came == all) return "all attractors were reached";
-  if (fates.waiting == 0)
-    return fmt::format("{} of {} attractors were reached; no way led to the others", came, all);
-  if (moves) return fmt::format("the iterations ended while {} of {} attractors wait", fates.waiting, all);
-  return fmt::format("no attractor is in reach any more; {} of {} wait", fates.waiting, all);
 }
 
 }  // namespace espalier::rules

@@ -2,7 +2,9 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "rules/front/attractors.h"
@@ -16,6 +18,20 @@
 /// So would one that is pulled evenly from all sides. Such a node goes straight for its nearest attractor; if
 /// even so the same ones pull it still, or no step leads nearer as it is within half a step, that attractor
 /// is given up.
+///
+/// Veins that meet (Acts::on_all_neighbours; Runions et al. 2005, section 3.3; ours where they leave it
+/// open): a relative neighbour of an attractor s is a node v within reach of it such that no other node u is
+/// nearer to s and to v than they are to each other: max(|u - s|, |u - v|) < |v - s|. An attractor pulls all
+/// of its relative neighbours that are not within their kill distance of it. A node that stands within its
+/// kill distance of s, sent by one that s pulled, has arrived. An attractor ends when it pulls none and one
+/// of its relative neighbours is within the kill distance. Then those that arrived meet: the one of the
+/// lowest number stays, and in the next iteration each of the others sends a node to the place where that one
+/// stands, but where one is the other's parent or both have the same. On such nodes nothing acts. What stalls
+/// or finds no way lets go of an attractor by itself: others are pulled on, and after kMostLetGo times it is
+/// given up.
+///
+/// Waves: attractors may come later. When nothing has moved for an iteration, those of the next wave come,
+/// and all nodes meet them as if they had just grown.
 ///
 /// The trunk: a plant that no attractor has been in reach of yet grows straight up (or down) as long as that
 /// leads nearer to the nearest attractor, and else towards it.
@@ -56,6 +72,27 @@ enum class Gait : std::int32_t {
   spent      ///< with on_every_node: its pick cannot be come to from it, and it picks no other
 };
 
+/// Pairs of nodes that meet: which of them sends a node, and whereto.
+struct Meetings {
+  std::vector<std::int32_t> from, to;
+};
+
+/// What an attractor does to a relative neighbour.
+enum class Link : std::int32_t {
+  pulls,
+  let_go,  ///< the node has let go of it
+  near     ///< the node stood within its kill distance when it met it
+};
+
+/// Relative neighbours of attractors that wait, by the attractors' numbers and then by nodes.
+struct Links {
+  std::vector<std::int32_t> attractor, node;
+  std::vector<std::int32_t> state;  ///< Link
+  // Nodes that arrived at attractors that wait still, in the same order, and what sent them.
+  std::vector<std::int32_t> arrived_at, arrived, arrived_from;
+  Meetings meetings;  ///< that are to come
+};
+
 /// All that the front remembers, in plain arrays. A node's number is its place in `nodes`: the older, the
 /// lower.
 struct Front {
@@ -71,6 +108,7 @@ struct Front {
   std::vector<std::int32_t> picker;
   std::vector<double> picked2;
   std::vector<std::int32_t> moved;  ///< one: the last iteration in which anything was sent anywhere
+  Links links;                      ///< with on_all_neighbours
 };
 
 /// Where a node would go.
@@ -84,12 +122,27 @@ struct Way {
 
 Front frontOf(std::span<const sim::Vec3> attractors);
 
+/// Those that are to come, each once, ascending; none is left.
+Meetings takeMeetings(Front& front);
+
 struct NewNode {
   sim::Vec3 at{0.0};
   std::int32_t from = kNobody;  ///< kNobody: a start
+  bool meets = false;           ///< another stands there already: nothing acts on this one
 };
 /// Adds nodes, in their order, and lets the attractors meet them.
 void join(Front& front, std::span<const NewNode> nodes, const OrderRules& rules);
+
+/// Those of a wave above 0 do not wait yet. Waves by the attractors' numbers.
+void holdBack(Front& front, std::span<const std::int32_t> waves);
+/// The first wave that has not come; none where all have.
+std::optional<std::int32_t> comingWave(const Front& front, std::span<const std::int32_t> waves);
+/// Its attractors come.
+void bringWave(Front& front, std::span<const std::int32_t> waves, std::int32_t wave);
+/// By how many times influence and kill distance are longer while this is the last wave that has come.
+double reachIn(std::span<const std::int32_t> waves, std::int32_t wave);
+/// Nodes meet attractors that came after them. Numbers, ascending.
+void meetAgain(Front& front, std::span<const std::int32_t> nodes, const OrderRules& rules);
 
 /// Of what would grow from a node next.
 inline std::int32_t nextOrder(const Front& front, std::int32_t node) {
@@ -140,7 +193,7 @@ void requireSound(const FrontRules& rules);
 
 /// How many attractors there are of each Fate.
 struct Fates {
-  std::size_t waiting = 0, reached = 0, given_up = 0, taken = 0;
+  std::size_t waiting = 0, reached = 0, given_up = 0, taken = 0;  ///< what comes later waits, too
 };
 Fates fatesOf(std::span<const std::int32_t> fate);
 

@@ -58,11 +58,12 @@ Exposure seenAt(const sim::SiteView& view) {
 
 std::vector<float> quantitiesOf(const sim::SiteView& view, const RuleBook& book, const sim::Site& site,
                                 sim::Vec3 to_vx, const Exposure& seen, double exposure, int order,
-                                double proximity_vx, std::optional<float> radius_vx) {
-  // exposure, limb_turn, limb_vx, order, proximity_vx, radius_vx, sky_exposure, sun_exposure: in the order of
-  // their names.
+                                double proximity_vx, std::optional<float> radius_vx, sim::NodeId joins) {
+  // exposure, joins, limb_turn, limb_vx, order, proximity_vx, radius_vx, sky_exposure, sun_exposure: in the
+  // order of their names.
   std::vector<float> quantities;
   if (view.light != nullptr) quantities.push_back(static_cast<float>(exposure));
+  if (book.limbsMeet()) quantities.push_back(static_cast<float>(std::max(joins, 0)));
   if (book.hasPhyllotaxis()) {
     const double length_vx = glm::distance(to_vx, site.at_vx);
     const sim::Vec3 way = glm::normalize(to_vx - site.at_vx);
@@ -97,7 +98,7 @@ sim::Proposal proposeBySets(const sim::SiteView& view, const sim::Site& site, co
 }
 
 sim::Proposal proposeByBook(const sim::SiteView& view, const sim::Site& site, const sim::RandomKey& key,
-                            const RuleBook& book, int order, const Step& step) {
+                            const RuleBook& book, int order, const Step& step, sim::NodeId joins) {
   const auto grow = [&](const RuleSet& rules, const Surroundings& around, const Senses& senses, unsigned set,
                         sim::Proposal& proposal) {
     std::optional<Candidate> best = step(rules, around, senses, set, proposal);
@@ -106,7 +107,7 @@ sim::Proposal proposeByBook(const sim::SiteView& view, const sim::Site& site, co
                                         book.firstShape(rules), key);
     proposal.segment = {best->to_vx, std::move(best->takes), best->passage,
                         quantitiesOf(view, book, site, best->to_vx, seenAt(view), senses.exposure, order,
-                                     best->proximity_vx)};
+                                     best->proximity_vx, std::nullopt, joins)};
     return true;
   };
   return proposeBySets(view, site, key, book, book.first(view.world, sim::voxelAt(site.at_vx), order), grow);
@@ -146,6 +147,7 @@ sim::Plant seedlingOf(const RuleBook& book) {
   plant.girth = {stem.by, stem.radius.number, stem.exponent, stem.thickens.number, stem.thickest.number};
   plant.form.forks = stem.forks;
   plant.skeleton.columns["proximity_vx"];
+  if (book.limbsMeet()) plant.skeleton.columns[sim::kJoinsColumn];
   if (book.hasOrders()) plant.skeleton.columns["order"];
   if (book.hasPhyllotaxis()) {
     for (const char* name : {kLimbTurnColumn, kLimbLengthColumn}) plant.skeleton.columns[name];

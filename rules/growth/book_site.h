@@ -27,16 +27,19 @@ sim::Proposal proposeBySets(const sim::SiteView& view, const sim::Site& site, co
 /// senses, regions and light, and grows by the first that succeeds; where that one would rather rest, it
 /// rests. The segment carries elements, and the
 /// quantities of seedlingOf's columns.
-/// `order`: of the segment that would grow; where the book tells orders apart it is a quantity too.
+/// `order`: of the segment that would grow; where the book tells orders apart it is a quantity too. `joins`:
+/// the node that it meets, if it meets one, likewise.
 sim::Proposal proposeByBook(const sim::SiteView& view, const sim::Site& site, const sim::RandomKey& key,
-                            const RuleBook& book, int order, const Step& step);
+                            const RuleBook& book, int order, const Step& step,
+                            sim::NodeId joins = sim::kNoNode);
 
 /// A new node's quantities, one for each column of seedlingOf, in the order of their names. `exposure`: as
 /// its rule set blends what was `seen`; `radius_vx`: of plants that have that column too. The node stands at
 /// `to_vx`, at the end of a segment from the site.
 std::vector<float> quantitiesOf(const sim::SiteView& view, const RuleBook& book, const sim::Site& site,
                                 sim::Vec3 to_vx, const Exposure& seen, double exposure, int order,
-                                double proximity_vx, std::optional<float> radius_vx = std::nullopt);
+                                double proximity_vx, std::optional<float> radius_vx = std::nullopt,
+                                sim::NodeId joins = sim::kNoNode);
 
 /// What a site sees; all there is where its plant's process wants no light.
 Exposure seenAt(const sim::SiteView& view);

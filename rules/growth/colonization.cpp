@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <tuple>
+#include <utility>
 
 #include "rules/front/lengths.h"
 #include "rules/growth/book_site.h"
@@ -43,7 +44,7 @@ class ColonizationProcess final : public sim::Process {
 
  private:
   sim::Columns& home(sim::Commons& commons) const;
-  OrderRules rulesIn(const sim::Columns& memory, int iteration) const;
+  OrderRules rulesIn(const sim::Columns& memory, int iteration, double reach) const;
   FrontLengths lengths(FrontLengths suitable, int order) const;
   Guidance guidance(const sim::StandView& stand, const sim::Columns& memory,
                     const sim::Commons& commons) const;
@@ -60,14 +61,14 @@ sim::Columns& ColonizationProcess::home(sim::Commons& commons) const {
                                     book_.top().name, front_.attractors));
 }
 
-OrderRules ColonizationProcess::rulesIn(const sim::Columns& memory, int iteration) const {
+OrderRules ColonizationProcess::rulesIn(const sim::Columns& memory, int iteration, double reach) const {
   const auto& lengths = sim::column<double>(memory, kLengths);
   if (lengths.size() != 3 * (kTwig + 1)) throw sim::BrokenContract("a front without its lengths");
   OrderRules rules{FrontRules{}};
   for (std::size_t order = 0; order <= kTwig; ++order) {
     rules.of_order[order] = {lengths[3 * order],
-                             lengths[3 * order + 1],
-                             lengths[3 * order + 2],
+                             reach * lengths[3 * order + 1],
+                             reach * lengths[3 * order + 2],
                              front_.acts,
                              front_.onto,
                              front_.repeated,
@@ -125,6 +126,10 @@ Guidance ColonizationProcess::guidance(const sim::StandView& stand, const sim::C
   return guidance;
 }
 
+std::span<const std::int32_t> wavesIn(const sim::Columns& attractors) {
+  return sim::column<std::int32_t>(attractors, kAttractorWave);
+}
+
 void ColonizationProcess::begin(const sim::StandView& stand, sim::Columns& memory,
                                 sim::Commons& commons) const {
   sim::Columns& columns = home(commons);
@@ -132,6 +137,7 @@ void ColonizationProcess::begin(const sim::StandView& stand, sim::Columns& memor
   const bool first = !holdsFront(columns);
   if (first) {
     Front fresh = frontOf(places);
+    holdBack(fresh, wavesIn(columns));
     fresh.moved = {stand.iteration};
     const LentFront kept(columns, std::move(fresh));
   }
@@ -158,35 +164,90 @@ void ColonizationProcess::begin(const sim::StandView& stand, sim::Columns& memor
     sim::column<double>(memory, kFarthest) = farthestOf(lent.front.attractors, starts);
     guidance(stand, memory, commons);  // says at once what is not there
   }
-  join(lent.front, joining, rulesIn(memory, stand.iteration));
+  join(lent.front, joining, rulesIn(memory, stand.iteration, reachIn(wavesIn(columns), 0)));
   keep(own, memory);
+}
+
+/// Sends those of a planting's nodes that meet others of their plants. Such a site has a number of its own.
+void sendMeetings(FrontMemory& own, Front& front, const sim::StandView& stand) {
+  const auto find = [&](std::int32_t number) -> const FrontNode* {
+    const auto at = std::lower_bound(own.active.begin(), own.active.end(), number,
+                                     [](const FrontNode& node, std::int32_t n) { return node.front < n; });
+    return at == own.active.end() || at->front != number ? nullptr : &*at;
+  };
+  const Meetings all = takeMeetings(front);
+  std::uint32_t number = 0;
+  for (std::size_t i = 0; i < all.from.size(); ++i) {
+    const FrontNode *const from = find(all.from[i]), *const to = find(all.to[i]);
+    if (from == nullptr) {  // another planting's
+      front.links.meetings.from.push_back(all.from[i]);
+      front.links.meetings.to.push_back(all.to[i]);
+      continue;
+    }
+    if (to == nullptr || to->plant != from->plant) continue;
+    number = i > 0 && all.from[i - 1] == all.from[i] ? number + 1 : 1;
+    const auto& places = stand.plants[static_cast<std::size_t>(from->plant)].skeleton.position_vx;
+    const sim::Vec3 end_vx = places[static_cast<std::size_t>(to->node)];
+    const sim::Vec3 way = end_vx - places[static_cast<std::size_t>(from->node)];
+    own.errands.push_back(
+        {*from, number, Gait::straight, false, glm::normalize(way), end_vx, kNobody, to->node});
+  }
+}
+
+/// Brings the next wave of attractors where nothing moves any more. Whether a planting's nodes have not met
+/// yet what has come.
+bool waveComes(FrontMemory& own, Front& front, std::span<const std::int32_t> waves, int iteration) {
+  if (waves.empty()) return false;
+  auto coming = comingWave(front, waves);
+  if (coming && iteration > front.moved.front() + 1) {
+    bringWave(front, waves, *coming);
+    front.moved = {iteration};
+    coming = comingWave(front, waves);
+  }
+  const std::int32_t come = coming.value_or(1 + *std::max_element(waves.begin(), waves.end())) - 1;
+  return std::exchange(own.wave, std::max(own.wave, come)) < come;
+}
+
+void meetAgain(const FrontMemory& own, Front& front, const OrderRules& rules) {
+  std::vector<std::int32_t> numbers;
+  for (const FrontNode& node : own.active) numbers.push_back(node.front);
+  meetAgain(front, numbers, rules);
 }
 
 std::vector<sim::Site> ColonizationProcess::due(const sim::StandView& stand, sim::Columns& memory,
                                                 sim::Commons& commons) const {
   LentFront lent(home(commons));
   Front& front = lent.front;
-  const OrderRules rules = rulesIn(memory, stand.iteration);
   FrontMemory own = frontMemory(memory, stand);
   own.errands.clear();
-  std::vector<std::int32_t> numbers;
   for (const FrontNode& node : own.active) requireNodes(front, {&node.front, 1});
-  std::erase_if(own.active, [&](const FrontNode& node) {
+  const std::span<const std::int32_t> waves = wavesIn(home(commons));
+  const bool comes = waveComes(own, front, waves, stand.iteration);
+  const OrderRules rules = rulesIn(memory, stand.iteration, reachIn(waves, own.wave));
+  if (comes) meetAgain(own, front, rules);
+  const bool more_come = comingWave(front, waves).has_value();
+  std::vector<FrontNode> may = own.active;
+  std::erase_if(may, [&](const FrontNode& node) {
     return !mayBranch(stand, book_, node, front.order[static_cast<std::size_t>(node.front)]);
   });
-  for (const FrontNode& node : own.active) numbers.push_back(node.front);
+  std::vector<std::int32_t> numbers;
+  for (const FrontNode& node : may) numbers.push_back(node.front);
   const std::vector<Way> ways = waysOf(front, numbers, rules);
   std::size_t kept = 0;  // of those that are still active, and of their ways
   auto way = ways.begin();
-  for (const FrontNode& node : std::vector<FrontNode>(own.active)) {
+  for (const FrontNode& node : std::vector<FrontNode>(may)) {
     if (kept == numbers.size() || numbers[kept] != node.front) continue;
-    own.active[kept++] = node;
+    may[kept++] = node;
     for (; way != ways.end() && way->node == node.front; ++way) {
       const auto gait = static_cast<Gait>(front.gait[static_cast<std::size_t>(node.front)]);
       aim(own.errands.emplace_back(Errand{node, way->number, gait}), front, *way, rules);
     }
   }
-  own.active.resize(kept);
+  may.resize(kept);
+  sendMeetings(own, front, stand);
+  // What nothing pulls now may be met, or pulled by what comes later.
+  const bool keeps_all = more_come || front_.acts == Acts::on_all_neighbours;
+  if (!keeps_all) own.active = std::move(may);
   std::erase_if(own.trunks, [&](const FrontNode& tip) {
     requireNodes(front, {&tip.front, 1});
     const Way up = trunkWay(front, tip.front, rules);
@@ -197,7 +258,7 @@ std::vector<sim::Site> ColonizationProcess::due(const sim::StandView& stand, sim
   if (!own.errands.empty()) front.moved = {stand.iteration};
   // Nodes that pick an attractor wait for another to come to it. If none of those that share it goes
   // anywhere, they would wait for ever.
-  if (stand.iteration > front.moved.front() + 1) own.active.clear();
+  if (stand.iteration > front.moved.front() + 1 && !more_come) own.active.clear();
   bend(own.errands, front, stand, book_, rules, guidance(stand, memory, commons));
   const auto place = [](const Errand& e) { return std::tuple(e.from.plant, e.from.node, e.number); };
   std::sort(own.errands.begin(), own.errands.end(),
@@ -217,12 +278,11 @@ sim::Proposal ColonizationProcess::propose(const sim::SiteView& view, const sim:
   const Errand errand = errandOf(view.memory, site);
   bool limb_goes_on = true;
   view.kin.forEachChild(site.node, [&](sim::NodeId) { limb_goes_on = false; });
-  sim::Proposal proposal =
-      proposeByBook(view, site, key, book_, orderOf(view.plant, site.node) + (limb_goes_on ? 0 : 1),
-                    [&](const RuleSet& rules, const Surroundings& around, const Senses& senses, unsigned set,
-                        sim::Proposal& counts) {
-                      return frontStep(view, rules, around, senses, errand, key, set, counts);
-                    });
+  sim::Proposal proposal = proposeByBook(
+      view, site, key, book_, orderOf(view.plant, site.node) + (limb_goes_on ? 0 : 1),
+      [&](const RuleSet& rules, const Surroundings& around, const Senses& senses, unsigned set,
+          sim::Proposal& counts) { return frontStep(view, rules, around, senses, errand, key, set, counts); },
+      errand.meets);
   proposal.retire = proposal.outcome != Outcome::resting;
   return proposal;
 }
@@ -264,20 +324,25 @@ void ColonizationProcess::settle(const sim::StandView& stand, std::span<const si
                                  sim::Columns& memory, sim::Commons& commons) const {
   LentFront lent(home(commons));
   Front& front = lent.front;
-  const OrderRules rules = rulesIn(memory, stand.iteration);
   FrontMemory own = frontMemory(memory, stand);
+  const OrderRules rules = rulesIn(memory, stand.iteration, reachIn(wavesIn(home(commons)), own.wave));
   if (own.errands.size() != verdicts.size())
     throw sim::BrokenContract("a front that was told of other sites");
   own.trunks.clear();
   std::vector<NewNode> joined;
   std::vector<std::pair<Errand, std::int32_t>>
-      aside;  // that came no nearer to what they went for, and whereto
+      aside;                  // that came no nearer to what they went for, and whereto
+  std::vector<Errand> again;  // that will meet others in the next iteration
   for (std::size_t i = 0; i < verdicts.size(); ++i) {
     const sim::Verdict& verdict = verdicts[i];
     const Errand& errand = own.errands[i];
     if (verdict.node != sim::kNoNode) {
       const sim::Vec3 at = stand.plants[static_cast<std::size_t>(errand.from.plant)]
                                .skeleton.position_vx[static_cast<std::size_t>(verdict.node)];
+      if (errand.meets != sim::kNoNode) {
+        joined.push_back({at, errand.from.front, true});
+        continue;
+      }
       if (!errand.trunk) taken(front, errand.attractor, rules);
       const FrontNode fresh{static_cast<std::int32_t>(front.nodes.size() + joined.size()), errand.from.plant,
                             verdict.node};
@@ -286,6 +351,8 @@ void ColonizationProcess::settle(const sim::StandView& stand, std::span<const si
       if (errand.trunk) own.trunks.push_back(fresh);
       if (!errand.trunk && at != errand.end_vx && !cameNearer(errand, at, front, rules.trunk()))
         aside.push_back({errand, fresh.front});
+    } else if (errand.meets != sim::kNoNode) {
+      if (waitsForNext(verdict)) again.push_back(errand);
     } else if (waitsForNext(verdict)) {
       if (errand.trunk) own.trunks.push_back(errand.from);
       if (!errand.trunk) keepForLater(front, errand.from.front);
@@ -294,6 +361,14 @@ void ColonizationProcess::settle(const sim::StandView& stand, std::span<const si
     }
   }
   join(front, joined, rules);
+  for (const Errand& errand : again) {
+    const auto to = std::find_if(own.active.begin(), own.active.end(), [&](const FrontNode& node) {
+      return node.plant == errand.from.plant && node.node == errand.meets;
+    });
+    if (to == own.active.end()) continue;
+    front.links.meetings.from.push_back(errand.from.front);
+    front.links.meetings.to.push_back(to->front);
+  }
   for (const auto& [errand, to] : aside) {
     const auto n = static_cast<std::size_t>(errand.from.front);
     if (goesForOneOfMany(rules.trunk())) {

@@ -79,7 +79,7 @@ void bend(std::vector<Errand>& errands, const Front& front, const sim::StandView
   sim::parallelFor(errands.size(), 64, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       Errand& errand = errands[i];
-      if (errand.trunk) continue;
+      if (errand.trunk || errand.meets != sim::kNoNode) continue;
       const sim::Skeleton& skeleton = stand.plants[asIndex(errand.from.plant)].skeleton;
       const sim::Vec3 from = skeleton.position_vx[asIndex(errand.from.node)];
       sim::Vec3 way = errand.direction;

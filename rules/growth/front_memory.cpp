@@ -47,6 +47,20 @@ void forEachArray(Front_& front, Visit visit) {
   visit("front_moved", front.moved);
 }
 
+/// Calls visit(name, vector) for what only some fronts have: others are saved and hashed without it.
+template <typename Front_, typename Visit>
+void forEachLink(Front_& front, Visit visit) {
+  auto& links = front.links;
+  visit("link_attractor", links.attractor);
+  visit("link_node", links.node);
+  visit("link_state", links.state);
+  visit("link_arrived_at", links.arrived_at);
+  visit("link_arrived", links.arrived);
+  visit("link_arrived_from", links.arrived_from);
+  visit("link_meet_from", links.meetings.from);
+  visit("link_meet_to", links.meetings.to);
+}
+
 void require(bool sound, const char* what) {
   if (!sound) throw sim::BrokenContract(std::string("a front with ") + what);
 }
@@ -69,6 +83,11 @@ void requireLengths(const Front& front) {
   require(front.picker.size() == front.picked2.size() &&
               (front.picker.empty() || front.picker.size() == a.x.size()),
           "picks whose columns differ in length");
+  const Links& links = front.links;
+  require(same(links.attractor.size(), {links.node.size(), links.state.size()}) &&
+              same(links.arrived_at.size(), {links.arrived.size(), links.arrived_from.size()}) &&
+              links.meetings.from.size() == links.meetings.to.size(),
+          "links whose columns differ in length");
   require(front.moved.size() == 1, "no word of when it last moved");
 }
 
@@ -122,6 +141,22 @@ void requireSoundTree(const Attractors& a) {
   }
 }
 
+void requireSoundLinks(const Front& front) {
+  const Links& links = front.links;
+  const auto all = [](const std::vector<std::int32_t>& numbers, std::size_t end) {
+    return std::all_of(numbers.begin(), numbers.end(),
+                       [end](std::int32_t number) { return between(number, 0, end); });
+  };
+  const std::size_t attractors = front.attractors.x.size(), nodes = front.nodes.size();
+  require(all(links.attractor, attractors) && all(links.arrived_at, attractors), "links of no attractor");
+  require(all(links.node, nodes) && all(links.arrived, nodes) && all(links.arrived_from, nodes) &&
+              all(links.meetings.from, nodes) && all(links.meetings.to, nodes) && all(links.state, 3),
+          "links of a node that is not there");
+  require(std::is_sorted(links.attractor.begin(), links.attractor.end()) &&
+              std::is_sorted(links.arrived_at.begin(), links.arrived_at.end()),
+          "links out of their order");
+}
+
 void requireSoundNumbers(const Front& front) {
   const Attractors& a = front.attractors;
   const auto isPlace = [](double x) { return std::abs(x) < 1e9; };
@@ -132,13 +167,17 @@ void requireSoundNumbers(const Front& front) {
     require(between(a.number[i], 0, a.x.size()) &&
                 a.place[static_cast<std::size_t>(a.number[i])] == static_cast<std::int32_t>(i),
             "attractors that are not where they say");
-    require(between(a.fate[i], 0, 4), "an attractor of no known fate");
+    require(between(a.fate[i], 0, 5), "an attractor of no known fate");
     require(between(a.nearest[i], kNobody, front.nodes.size()), "an attractor of a node that is not there");
   }
   std::vector<std::int32_t> pulled(front.nodes.size());
   for (std::size_t i = 0; i < a.x.size(); ++i) {
     if (a.nearest[i] != kNobody && a.fate[i] == static_cast<std::int32_t>(Fate::waiting))
       ++pulled[static_cast<std::size_t>(a.nearest[i])];
+  }
+  for (std::size_t i = 0; i < front.links.node.size(); ++i) {
+    if (front.links.state[i] == static_cast<std::int32_t>(Link::pulls))
+      ++pulled[asIndex(front.links.node[i])];
   }
   require(pulled == front.pulls.count, "nodes that others pull than say so");
   for (const std::int32_t gait : front.gait) require(between(gait, 0, 4), "a node of no known gait");
@@ -182,7 +221,29 @@ void writeNodes(sim::Columns& columns, const std::string& what, const std::vecto
   write(columns, what + "_node", nodes, [](const FrontNode& n) { return n.node; });
 }
 
-constexpr std::int32_t kTrunk = 8;  // beside the gait
+constexpr std::int32_t kTrunk = 8, kMeets = 16;  // beside the gait
+constexpr const char* kWave = "front_wave";
+
+/// An errand's last number is the attractor that it goes for, or the node that it meets.
+std::int32_t howOf(const Errand& errand) {
+  return static_cast<std::int32_t>(errand.gait) | (errand.trunk ? kTrunk : 0) |
+         (errand.meets != sim::kNoNode ? kMeets : 0);
+}
+std::int32_t goalNumberOf(const Errand& errand) {
+  return errand.meets != sim::kNoNode ? errand.meets : errand.attractor;
+}
+Errand unpackedErrand(const FrontNode& from, std::int32_t number, std::int32_t how, sim::Vec3 direction,
+                      sim::Vec3 end_vx, std::int32_t goal) {
+  const bool meets = (how & kMeets) != 0;
+  return {from,
+          static_cast<std::uint32_t>(number),
+          static_cast<Gait>(how & (kTrunk - 1)),
+          (how & kTrunk) != 0,
+          direction,
+          end_vx,
+          meets ? kNobody : goal,
+          meets ? goal : sim::kNoNode};
+}
 
 }  // namespace
 
@@ -194,11 +255,17 @@ LentFront::LentFront(sim::Columns& columns) : columns_(columns) {
   forEachArray(front, [&](const char* name, auto& values) {
     values = std::move(sim::column<typename std::decay_t<decltype(values)>::value_type>(columns_, name));
   });
+  forEachLink(front, [&](const char* name, auto& values) {
+    if (columns_.contains(name)) values = std::move(sim::column<std::int32_t>(columns_, name));
+  });
   requireLengths(front);
 }
 
 LentFront::~LentFront() {
   forEachArray(front, [&](const char* name, auto& values) { columns_[name] = std::move(values); });
+  forEachLink(front, [&](const char* name, auto& values) {
+    if (!values.empty() || columns_.contains(name)) columns_[name] = std::move(values);
+  });
 }
 
 bool holdsFront(const sim::Columns& columns) {
@@ -226,7 +293,10 @@ void requireSoundFronts(const sim::Commons& commons) {
     require(sim::column<sim::Vec3>(columns, kAttractorPlace).size() == count,
             "other attractors than are given");
     require(normals == 0 || normals == count, "normals of other attractors");
+    const std::size_t waves = sim::column<std::int32_t>(columns, kAttractorWave).size();
+    require(waves == 0 || waves == count, "waves of other attractors");
     requireSoundTree(lent.front.attractors);
+    requireSoundLinks(lent.front);
     requireSoundNumbers(lent.front);
   }
 }
@@ -246,9 +316,11 @@ FrontMemory frontMemory(const sim::Columns& memory, const sim::StandView& stand)
               direction.size() == from.size() && end.size() == from.size(),
           "errands whose columns differ in length");
   for (std::size_t i = 0; i < from.size(); ++i) {
-    read.errands.push_back({from[i], static_cast<std::uint32_t>(number[i]),
-                            static_cast<Gait>(how[i] & ~kTrunk), (how[i] & kTrunk) != 0, direction[i], end[i],
-                            attractor[i]});
+    read.errands.push_back(unpackedErrand(from[i], number[i], how[i], direction[i], end[i], attractor[i]));
+  }
+  if (const Whole& wave = sim::column<std::int32_t>(memory, kWave); !wave.empty()) {
+    require(between(wave.front(), 0, 1000), "a wave that is none");
+    read.wave = wave.front();
   }
   return read;
 }
@@ -261,11 +333,11 @@ void keep(const FrontMemory& memory, sim::Columns& columns) {
   writeNodes(columns, "errand", from);
   write(columns, "errand_number", memory.errands,
         [](const Errand& e) { return static_cast<std::int32_t>(e.number); });
-  write(columns, "errand_how", memory.errands,
-        [](const Errand& e) { return static_cast<std::int32_t>(e.gait) | (e.trunk ? kTrunk : 0); });
+  write(columns, "errand_how", memory.errands, [](const Errand& e) { return howOf(e); });
   write(columns, "errand_direction", memory.errands, [](const Errand& e) { return e.direction; });
   write(columns, "errand_end", memory.errands, [](const Errand& e) { return e.end_vx; });
-  write(columns, "errand_attractor", memory.errands, [](const Errand& e) { return e.attractor; });
+  write(columns, "errand_attractor", memory.errands, [](const Errand& e) { return goalNumberOf(e); });
+  if (memory.wave > 0) sim::column<std::int32_t>(columns, kWave) = {memory.wave};
 }
 
 Errand errandOf(const sim::Columns& memory, const sim::Site& site) {
@@ -284,14 +356,12 @@ Errand errandOf(const sim::Columns& memory, const sim::Site& site) {
   }
   require(low < plant.size() && std::tuple(plant[low], node[low], number[low]) == wanted,
           "a site that was sent nowhere");
-  const std::int32_t how = sim::column<std::int32_t>(memory, "errand_how")[low];
-  return {{sim::column<std::int32_t>(memory, "errand_front")[low], site.plant, site.node},
-          site.number,
-          static_cast<Gait>(how & ~kTrunk),
-          (how & kTrunk) != 0,
-          sim::column<sim::Vec3>(memory, "errand_direction")[low],
-          sim::column<sim::Vec3>(memory, "errand_end")[low],
-          sim::column<std::int32_t>(memory, "errand_attractor")[low]};
+  return unpackedErrand({sim::column<std::int32_t>(memory, "errand_front")[low], site.plant, site.node},
+                        static_cast<std::int32_t>(site.number),
+                        sim::column<std::int32_t>(memory, "errand_how")[low],
+                        sim::column<sim::Vec3>(memory, "errand_direction")[low],
+                        sim::column<sim::Vec3>(memory, "errand_end")[low],
+                        sim::column<std::int32_t>(memory, "errand_attractor")[low]);
 }
 
 std::size_t countFront(const sim::Columns& memory) {

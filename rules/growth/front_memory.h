@@ -15,6 +15,8 @@ std::string attractorsNamed(const std::string& name);
 /// on, zero elsewhere.
 inline constexpr const char* kAttractorPlace = "at_vx";
 inline constexpr const char* kAttractorNormal = "normal";
+/// Where they come in waves: of each, as it was given, in which (std::int32_t).
+inline constexpr const char* kAttractorWave = "wave";
 
 /// A front out of columns and back: nothing is copied. While it is lent the columns lack it.
 class LentFront {
@@ -59,6 +61,7 @@ struct Errand {
   sim::Vec3 direction{0.0};          ///< unit
   sim::Vec3 end_vx{0.0};             ///< where it leads if nothing in its way bends it
   std::int32_t attractor = kNobody;  ///< the number of the one that it goes for alone
+  sim::NodeId meets = sim::kNoNode;  ///< the node whose place it goes to, if it closes a loop
 };
 
 /// A planting's own part.
@@ -66,6 +69,7 @@ struct FrontMemory {
   std::vector<FrontNode> active;  ///< ascending
   std::vector<FrontNode> trunks;  ///< tips of plants that no attractor was in reach of yet
   std::vector<Errand> errands;    ///< in the order of sites
+  std::int32_t wave = 0;          ///< of the attractors, the last that its nodes met
 };
 /// Throws BrokenContract for numbers of nodes that are not there.
 FrontMemory frontMemory(const sim::Columns& memory, const sim::StandView& stand);

@@ -49,7 +49,7 @@ std::optional<Candidate> frontStep(const sim::SiteView& view, const RuleSet& rul
   ways.narrowly = 0.0f;
   ways.narrow = 1;
   ways.widest = front.trials;
-  if (errand.gait == Gait::pulled && !front.onto)
+  if (errand.gait == Gait::pulled && !front.onto && errand.meets == sim::kNoNode)
     bendBy(rules, around, senses, view.world.frame().size, ways);
   // The first trial mostly is the last, and many at a time would cost more.
   sim::Vec3 end_vx = errand.end_vx;
@@ -59,7 +59,7 @@ std::optional<Candidate> frontStep(const sim::SiteView& view, const RuleSet& rul
     end_vx = sim::endOf(around.at_vx, bent, 0);
   }
   if (auto first = oneWay(view, rules, around, end_vx, passage, proposal)) return first;
-  if (front.onto) return std::nullopt;
+  if (front.onto || errand.meets != sim::kNoNode) return std::nullopt;
   return bestTrial(view, rules, around, ways, {1, 1, front.trials, passage}, proposal);
 }
 

@@ -32,6 +32,11 @@ class RuleBook {
   const RuleSet& ofOrder(int order) const;
   /// Whether limbs are told apart by their orders.
   bool hasOrders() const { return rules_->branches || rules_->twigs; }
+  /// Whether limbs meet: then their plants have sim::kJoinsColumn.
+  bool limbsMeet() const {
+    return rules_->propagate == Propagate::colonization &&
+           rules_->colonization.acts == Acts::on_all_neighbours;
+  }
   /// Whether elements stand in an order along limbs.
   bool hasPhyllotaxis() const { return has_phyllotaxis_; }
   /// The set that a site in this voxel tries first: of what has an order, the nearest region's, or that

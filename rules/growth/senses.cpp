@@ -5,6 +5,7 @@
 
 #include "rules/growth/apices.h"
 #include "rules/growth/scene_lines.h"
+#include "rules/growth/scene_surfaces.h"
 #include "sim/grow/plant.h"
 #include "sim/sense/company.h"
 #include "sim/sense/mass.h"
@@ -48,9 +49,11 @@ struct Found {
   sim::Vec3 way{0.0};  ///< unit, or zero
 };
 
-Found findLine(const sim::SiteView& view, const SenseSpec& sense, sim::Vec3 at_vx) {
+/// Of what is known exactly: lines or surfaces.
+template <class Near>
+Found findExactly(const sim::SiteView& view, const SenseSpec& sense, sim::Vec3 at_vx) {
   const double within_vx = sense.within.number;
-  const auto nearest = LinesNear(view.commons, at_vx, within_vx).nearest(at_vx, within_vx);
+  const auto nearest = Near(view.commons, at_vx, within_vx).nearest(at_vx, within_vx);
   return {distanceRead(nearest, at_vx, sense, view.world.frame()),
           nearest ? unitOrZero(*nearest - at_vx) : sim::Vec3(0.0)};
 }
@@ -72,7 +75,9 @@ Found find(const sim::SiteView& view, const SenseSpec& sense, sim::Vec3 at_vx) {
     }
     case SenseSpec::Measure::distance:
     case SenseSpec::Measure::nearness:
-      return sense.of == kOfLines ? findLine(view, sense, at_vx) : findVoxel(view, sense, at_vx);
+      if (sense.of == kOfSurfaces) return findExactly<SurfacesNear>(view, sense, at_vx);
+      return sense.of == kOfLines ? findExactly<LinesNear>(view, sense, at_vx)
+                                  : findVoxel(view, sense, at_vx);
     case SenseSpec::Measure::height:
       break;
   }

@@ -46,8 +46,12 @@ double TrialJudge::reads(const std::string& name, sim::Vec3 at_vx) {
   Near& near = near_[static_cast<std::size_t>(&sense - rules_.senses.data())];
   const double within_vx = sense.within.number;
   if (sense.measure == SenseSpec::Measure::height) return readingOf(view_, sense, at_vx);
+  const double reach_vx = std::sqrt(3.0) * (reach_vx_ + 1) + within_vx;
+  if (sense.of == kOfSurfaces) {
+    if (!near.surfaces) near.surfaces.emplace(view_.commons, around_.at_vx, reach_vx);
+    return distanceRead(near.surfaces->nearest(at_vx, within_vx), at_vx, sense, view_.world.frame());
+  }
   if (sense.of == kOfLines) {
-    const double reach_vx = std::sqrt(3.0) * (reach_vx_ + 1) + within_vx;
     if (!near.lines) near.lines.emplace(view_.commons, around_.at_vx, reach_vx);
     return distanceRead(near.lines->nearest(at_vx, within_vx), at_vx, sense, view_.world.frame());
   }

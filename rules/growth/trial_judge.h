@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "rules/growth/scene_lines.h"
+#include "rules/growth/scene_surfaces.h"
 #include "rules/growth/senses.h"
 #include "sim/sense/company.h"
 
@@ -30,6 +31,7 @@ class TrialJudge {
   struct Near {
     std::optional<sim::Company> company;
     std::optional<LinesNear> lines;
+    std::optional<SurfacesNear> surfaces;
   };
 
   const sim::SiteView& view_;

@@ -142,6 +142,13 @@ void checkColonization(const RuleSet& rules, const Check::Given& given, const Ch
       front.kill->number >= front.influence->number)
     complain("colonization.kill",
              "kill is not less than influence: every attractor would end before it acts");
+  for (const auto& [key, set] : {std::pair("onto", front.onto), std::pair("repeated", front.repeated)}) {
+    if (set && front.acts == Acts::on_all_neighbours)
+      complain(std::string("colonization.") + key,
+               fmt::format("{} means nothing where attractors pull all around them; expected it with acts: "
+                           "on_nearest_node or on_every_node",
+                           key));
+  }
   static_cast<void>(given);
 }
 

@@ -84,7 +84,10 @@ enum class Acts {
   on_nearest_node,  ///< each attractor pulls the node nearest to it (Runions et al. 2007)
   /// Each node picks the attractor that is nearest to it (Tanaka et al. 2022); of those that pick the same,
   /// the nearest grows towards it, once.
-  on_every_node
+  on_every_node,
+  /// Each attractor pulls its relative neighbours: what comes to it from several sides meets in it (Runions
+  /// et al. 2005; rules/front/front.h).
+  on_all_neighbours
 };
 
 /// How limbs of colonization leave each other.
@@ -174,7 +177,7 @@ struct SenseSpec {
   };
   std::string name;
   Measure measure = Measure::density;
-  /// Whose voxels: everything, scene, plants, own, others, or a region; or kOfLines.
+  /// Whose voxels: everything, scene, plants, own, others, or a region; or kOfLines, or kOfSurfaces.
   std::string of = "everything";
   Distance within{6.0};
 };
@@ -184,6 +187,8 @@ inline constexpr std::array kWhose{"everything", "scene", "plants", "own", "othe
 
 /// Its lines, and not by voxels but exactly: of their distance and nearness alone.
 inline constexpr const char* kOfLines = "lines";
+/// Those of its meshes, guides too, likewise.
+inline constexpr const char* kOfSurfaces = "surfaces";
 
 /// What a rule set does by a sense.
 struct SenseBias {

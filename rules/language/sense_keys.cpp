@@ -28,14 +28,15 @@ void checkSense(const SenseSpec& sense, const Check::Given& given, const Check::
              "within says nothing of a height, which goes all the way down; expected it gone");
   const bool of_nearest =
       sense.measure == SenseSpec::Measure::distance || sense.measure == SenseSpec::Measure::nearness;
-  if (sense.of == kOfLines && !of_nearest)
-    complain(at + ".of",
-             "lines are too thin for it; expected measure: distance or nearness, or the voxels of another");
+  if ((sense.of == kOfLines || sense.of == kOfSurfaces) && !of_nearest)
+    complain(at + ".of", fmt::format("{} are too thin for it; expected measure: distance or nearness, or the "
+                                     "voxels of another",
+                                     sense.of));
   const bool holds_own = sense.of == "everything" || sense.of == "plants" || sense.of == "own";
   if (of_nearest && holds_own)
     complain(
         at + (given(at + ".of") > 0 ? ".of" : ".measure"),
-        fmt::format("the distance to {} is none, as a plant touches itself; expected others, scene, lines "
+        fmt::format("the distance to {} is none, as a plant touches itself; expected others, scene, lines, surfaces "
                     "or a region",
                     sense.of));
 }
@@ -55,8 +56,8 @@ std::shared_ptr<const Table> senseKeys() {
                "metres above."})
       .text(
           "of", &SenseSpec::of,
-          {.meaning = "Whose: everything, scene, plants, own, others, a region by its name; or lines, which "
-                      "are exact.",
+          {.meaning = "Whose: everything, scene, plants, own, others, a region by its name; or lines or "
+                      "surfaces, which are exact.",
            .most = 100})
       .distance("within", &SenseSpec::within,
                 {.unit = "voxel widths", .limits = {0.0, 64.0, true}, .meaning = "How far it is looked for."})

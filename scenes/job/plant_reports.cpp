@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <iterator>
 #include <span>
 #include <utility>
@@ -26,6 +27,10 @@ Report::Growth::Plant plantReport(const PlantSpec& spec, const sim::Frame& frame
   report.key = named ? spec.seeds[number].key : sim::hexOf(plant.key);
   report.segments = static_cast<std::size_t>(plant.skeleton.size()) - 1;
   report.elements = plant.elements.size();
+  if (const auto* const joins = sim::find(plant.skeleton, sim::kJoinsColumn)) {
+    report.loops = static_cast<std::size_t>(
+        std::count_if(joins->begin(), joins->end(), [](float node) { return node > 0.0f; }));
+  }
   report.tally = tally;
   return report;
 }

@@ -46,6 +46,7 @@ Json plant(const Report::Growth::Plant& plant) {
                {"elements", plant.elements},
                {"buds", occurred(plant.tally.sites)},
                {"trials", occurred(plant.tally.trials)}};
+  if (plant.loops) json["loops"] = *plant.loops;
   if (plant.meeting_limbs) json["meeting_limbs"] = *plant.meeting_limbs;
   if (plant.triangles) json["triangles"] = *plant.triangles;
   if (plant.failure) json["failed"] = whyItDidNotGrow(*plant.failure);

@@ -42,6 +42,7 @@ struct Report {
       std::string
           key;  ///< of its seed: the name that it was given, or else the number, as sim::hexOf writes it
       std::size_t segments = 0, elements = 0;
+      std::optional<std::size_t> loops;          ///< that its limbs close, where they meet each other
       std::optional<std::size_t> meeting_limbs;  ///< render::PlantModel's, once it was modelled
       std::optional<std::size_t> triangles;      ///< of its model, likewise
       sim::Tally tally;

@@ -71,6 +71,11 @@ std::string fates(const Report::Growth& report, double voxel_m) {
         of(sim::Outcome::forbidden), unmetAmong(report.buds));
   for (const Report::Growth::Attractors& one : report.attractors)
     text += fmt::format("attractors {}: {}\n", inQuotes(one.name), one.ending);
+  for (const Report::Growth::Plant& plant : report.plants) {
+    if (plant.loops)
+      text +=
+          fmt::format("{}: its limbs close {}\n", inQuotes(plant.name), sim::counted(*plant.loops, "loop"));
+  }
   for (const Report::Growth::Laid& one : report.laid) text += laidText(one, voxel_m);
   for (const std::string& met : report.in_the_way) text += "note: " + met + "\n";
   return text + poorPlants(report.plants);

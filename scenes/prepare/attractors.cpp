@@ -22,7 +22,7 @@ class Naming {
       : name_(std::move(name)), place_(place), scene_(scene), world_(world), warnings_(warnings) {}
 
   NamedPoints clipped(const sim::PointSet& points) const {
-    NamedPoints kept{name_, {}, {}};
+    NamedPoints kept{name_, {}, {}, {}};
     std::size_t outside = 0, blocked = 0;
     std::string hollow;  // what else could be done
     for (std::size_t i = 0; i < points.at.size(); ++i) {
@@ -36,6 +36,7 @@ class Naming {
       } else {
         kept.at_vx.push_back(at_vx);
         kept.normal.push_back(points.normal[i]);
+        if (!points.wave.empty()) kept.wave.push_back(points.wave[i]);
       }
     }
     const std::string lost =
@@ -130,7 +131,8 @@ class Making {
   sim::PointSet apart(std::uint64_t stream) const {
     const auto most =
         static_cast<std::size_t>(spec_.strewing.count.value_or(static_cast<int>(rules::kMostPoints)));
-    sim::PointSet points = sim::scatterApart(mesh(spec_.surface), most, *spec_.spacing_m, stream);
+    sim::PointSet points =
+        sim::scatterApart(mesh(spec_.surface), most, *spec_.spacing_m, stream, spec_.waves);
     if (spec_.strewing.count && points.at.size() < most) {
       say_.warn(fmt::format("{} of {} points find room on '{}' with {} m between any two", points.at.size(),
                             most, spec_.surface, *spec_.spacing_m));
@@ -201,6 +203,7 @@ sim::Commons commonsOf(const std::vector<NamedPoints>& attractors) {
     sim::Columns& columns = commons[rules::attractorsNamed(points.name)];
     columns[rules::kAttractorPlace] = points.at_vx;
     columns[rules::kAttractorNormal] = points.normal;
+    if (!points.wave.empty()) columns[rules::kAttractorWave] = points.wave;
   }
   return commons;
 }

@@ -13,6 +13,7 @@ struct NamedPoints {
   std::string name;
   std::vector<sim::Vec3> at_vx;   ///< in free voxels of the world
   std::vector<sim::Vec3> normal;  ///< of each the unit normal of the surface it was strewn on; zero elsewhere
+  std::vector<std::int32_t> wave = {};  ///< in which each comes; empty where all do at once
 };
 
 /// The attractors that a scene names, in its order. Points beyond the world and in what stands there are left

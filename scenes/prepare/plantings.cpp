@@ -15,6 +15,7 @@
 #include "rules/growth/make_process.h"
 #include "rules/growth/rule_book.h"
 #include "rules/growth/scene_lines.h"
+#include "rules/growth/scene_surfaces.h"
 #include "rules/growth/shared_guide.h"
 #include "scenes/lights.h"
 #include "scenes/prepare/in_scene.h"
@@ -209,11 +210,33 @@ std::vector<rules::LineEnds> linesOf(const Site& site) {
   return lines_vx;
 }
 
-/// Complains where a rule set senses lines of a scene that has none.
-void requireLines(const PlantSpec& spec, const Scene& scene, const Site& site, Gathering& wrong) {
-  if (!rules::asksForLines(*spec.rules) || !linesOf(site).empty()) return;
-  wrong.add(problemAt(spec.rules_place, scene.file,
-                      "senses are of: lines, and the scene has none; expected a mesh with lines"));
+/// Those of all of a scene's meshes, guides too.
+std::vector<rules::TriangleCorners> surfacesOf(const Site& site) {
+  std::vector<rules::TriangleCorners> triangles_vx;
+  const sim::Frame& frame = site.world.frame();
+  for (const sim::TiledMesh& tiled : site.meshes) {
+    if (!tiled.lines.empty()) continue;
+    const sim::Mesh& mesh = tiled.mesh;
+    for (const auto& [a, b, c] : mesh.triangles) {
+      triangles_vx.push_back({sim::voxelFromWorld(frame, mesh.vertices_m[a]),
+                              sim::voxelFromWorld(frame, mesh.vertices_m[b]),
+                              sim::voxelFromWorld(frame, mesh.vertices_m[c])});
+    }
+  }
+  return triangles_vx;
+}
+
+/// Complains where a rule set senses lines or surfaces of a scene that has none.
+void requireSensed(const PlantSpec& spec, const Scene& scene, const Site& site, Gathering& wrong) {
+  const auto require = [&](bool asks, bool has, const char* what, const char* expected) {
+    if (!asks || has) return;
+    wrong.add(
+        problemAt(spec.rules_place, scene.file,
+                  fmt::format("senses are of: {}, and the scene has none; expected {}", what, expected)));
+  };
+  require(rules::asksForLines(*spec.rules), !linesOf(site).empty(), rules::kOfLines, "a mesh with lines");
+  require(rules::asksForSurfaces(*spec.rules), !surfacesOf(site).empty(), rules::kOfSurfaces,
+          "a mesh with faces");
 }
 
 }  // namespace
@@ -224,7 +247,8 @@ std::vector<sim::Planting> makePlantings(const Scene& scene, const Site& site) {
   Gathering wrong(scene.file);
   const auto unknown = unknownToScatterOver(scene, site.world);
   std::shared_ptr<const sim::SceneSurface> surface;
-  if (std::any_of(scene.plants.begin(), scene.plants.end(), lays)) surface = sim::surfaceOf(site.world.frame(), site.meshes);
+  if (std::any_of(scene.plants.begin(), scene.plants.end(), lays))
+    surface = sim::surfaceOf(site.world.frame(), site.meshes);
   for (std::size_t i = 0; i < scene.plants.size(); ++i) {
     const PlantSpec& spec = scene.plants[i];
     if (unknown[i]) {
@@ -232,7 +256,7 @@ std::vector<sim::Planting> makePlantings(const Scene& scene, const Site& site) {
       continue;
     }
     requireApices(spec, scene, site.world, wrong);
-    requireLines(spec, scene, site, wrong);
+    requireSensed(spec, scene, site, wrong);
     wrong.part(spec.rules_place, [&] {
       plantings.push_back(
           spec.skeleton ? given(spec, site.skeletons.at(i), scene, site.world.frame())
@@ -278,6 +302,9 @@ sim::GrowthSettings growthSettings(const Scene& scene, const Site& site,
   if (std::any_of(scene.plants.begin(), scene.plants.end(),
                   [](const PlantSpec& plant) { return rules::asksForLines(*plant.rules); }))
     settings.commons[rules::kSceneLines] = rules::columnsOf(linesOf(site));
+  if (std::any_of(scene.plants.begin(), scene.plants.end(),
+                  [](const PlantSpec& plant) { return rules::asksForSurfaces(*plant.rules); }))
+    settings.commons[rules::kSceneSurfaces] = rules::columnsOf(surfacesOf(site));
   for (std::size_t i = 0; i < scene.fields.size(); ++i) {
     const rules::Guide guide = guideOf(scene.fields[i], site.fields.at(i), site.world.frame());
     settings.commons[rules::fieldNamed(scene.fields[i].name)] = rules::columnsOf(guide);

@@ -50,6 +50,7 @@ void checkMeaning(const AttractorsSpec& spec, const std::string& source, const s
   needs("spread", solid, "a solid");
   needs("density", solid, "a solid");
   needs("spacing", surface, "a surface");
+  needs("waves", surface && spec.spacing_m, "a surface and a spacing");
   needs("count", !points, "a solid or a mesh");
   needs("type", points, "points");
   if (solid && !spec.at_m)

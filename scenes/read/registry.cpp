@@ -237,6 +237,11 @@ std::shared_ptr<const Table> attractorKeys() {
               {.unit = kMetres,
                .limits = kPositive,
                .meaning = "Least between any two on a surface; without a count as many as find room."})
+      .whole("waves", &AttractorsSpec::waves,
+             {.unit = "waves",
+              .limits = {1.0, 12.0},
+              .meaning = "They come in so many, from sparse to dense: each keeps half the spacing of the one "
+                         "before it."})
       .shared();
 }
 
@@ -257,8 +262,8 @@ std::shared_ptr<const Table> imageKeys() {
        {ImageKind::sun_exposure, ImageKind::sky_exposure, ImageKind::threshold, ImageKind::shadow_matte,
         ImageKind::surface_colour, ImageKind::first_pass, ImageKind::volume, ImageKind::sun_hours,
         ImageKind::vines, ImageKind::section, ImageKind::attempts, ImageKind::points, ImageKind::graph,
-        ImageKind::field, ImageKind::narrow_band, ImageKind::sky_tables, ImageKind::voxels,
-        ImageKind::contact_sheet}) {
+        ImageKind::field, ImageKind::narrow_band, ImageKind::cut_out, ImageKind::sky_tables,
+        ImageKind::voxels, ImageKind::contact_sheet}) {
     kinds.emplace_back(nameOf(kind), kind);
   }
   return TableOf<ImageSpec>()
@@ -279,7 +284,7 @@ std::shared_ptr<const Table> imageKeys() {
                .limits = kCoordinate,
                .meaning = "Of a section or a narrow_band: where on that axis the cut lies."})
       .text("mesh", &ImageSpec::mesh,
-            {.meaning = "Of a narrow_band: of which of the scene's meshes; without it, of the first."})
+            {.meaning = "Of a narrow_band or cut_out: which of the scene's meshes; without it, the first."})
       .text("field", &ImageSpec::field,
             {.meaning = "Of a field: which of the scene's fields; without it, the first."})
       .whole("iteration", &ImageSpec::iteration,

@@ -354,7 +354,7 @@ void RuleLoader::mentionSensed(const Layers& layers) {
   if (!senses) return;
   for (const auto& sense : senses->entries) {
     const auto* of = sense.value.entry("of");
-    if (of && of->value.text != rules::kOfLines &&
+    if (of && of->value.text != rules::kOfLines && of->value.text != rules::kOfSurfaces &&
         std::find(rules::kWhose.begin(), rules::kWhose.end(), of->value.text) == rules::kWhose.end())
       mention(of->value.text, of->value.place, true);
   }

@@ -181,7 +181,7 @@ void checkCameras(const Scene& scene, const Given&, const Complain& complain) {
 
 bool needsCamera(ImageKind kind) {
   return kind != ImageKind::section && kind != ImageKind::attempts && kind != ImageKind::narrow_band &&
-         kind != ImageKind::sky_tables && kind != ImageKind::contact_sheet;
+         kind != ImageKind::cut_out && kind != ImageKind::sky_tables && kind != ImageKind::contact_sheet;
 }
 
 void checkImageCameras(const Scene& scene, const Given&, const Complain& complain) {
@@ -217,7 +217,7 @@ void checkImages(const Scene& scene, const Given& given, const Complain& complai
     };
     belongsTo("axis", {ImageKind::section, ImageKind::narrow_band});
     belongsTo("at", {ImageKind::section, ImageKind::narrow_band});
-    belongsTo("mesh", {ImageKind::narrow_band});
+    belongsTo("mesh", {ImageKind::narrow_band, ImageKind::cut_out});
     belongsTo("iteration", {ImageKind::points, ImageKind::graph});
     belongsTo("field", {ImageKind::field});
     belongsTo("plant", {ImageKind::threshold, ImageKind::sky_tables});
@@ -239,10 +239,11 @@ void checkImageMeshes(const Scene& scene, const Given&, const Complain& complain
   for (const auto& mesh : scene.meshes) (mesh.tiled ? names : nowhere).push_back(mesh.name);
   for (std::size_t i = 0; i < scene.images.size(); ++i) {
     const auto& image = scene.images[i];
-    if (image.kind != ImageKind::narrow_band) continue;
+    if (image.kind != ImageKind::narrow_band && image.kind != ImageKind::cut_out) continue;
     const auto path = fmt::format("images[{}]", i);
     if (names.empty()) {
-      complain(path, "a narrow_band of no mesh; expected one that stands in the scene's world");
+      complain(path, fmt::format("a {} of no mesh; expected one that stands in the scene's world",
+                                 nameOf(image.kind)));
     } else if (std::find(nowhere.begin(), nowhere.end(), image.mesh) != nowhere.end()) {
       complain(path + ".mesh", fmt::format("the mesh {} stands nowhere (tiled: false); expected one of {}",
                                            inQuotes(image.mesh), listed(names)));

@@ -9,12 +9,14 @@
 
 #include "render/finish/finished_picture.h"
 #include "render/image/contact_sheet.h"
+#include "render/image/cut_out.h"
 #include "render/image/image_io.h"
 #include "render/image/legend.h"
 #include "render/voxels/panels.h"
 #include "render/voxels/visibility.h"
 #include "scenes/lights.h"
 #include "scenes/show/cube_pictures.h"
+#include "scenes/show/cut_out_picture.h"
 #include "scenes/show/flat_pictures.h"
 #include "scenes/show/graph_pictures.h"
 #include "scenes/show/light_texts.h"
@@ -289,7 +291,8 @@ std::vector<OutputFile> drawPictures(const PicturesWanted& wanted, const Finishe
       return std::find(sheet.of.begin(), sheet.of.end(), wanted.images[i].name) != sheet.of.end();
     };
     if (std::any_of(wanted.images.begin(), wanted.images.end(), shows))
-      (*thumbnails)[i] = render::reducedForSheet(picture, render::SheetLook().picture_width_px);
+      (*thumbnails)[i] = render::reducedForSheet(picture.channels == 4 ? render::onPaper(picture) : picture,
+                                                 render::SheetLook().picture_width_px);
   };
   const auto keep = [&](std::size_t i, Image picture) {
     const ImageSpec& image = wanted.images[i];
@@ -357,6 +360,9 @@ std::vector<OutputFile> drawPictures(const PicturesWanted& wanted, const Finishe
   drawEach(ImageKind::section, [&](const ImageSpec& image) { return drawSection(finished.world, image); });
   drawEach(ImageKind::narrow_band, [&](const ImageSpec& image) {
     return drawNarrowBand(finished.meshes, finished.world.frame(), image);
+  });
+  drawEach(ImageKind::cut_out, [&](const ImageSpec& image) {
+    return drawCutOut(finished, image, {wanted.width_px, wanted.height_px});
   });
   drawEach(ImageKind::sky_tables, [&](const ImageSpec& image) {
     return drawSkyTables(finished.world, finished.bare, finished.growth, finished.sky_table(), image);

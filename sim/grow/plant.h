@@ -36,6 +36,10 @@ struct Skeleton {
 /// of what the plant's girth makes of its skeleton. A seed's own means nothing.
 inline constexpr const char* kRadiusColumn = "radius_vx";
 
+/// The column of plants whose limbs meet: of a node that closes a loop the number of the one whose place it
+/// stands in, and 0 of all others. Exact below 2^24.
+inline constexpr const char* kJoinsColumn = "joins";
+
 /// The column of that name; null where the plant's process keeps none.
 inline const std::vector<float>* find(const Skeleton& skeleton, std::string_view name) {
   const auto at = skeleton.columns.find(name);

@@ -1,4 +1,5 @@
 #pragma once
+#include <cstdint>
 #include <vector>
 
 #include "sim/base/vec.h"
@@ -9,6 +10,7 @@ namespace espalier::sim {
 struct PointSet {
   std::vector<Vec3> at;      ///< in the units of what they are strewn over: world metres
   std::vector<Vec3> normal;  ///< of each the unit normal of the surface it lies on; zero in a volume
+  std::vector<std::int32_t> wave = {};  ///< in which of several they were strewn; empty where in one
 };
 
 }  // namespace espalier::sim

@@ -128,21 +128,26 @@ PointSet scatterOn(const Mesh& mesh, std::size_t count, std::uint64_t stream) {
   return points;
 }
 
-PointSet scatterApart(const Mesh& mesh, std::size_t count, double spacing, std::uint64_t stream) {
+PointSet scatterApart(const Mesh& mesh, std::size_t count, double spacing, std::uint64_t stream, int waves) {
   requireCount(count);
   if (!(spacing > 0.0) || !std::isfinite(spacing))
     throw InputError(fmt::format("points {} apart; expected a number above 0", spacing));
   const Areas areas(mesh);
   constexpr double kFull = 0.7, kTimes = 30.0;  // of squares of the spacing, where no more points fit in
-  const double tries = std::ceil(kTimes * (1.0 + kFull * areas.total() / (spacing * spacing)));
-  const auto most = static_cast<std::uint32_t>(std::min(tries, static_cast<double>(kMostPoints)));
   PointSet points;
-  Apart apart(spacing);
-  for (std::uint32_t k = 0; k < most && points.at.size() < count; ++k) {
-    const Point point = areas.draw(stream, k);
-    if (!apart.keep(point.at)) continue;
-    points.at.push_back(point.at);
-    points.normal.push_back(point.normal);
+  for (int wave = 0; wave < waves; ++wave) {
+    const double apart_by = std::ldexp(spacing, waves - 1 - wave);
+    const double tries = std::ceil(kTimes * (1.0 + kFull * areas.total() / (apart_by * apart_by)));
+    const auto most = static_cast<std::uint32_t>(std::min(tries, static_cast<double>(kMostPoints)));
+    Apart apart(apart_by);
+    for (const Vec3& at : points.at) apart.keep(at);  // as far apart as that they are
+    for (std::uint32_t k = 0; k < most && points.at.size() < count; ++k) {
+      const Point point = areas.draw(stream, k);
+      if (!apart.keep(point.at)) continue;
+      points.at.push_back(point.at);
+      points.normal.push_back(point.normal);
+      if (waves > 1) points.wave.push_back(wave);
+    }
   }
   return points;
 }

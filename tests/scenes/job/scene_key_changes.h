@@ -225,6 +225,8 @@ inline const std::map<std::string, Change>& changes() {
       {"attractors.<name>.spread", crown("sphere: 30 cm, spread: volume", "volume", "height")},
       {"attractors.<name>.density", crown("sphere: 30 cm, density: [[0, 1], [1, 2]]", "[1, 2]", "[1, 3]")},
       {"attractors.<name>.spacing", strewn("surface: plot, spacing: 30 cm", "spacing: 30", "spacing: 20")},
+      {"attractors.<name>.waves",
+       strewn("surface: plot, spacing: 30 cm, waves: 2", "waves: 2", "waves: 3")},
       {"fields.<name>.angle", bent("angle: 90", "angle: 90", "angle: 100")},
       {"fields.<name>.strength", bent("strength: 2", "strength: 2", "strength: 3")},
       {"fields.<name>.axis", bent("axis: node_normal", "node_normal", "attractor_normal")},

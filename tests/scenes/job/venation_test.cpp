@@ -1,0 +1,188 @@
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include "scenes/prepare/attractors.h"
+#include "scenes/prepare/plantings.h"
+#include "scenes/problem.h"
+#include "scenes/read/read_scene.h"
+#include "sim/base/parallel.h"
+#include "sim/grow/grow.h"
+#include "sim/grow/state.h"
+#include "sim/sense/scene_surface.h"
+#include "tests/support/scratch.h"
+
+/// Veins of leaves by the library's rule sets, open and closed (Runions et al. 2005): in two outlines, by
+/// other seeds and in other voxels.
+namespace espalier::scenes {
+namespace {
+
+using sim::Vec3;
+
+struct Leaf {
+  std::string outline = "blade_ovate";
+  std::string rules = "closed_venation";
+  int seed = 1;
+  double voxel_mm = 1.0;
+  std::string spacing = "4 mm";
+  std::string attractors = "";                                      ///< instead of those on the blade
+  std::string more = ", colonization: {step: 1 mm, kill: 1.2 mm}";  ///< of its rules
+};
+
+std::string sceneOf(const Leaf& leaf) {
+  const std::string folder = (tests::sourceFolder() / "scenes/meshes").string();
+  return fmt::format(
+      "espalier: scene\nseed: {}\niterations: 900\n"
+      "meshes: [{{file: {}/{}.obj, unit: cm, name: blade, guide: true}}]\n"
+      "world: {{voxel: {} mm, margin: 3 mm}}\n"
+      "attractors: {{blade: {}}}\n"
+      "plants: [{{rules: {{base: {}{}}}, seeds: [[0, 0.0005, 0]]}}]\n",
+      leaf.seed, folder, leaf.outline, leaf.voxel_mm,
+      leaf.attractors.empty() ? fmt::format("{{surface: blade, spacing: {}, waves: 3}}", leaf.spacing)
+                              : leaf.attractors,
+      leaf.rules, leaf.more);
+}
+
+struct Grown {
+  Scene scene;
+  Site site;
+  std::vector<sim::Planting> plantings;
+  sim::Growth growth;
+
+  const sim::Skeleton& skeleton() const { return growth.plants.at(0).skeleton; }
+  const std::vector<float>* joins() const { return sim::find(skeleton(), sim::kJoinsColumn); }
+  std::size_t loops() const {
+    return joins() == nullptr ? 0
+                              : static_cast<std::size_t>(std::count_if(joins()->begin(), joins()->end(),
+                                                                       [](float n) { return n > 0.0f; }));
+  }
+};
+
+sim::GrowthSettings settingsOf(const Scene& scene, const Site& site) {
+  return growthSettings(scene, site, attractorsOf(scene, site));
+}
+
+Grown grown(const Leaf& leaf, int iterations = 900) {
+  const tests::Scratch scratch;
+  auto read = readScene(scratch.write("leaf.yaml", sceneOf(leaf)));
+  if (!read) throw std::runtime_error(format(read.problems()));
+  Scene scene = *read;
+  scene.iterations = iterations;
+  Site site = makeSite(scene);
+  auto plantings = makePlantings(scene, site);
+  sim::Growth growth = sim::grow(site.world, plantings, settingsOf(scene, site));
+  return {std::move(scene), std::move(site), std::move(plantings), std::move(growth)};
+}
+
+/// How far the farthest node is from the blade, voxel widths.
+double farthestOff(const Grown& leaf) {
+  const sim::Mesh& mesh = leaf.site.meshes.at(0).mesh;
+  const auto vx = [&](std::uint32_t v) {
+    return sim::voxelFromWorld(leaf.site.world.frame(), mesh.vertices_m[v]);
+  };
+  double farthest = 0.0;
+  for (const Vec3 at : leaf.skeleton().position_vx) {
+    double nearest = HUGE_VAL;
+    for (const auto& [a, b, c] : mesh.triangles)
+      nearest = std::min(nearest, glm::distance(at, sim::nearestOn({vx(a), vx(b), vx(c)}, at)));
+    farthest = std::max(farthest, nearest);
+  }
+  return farthest;
+}
+
+void expectVeins(const Leaf& leaf, bool closed) {
+  SCOPED_TRACE(sceneOf(leaf));
+  const Grown veins = grown(leaf);
+  EXPECT_GT(veins.skeleton().size(), 300);
+  EXPECT_LE(farthestOff(veins), 0.5);
+  if (closed) {
+    EXPECT_GT(veins.loops(), 10u);
+    for (std::size_t n = 0; n < veins.joins()->size(); ++n) {
+      const float joins = (*veins.joins())[n];
+      if (joins <= 0.0f) continue;
+      const auto other = static_cast<std::size_t>(joins);
+      ASSERT_LT(other, n);
+      EXPECT_EQ(veins.skeleton().position_vx[n], veins.skeleton().position_vx[other]);
+      EXPECT_NE(veins.skeleton().parent[n], static_cast<sim::NodeId>(other));
+    }
+  } else {
+    EXPECT_EQ(veins.joins(), nullptr) << "an open pattern is a tree, and its plant as any other";
+  }
+}
+
+TEST(Venation, OpenVeinsAreATreeAndClosedOnesHaveLoops) {
+  for (const bool closed : {false, true}) {
+    const std::string rules = closed ? "closed_venation" : "venation";
+    for (const int seed : {1, 2, 3}) expectVeins({.rules = rules, .seed = seed}, closed);
+    expectVeins({.outline = "blade_lobed", .rules = rules}, closed);
+    expectVeins({.rules = rules, .voxel_mm = 1.0 / 0.7}, closed);
+  }
+}
+
+TEST(Venation, NoVeinLeavesTheBladeOverTheGapBetweenTwoLobes) {
+  const Grown kept = grown({.outline = "blade_lobed"});
+  Leaf free{.outline = "blade_lobed"};
+  free.more += ", require: {along: {sheet: {max: 1}}}";  // the control: as far off as it likes
+  EXPECT_LE(farthestOff(kept), 0.5);
+  EXPECT_GT(farthestOff(grown(free)), 1.0);
+}
+
+TEST(Venation, IsTheSameOnAnyNumberOfThreads) {
+  std::vector<std::uint64_t> hashes;
+  for (const int threads : {1, 2, 5}) {
+    const sim::Shaken shaken;
+    sim::onThreads(threads, [&] {
+      const Grown leaf = grown({});
+      hashes.push_back(sim::stateHash(leaf.site.world, leaf.growth));
+    });
+  }
+  EXPECT_EQ(hashes[0], hashes[1]);
+  EXPECT_EQ(hashes[0], hashes[2]);
+  const Grown other = grown({.seed = 2});
+  EXPECT_NE(hashes[0], sim::stateHash(other.site.world, other.growth));
+}
+
+TEST(Venation, GoesOnFromASavedState) {
+  const Grown whole = grown({});
+  for (const int before : {30, 150}) {
+    const Grown half = grown({}, before);
+    ASSERT_LT(half.growth.iterations, whole.growth.iterations) << "or nothing is left to grow";
+    const sim::BitVolume bare = makeSite(half.scene).world.occupied();
+    const std::string bytes = sim::stateBytes({}, half.site.world, bare, half.growth);
+    Site site = makeSite(whole.scene);
+    const auto plantings = makePlantings(whole.scene, site);
+    sim::Growth growth = sim::restore(sim::readState(bytes, "f"), site.world, plantings, "f");
+    sim::Growing growing(site.world, plantings, settingsOf(whole.scene, site), std::move(growth));
+    while (growing.step()) {
+    }
+    EXPECT_EQ(sim::stateHash(site.world, growing.growth()), sim::stateHash(whole.site.world, whole.growth));
+  }
+}
+
+TEST(Venation, SaysWhatIsWrong) {
+  const tests::Scratch scratch;
+  const auto problemsOf = [&](const Leaf& leaf) -> std::string {
+    auto read = readScene(scratch.write("leaf.yaml", sceneOf(leaf)));
+    if (!read) return format(read.problems());
+    try {
+      Site site = makeSite(*read);
+      const auto plantings = makePlantings(*read, site);
+      attractorsOf(*read, site);
+    } catch (const sim::InputError& error) {
+      return error.what();
+    }
+    return "";
+  };
+  EXPECT_EQ(problemsOf({}), "");
+  EXPECT_NE(problemsOf({.more = ", colonization: {kill: 12 cm}"}).find("kill"), std::string::npos);
+  EXPECT_NE(problemsOf({.attractors = "{surface: blad, spacing: 4 mm}"}).find("blade"), std::string::npos);
+  EXPECT_NE(problemsOf({.attractors = "{sphere: 3 cm, at: [0, 0.05, 0], count: 9, waves: 2}"})
+                .find("waves means nothing"),
+            std::string::npos);
+}
+
+}  // namespace
+}  // namespace espalier::scenes

@@ -90,8 +90,7 @@ class Painter {
         voxel_m_(static_cast<float>(scene.frame.voxel_m)),
         width_(width),
         height_(height) {
-    light_.to_sun = Vec3f(glm::normalize(scene.to_sun));
-    if (light_.to_sun.y <= 0.0f) light_.sun = Colour(0.0f);
+    light_ = daylightOf(scene.to_sun, scene.daylight);
     ground_.height_m -= 0.1 * scene.frame.voxel_m;  // just below a floor that is there
     const Vec3 extent = Vec3(scene.frame.size) * scene.frame.voxel_m;
     centre_ = Vec3f(sim::worldFromVoxel(scene.frame, 0.5 * Vec3(scene.frame.size)));
@@ -291,10 +290,9 @@ Colour Painter::pixel(int x, int y) const {
 
 }  // namespace
 
-OutdoorLight outdoorLight(const std::vector<const sim::Mesh*>& meshes, double voxel_m, Vec3 to_sun) {
-  Daylight light;
-  light.to_sun = Vec3f(glm::normalize(to_sun));
-  if (light.to_sun.y <= 0.0f) light.sun = Colour(0.0f);
+OutdoorLight outdoorLight(const std::vector<const sim::Mesh*>& meshes, double voxel_m, Vec3 to_sun,
+                          const DaylightShare& share) {
+  const Daylight light = daylightOf(to_sun, share);
   return {light.zenith_light, groundLight(groundOf(meshes, voxel_m), light), light.sun};
 }
 

@@ -186,6 +186,8 @@ void Painter::meet(const SurfaceHit& hit, Vec3f direction, Fragment& f) const {
   f.look = f.blade ? bladeLook(surface, hit, pixel_ * hit.distance_m)
                    : barkLook(noise_, surface, hit, f.p_m, pixel_ * hit.distance_m);
   f.look.emits = mesh.emits;
+  if (mesh.emits_share != 1.0f && !mesh.orders.empty())
+    f.look.emits *= powf(mesh.emits_share, static_cast<float>(mesh.orders[t[0]]));
 }
 
 Vec3f Painter::sunPoint(glm::vec2 disc) const {

@@ -16,7 +16,6 @@ namespace {
 using Complex = std::complex<double>;
 
 constexpr std::size_t kMostSteps = std::size_t{1} << 22;
-constexpr auto kPurpose = static_cast<sim::Purpose>(10);
 
 /// Normal deviates in their order (Box and Muller 1958).
 class Normals {
@@ -26,7 +25,7 @@ class Normals {
   /// Two that are independent.
   Complex pair() {
     if (next_ == sim::Slots::kSlots) {
-      slots_ = sim::Slots(key_, kPurpose, item_, ++trial_);
+      slots_ = sim::Slots(key_, sim::Purpose::rough, item_, ++trial_);
       next_ = 0;
     }
     const double radius = std::sqrt(-2.0 * std::log(1.0 - slots_.uniform(next_)));
@@ -38,7 +37,7 @@ class Normals {
  private:
   sim::RandomKey key_;
   unsigned item_, trial_ = 0;
-  sim::Slots slots_{key_, kPurpose, item_, trial_};
+  sim::Slots slots_{key_, sim::Purpose::rough, item_, trial_};
   unsigned next_ = 0;
 };
 

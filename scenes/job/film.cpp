@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "render/finish/finished_picture.h"
+#include "render/image/bloom.h"
 #include "render/image/image_io.h"
 #include "render/image/tone.h"
 #include "scenes/film.h"
@@ -79,7 +80,9 @@ class Stage {
     scene.sky = staged.world.sky.get();
     scene.bounced = bouncedIn(sources_.lit, scene.frame);
     scene.to_sun = shadowDirection(sources_.scene.sun);
+    scene.daylight = daylightShare(sources_.scene);
     render::Image picture = render::finishedPicture(scene, camera, film.width_px, film.height_px);
+    render::bloom(picture, sources_.scene.bloom);
     const render::ToneCurve tone;
     sim::parallelFor(static_cast<std::size_t>(picture.height), [&](std::size_t begin, std::size_t end) {
       for (std::size_t row = begin; row < end; ++row) {

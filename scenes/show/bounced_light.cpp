@@ -7,6 +7,7 @@
 
 #include "render/finish/finished_picture.h"
 #include "render/voxels/panels.h"
+#include "scenes/lights.h"
 #include "sim/base/counted.h"
 #include "sim/base/faces.h"
 #include "sim/base/memory.h"
@@ -167,7 +168,8 @@ PictureLight pictureLight(const Scene& scene, const std::vector<sim::TiledMesh>&
       for (const sim::TiledMesh& tiled : meshes) {
         if (!tiled.guide) scene_meshes.push_back(&tiled.mesh);
       }
-      const render::OutdoorLight outdoors = render::outdoorLight(scene_meshes, world.frame().voxel_m, to_sun);
+      const render::OutdoorLight outdoors =
+          render::outdoorLight(scene_meshes, world.frame().voxel_m, to_sun, daylightShare(scene));
       lit.vines = bounced({outdoors.sky, outdoors.ground, outdoors.sun, to_sun});
     }
     light.about.interreflection = describe(settings, lit.first_pass ? *lit.first_pass : *lit.vines);

@@ -9,6 +9,7 @@
 
 #include "sim/base/picture.h"
 #include "sim/base/vec.h"
+#include "sim/grow/stem_form.h"
 #include "sim/grow/stem_girth.h"
 #include "sim/sense/intersection.h"
 #include "sim/world/world.h"
@@ -88,8 +89,10 @@ struct Plant {
   std::string bark =
       {};  ///< what is painted on its stems, as on ElementShape: a kind of bark, or a picture that tiles
   std::shared_ptr<const Picture> bark_picture = nullptr;
-  Colour stem_emits{0.0f};  ///< as ElementShape::emits
+  Colour stem_emits{0.0f};        ///< as ElementShape::emits
+  float stem_emits_share = 1.0f;  ///< what of it is left with each order of branching
   StemGirth girth;
+  StemForm form;
   PartId stem_part = kFree;
   std::vector<PartId> element_parts;  ///< a part for each shape
   std::uint64_t key = 0;              ///< its seed's: what its random numbers follow from

@@ -20,9 +20,16 @@ class EmittedLight {
   sim::Colour at(sim::Voxel voxel) const;
 
  private:
+  struct Fainter {
+    sim::Voxel voxel;
+    float share;  // of what its part sends out
+  };
+  void dimByOrder(const sim::Plant& plant);
+
   const sim::World& world_;
   std::vector<sim::EmittingVoxel> lamps_;                   // in rows
   std::vector<std::pair<sim::PartId, sim::Colour>> parts_;  // of plants
+  std::vector<Fainter> fainter_;  // in rows: of stems whose light hangs on their order
 };
 
 }  // namespace espalier::scenes

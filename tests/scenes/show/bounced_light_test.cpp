@@ -128,6 +128,25 @@ TEST_F(RedWall, StemsAndElementsSendOutAsMuchAsThereIsOfThem) {
   EXPECT_FALSE(EmittedLight({}, world, {}).any());
 }
 
+/// The limb that leaves the upright one sends out a quarter of its light.
+TEST_F(RedWall, StemsSendOutLessWithEachOrderOfBranching) {
+  sim::World world = makeSite(scene("wall.obj", "")).world;
+  sim::Plant plant;
+  plant.stem_emits = Colour(4.0f);
+  plant.stem_emits_share = 0.25f;
+  plant.stem_part = world.addPart(tests::stemPart("bolt"));
+  plant.skeleton.parent = {sim::kNoNode, 0, 1, 1};
+  plant.skeleton.position_vx = {{20, 5, 30}, {20, 10, 30}, {20, 15, 30}, {25, 10, 30}};
+  plant.skeleton.born = {0, 1, 2, 2};
+  for (const sim::Voxel v : {sim::Voxel(20, 7, 30), {20, 13, 30}, {20, 10, 30}, {24, 10, 30}})
+    world.occupy(std::vector<sim::TiledVoxel>{{v, {.part = plant.stem_part, .coverage = 1.0f}}});
+  const EmittedLight emitted({}, world, {plant});
+  EXPECT_EQ(emitted.at({20, 7, 30}), Colour(4.0f));
+  EXPECT_EQ(emitted.at({20, 13, 30}), Colour(4.0f));
+  EXPECT_EQ(emitted.at({20, 10, 30}), Colour(4.0f)) << "where they meet";
+  EXPECT_EQ(emitted.at({24, 10, 30}), Colour(1.0f));
+}
+
 TEST_F(RedWall, WithoutInterreflectionNothingBounces) {
   const auto found = find(scene("wall.obj", ""), kSun);
   EXPECT_FALSE(found->lit.first_pass);

@@ -190,9 +190,13 @@ Vec3 alongSurface(const sim::World& world, Vec3 place_vx, Vec3 displacement) {
 /// How much of its displacement each place may have, so that no piece enters what its straight one does not.
 class Room {
  public:
-  Room(const sim::Skeleton& straight, const std::vector<Vec3>& displacement, const sim::World& world,
-       double eased_vx)
-      : straight_(straight), displacement_(displacement), world_(world), eased_vx_(eased_vx) {
+  Room(const sim::Skeleton& straight, const std::vector<Vec3>& displacement, sim::Voxel size,
+       const KeptFree& kept_free, double eased_vx)
+      : straight_(straight),
+        displacement_(displacement),
+        size_(size),
+        kept_free_(kept_free),
+        eased_vx_(eased_vx) {
     shares_.assign(at(straight.size()), 1.0);
   }
 
@@ -226,12 +230,11 @@ class Room {
     const std::size_t parent = at(straight_.parent[n]);
     if (shares_[n] == 0.0 && shares_[parent] == 0.0) return false;
     const Vec3 from = place(parent), to = place(n);
-    const sim::Voxel size = world_.frame().size;
-    if (!sim::holds(size, from) || !sim::holds(size, to)) return true;
+    if (!sim::holds(size_, from) || !sim::holds(size_, to)) return true;
     std::vector<sim::Voxel> voxels, grown;
     sim::tileSegment(from, to, voxels);
     for (const sim::Voxel voxel : voxels) {
-      if (sim::contains(size, voxel) && !world_.occupied().at(voxel)) continue;
+      if (sim::contains(size_, voxel) && !kept_free_(voxel)) continue;
       if (grown.empty()) sim::tileSegment(straight_.position_vx[parent], straight_.position_vx[n], grown);
       if (std::find(grown.begin(), grown.end(), voxel) == grown.end()) return true;
     }
@@ -257,7 +260,8 @@ class Room {
 
   const sim::Skeleton& straight_;
   const std::vector<Vec3>& displacement_;
-  const sim::World& world_;
+  sim::Voxel size_;
+  const KeptFree& kept_free_;
   double eased_vx_;
   std::vector<double> shares_;
 };
@@ -285,7 +289,8 @@ void move(sim::PlacedElement& element, const sim::Skeleton& old, const Pieces& p
 
 }  // namespace
 
-sim::Plant roughened(const sim::Plant& plant, const Rough& rough, const sim::World& world) {
+sim::Plant roughened(const sim::Plant& plant, const Rough& rough, const sim::World& world,
+                     const KeptFree& kept_free) {
   if (!(rough.amplitude_vx >= 0.0 && rough.over_vx > 0.0 && rough.detail_vx > 0.0))
     throw sim::InputError("how rough a way is must be 0 or more, over a length, in pieces of a length");
   const sim::Skeleton& old = plant.skeleton;
@@ -308,7 +313,7 @@ sim::Plant roughened(const sim::Plant& plant, const Rough& rough, const sim::Wor
       }
     }
   });
-  Room room(straight, displacement, world, kEased * rough.detail_vx);
+  Room room(straight, displacement, world.frame().size, kept_free, kEased * rough.detail_vx);
   room.shares();
   for (std::size_t n = 0; n < displacement.size(); ++n) result.skeleton.position_vx[n] = room.place(n);
   for (sim::PlacedElement& element : result.elements) move(element, old, pieces, straight, result.skeleton);

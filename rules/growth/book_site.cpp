@@ -153,6 +153,7 @@ sim::Plant seedlingOf(const RuleBook& book) {
     plant.form.rough = {stem.rough->hurst, stem.rough->amplitude.number, stem.rough->over.number,
                         stem.rough->detail.number};
   }
+  plant.form.forks = stem.forks;
   plant.skeleton.columns["proximity_vx"];
   if (book.hasOrders()) plant.skeleton.columns["order"];
   if (book.hasPhyllotaxis()) {

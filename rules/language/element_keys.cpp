@@ -75,6 +75,7 @@ std::shared_ptr<const Table> roughnessKeys() {
 }  // namespace
 
 std::shared_ptr<const Table> stemKeys() {
+  using Forks = sim::StemForm::Forks;
   using By = sim::StemGirth::By;
   return TableOf<Stem>()
       .colour("colour", &Stem::colour, {.meaning = "Colour of the bark."})
@@ -113,6 +114,10 @@ std::shared_ptr<const Table> stemKeys() {
                {.meaning = "Ways stray by fractional Brownian noise, once they have grown; a length stands "
                            "for its amplitude."},
                "amplitude")
+      .choice<Forks>(
+          "forks", &Stem::forks, {{"grown", Forks::grown}, {"murray", Forks::murray}},
+          {.meaning = "Once it has grown: as it forked; or turned to the angles at which vessels of "
+                      "such radii cost least."})
       .shared();
 }
 

@@ -14,6 +14,7 @@
 #include "rules/language/value.h"
 #include "sim/base/vec.h"
 #include "sim/grow/plant.h"
+#include "sim/grow/stem_form.h"
 #include "sim/grow/stem_girth.h"
 
 /// Rule sets as plain values: what a rule file says. rules/language/registry.h describes every key (type,
@@ -293,7 +294,7 @@ struct Roughness {
   Distance detail{0.5};
 };
 
-/// What a plant's stems are like: see sim::StemGirth.
+/// What a plant's stems are like: see sim::StemGirth and sim::StemForm.
 struct Stem {
   sim::Colour colour{0.16f, 0.10f, 0.05f};  ///< linear RGB
   Distance radius{0.08};                    ///< of a twig that does not fork
@@ -303,6 +304,7 @@ struct Stem {
   Distance thickest{kNoLimit};
   double order_share = 1.0;
   std::optional<Roughness> rough;
+  sim::StemForm::Forks forks = sim::StemForm::Forks::grown;
   std::string texture;                          ///< as Element::texture
   std::shared_ptr<const sim::Picture> picture;  ///< of a file; who reads it puts it here
   std::optional<StemEmission> emits;

@@ -19,6 +19,7 @@
 #include "scenes/job/prepared.h"
 #include "scenes/job/run_light.h"
 #include "scenes/job/saved_growth.h"
+#include "scenes/job/shown.h"
 #include "scenes/job/stages.h"
 #include "scenes/lights.h"
 #include "scenes/prepare/in_scene.h"
@@ -185,10 +186,13 @@ Report runScene(const Scene& scene, const RunOptions& options, const Keeping& ke
       }
     });
   }
-  const sim::Growth growth = stages.run("growing", [&] {
+  std::optional<sim::World> before = worldToForm(site, prepared.plantings);
+  sim::Growth grown = stages.run("growing", [&] {
     return growOn(scene, prepared, std::move(kept), bare, options, output, keeping, stages.began(), report);
   });
-  report.growth = growthReport(scene, site, bare, growth, prepared.seed_lights);
+  report.growth = growthReport(scene, site, bare, grown, prepared.seed_lights);
+  const Shown shown(std::move(grown), std::move(before), site, stages);
+  const sim::Growth& growth = shown.growth();
   if (!growth.cut_short.empty()) report.warnings.push_back(growth.cut_short);
   for (const std::string& met : report.growth->in_the_way) report.warnings.push_back(met);
   report.occupied_voxels = world.occupied().count();
@@ -230,7 +234,7 @@ Report runScene(const Scene& scene, const RunOptions& options, const Keeping& ke
                    }});
   if (keeping.keep) {
     files.push_back({kStateFile, [&](std::ostream& out) {
-                       sim::writeState(out, inputsOf(scene, site), world, bare, growth);
+                       sim::writeState(out, inputsOf(scene, site), shown.grownWorld(), bare, shown.grown());
                      }});
   }
   std::vector<std::string> late_warnings;
@@ -313,8 +317,11 @@ Report renderScene(Scene scene, const std::filesystem::path& from, const RunOpti
   output.protect(prepared.site.mesh_paths);
   Site& site = prepared.site;
   const sim::BitVolume bare = site.world.occupied();
-  const sim::Growth growth = takeUp(std::move(*state), from, scene, site, prepared.plantings, Same::plants);
-  report.growth = growthReport(scene, site, bare, growth, prepared.seed_lights);
+  std::optional<sim::World> before = worldToForm(site, prepared.plantings);
+  sim::Growth grown = takeUp(std::move(*state), from, scene, site, prepared.plantings, Same::plants);
+  report.growth = growthReport(scene, site, bare, grown, prepared.seed_lights);
+  const Shown shown(std::move(grown), std::move(before), site, stages);
+  const sim::Growth& growth = shown.growth();
   report.occupied_voxels = site.world.occupied().count();
   std::optional<WorldOccupancy> occupancy;
   sim::Lighting light = stages.run("lighting", [&] {

@@ -14,6 +14,7 @@
 #include "sim/grow/claims.h"
 #include "sim/grow/faults.h"
 #include "sim/grow/pieces.h"
+#include "sim/grow/retiled.h"
 #include "sim/grow/seeded.h"
 
 namespace espalier::sim {
@@ -241,9 +242,7 @@ void Growing::place(Asked& asked, std::uint32_t before, std::vector<TiledVoxel>&
       broken(planting, "gave a node other quantities than its plant has columns");
     if (segment->passage != Passage::around) claims_->keepFree(segment->takes);
     claims_->take(segment->takes, from);
-    occupyWith(edit, segment->takes,
-               {plant.stem_part, plant.stem_colour,
-                static_cast<float>(std::min(1.0, 2.0 * plant.girth.twig_vx)), Vec3f(0.0f)});
+    occupyWith(edit, segment->takes, stemSurface(plant));
     carrier = asked.node = plant.skeleton.size();
     addNode(asked.plant, asked.site.node, segment->to_vx, segment->quantities);
     pieces_->add(limbTo(plant, carrier));

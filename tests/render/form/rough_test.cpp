@@ -16,13 +16,16 @@
 namespace espalier {
 namespace {
 
-using render::roughened;
 using sim::NodeId;
 using sim::Vec3;
 using Rough = sim::StemForm::Rough;
 
 std::size_t at(NodeId n) {
   return static_cast<std::size_t>(n);
+}
+
+sim::Plant roughened(const sim::Plant& plant, const Rough& rough, const sim::World& world) {
+  return render::roughened(plant, rough, world, [&](sim::Voxel v) { return world.occupied().at(v); });
 }
 
 sim::World openWorld(sim::Voxel size = sim::Voxel(200)) {

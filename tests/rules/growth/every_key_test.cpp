@@ -124,6 +124,7 @@ const std::map<std::string, std::string> kWithoutEffect = {
     {"stem.rough.amplitude", "the same"},
     {"stem.rough.over", "the same"},
     {"stem.rough.detail", "the same"},
+    {"stem.forks", "what has grown is formed by it"},
     {"otherwise", "has tests of its own below"},
     {"regions", "the same"},
     // Of a front: tests/rules/growth/colonization_test.cpp says what they change.
@@ -378,6 +379,7 @@ TEST(Stem, ItsGirthIsForModelsAlone) {
   girth.stem.order_share = 0.5;
   girth.stem.rough = {0.4, {0.02, true}, {0.4, true}, {0.01, true}};
   girth.stem.emits = {{{1.0f, 0.5f, 0.0f}, 2.0}, 0.25};
+  girth.stem.forks = sim::StemForm::Forks::murray;
   EXPECT_EQ(resultOf(girth).state, resultOf(lively()).state);
   const sim::Plant seedling = makeProcess(shared(girth), 0.04)->seedling();
   const sim::StemGirth made = seedling.girth;

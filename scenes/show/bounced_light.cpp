@@ -147,6 +147,36 @@ LitKinds litKinds(const std::vector<ImageSpec>& images) {
   return kinds;
 }
 
+namespace {
+
+BouncedLight::Outdoors outdoorsOf(const Scene& scene, const std::vector<sim::TiledMesh>& meshes,
+                                  const sim::World& world, sim::Vec3 to_sun) {
+  std::vector<const sim::Mesh*> scene_meshes;
+  for (const sim::TiledMesh& tiled : meshes) {
+    if (!tiled.guide) scene_meshes.push_back(&tiled.mesh);
+  }
+  const render::OutdoorLight outdoors =
+      render::outdoorLight(scene_meshes, world.frame().voxel_m, to_sun, daylightShare(scene));
+  return {outdoors.sky, outdoors.ground, outdoors.sun, to_sun};
+}
+
+}  // namespace
+
+GrowingBounce::GrowingBounce(const Scene& scene, const std::vector<sim::TiledMesh>& meshes,
+                             const sim::World& world, const std::vector<sim::Plant>& plants,
+                             const sim::Lighting& light, sim::Vec3 to_sun)
+    : world_(world),
+      light_(light),
+      emitted_(meshes, world, plants),
+      outdoors_(outdoorsOf(scene, meshes, world, to_sun)),
+      settings_(bounceSettings(scene)) {}
+
+std::shared_ptr<const BouncedLight> GrowingBounce::when(const sim::BitVolume& stood) {
+  if (!interreflection_) interreflection_.emplace(world_, light_, settings_);
+  emitted_.darkenBut(stood);
+  return std::make_shared<const BouncedLight>(world_, light_, emitted_, *interreflection_, outdoors_);
+}
+
 PictureLight pictureLight(const Scene& scene, const std::vector<sim::TiledMesh>& meshes,
                           const sim::World& world, const std::vector<sim::Plant>& plants,
                           sim::Lighting& light, const LitKinds& kinds, sim::Vec3 to_sun) {
@@ -163,15 +193,7 @@ PictureLight pictureLight(const Scene& scene, const std::vector<sim::TiledMesh>&
       const render::FirstPassLight outdoors = render::firstPassLight();
       lit.first_pass = bounced({outdoors.sky, sim::Colour(0.0f), outdoors.sun, to_sun});
     }
-    if (kinds.vines) {
-      std::vector<const sim::Mesh*> scene_meshes;
-      for (const sim::TiledMesh& tiled : meshes) {
-        if (!tiled.guide) scene_meshes.push_back(&tiled.mesh);
-      }
-      const render::OutdoorLight outdoors =
-          render::outdoorLight(scene_meshes, world.frame().voxel_m, to_sun, daylightShare(scene));
-      lit.vines = bounced({outdoors.sky, outdoors.ground, outdoors.sun, to_sun});
-    }
+    if (kinds.vines) lit.vines = bounced(outdoorsOf(scene, meshes, world, to_sun));
     light.about.interreflection = describe(settings, lit.first_pass ? *lit.first_pass : *lit.vines);
   }
   if (emitted->any()) lit.emitted = std::move(emitted);

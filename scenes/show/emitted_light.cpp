@@ -53,7 +53,7 @@ sim::Colour EmittedLight::at(sim::Voxel voxel) const {
     return sim::beforeInRows(a.voxel, v);
   });
   if (lamp != lamps_.end() && lamp->voxel == voxel) sum = lamp->light;
-  if (parts_.empty()) return sum;
+  if (parts_.empty() || (stood_ != nullptr && !stood_->at(voxel))) return sum;
   const sim::PartId part = world_.partAt(voxel);
   const auto of_part = std::lower_bound(parts_.begin(), parts_.end(), part,
                                         [](const auto& a, sim::PartId id) { return a.first < id; });

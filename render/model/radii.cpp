@@ -53,6 +53,11 @@ std::vector<double> uncut(const sim::Skeleton& skeleton, const sim::StemGirth& g
 /// Multiplies radii for each fork at which a segment's limb, or one that carries it, left another.
 void makeSlender(const sim::Skeleton& skeleton, double share, std::vector<double>& radii) {
   const auto nodes = radii.size();
+  if (const auto* const orders = sim::find(skeleton, "order")) {
+    for (std::size_t n = 0; n < nodes; ++n)
+      radii[n] *= std::pow(share, std::max(0.0, static_cast<double>((*orders)[n])));
+    return;
+  }
   const auto at = [&](std::size_t n) { return skeleton.position_vx[n]; };
   // How straight it goes on from its parent.
   const auto straightness = [&](std::size_t n) {

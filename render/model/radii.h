@@ -11,7 +11,8 @@ namespace espalier::render {
 /// iteration since its node was placed (Tanaka et al. 2022).
 /// Where the skeleton has a column of radii (sim::kRadiusColumn) these are taken, up to the girth's most; of
 /// one that is no radius, the twig's. All but those are multiplied by the girth's share for each order of
-/// branching: a limb goes on in the thickest child, the straightest among equals.
+/// branching: as the process counts it (the column "order"), else a limb goes on in the thickest child, the
+/// straightest among equals.
 /// Throws InputError unless the exponent is 1 at least, the radii are positive, and the share is above 0.
 std::vector<float> stemRadii(const sim::Skeleton& skeleton, const sim::StemGirth& girth);
 

@@ -47,6 +47,9 @@ TEST(Radii, SideLimbsAreSlenderByTheirOrder) {
   for (const auto n : {side, on}) EXPECT_FLOAT_EQ(share(n), 0.5f);
   EXPECT_FLOAT_EQ(share(twig), 0.25f);
   EXPECT_FLOAT_EQ(share(tip) * share(other), 0.5f) << "one of the two goes on";
+  skeleton.columns["order"] = {0, 0, 3, 0, 3, 3, 0, 0};  // as a process may count
+  const auto counted = stemRadii(skeleton, slender);
+  EXPECT_FLOAT_EQ(counted[static_cast<std::size_t>(side)], 0.125f * full[static_cast<std::size_t>(side)]);
   slender.order_share = 0.0;
   EXPECT_THROW(stemRadii(skeleton, slender), sim::InputError);
 }

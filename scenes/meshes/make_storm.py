@@ -13,12 +13,13 @@ import random
 import masonry
 from masonry import Model, spaced
 
-masonry.COLOURS.update({"pasture": (92, 104, 66), "field": (120, 112, 70), "heath": (84, 88, 62), "lane": (128, 116, 96),
-                        "render": (214, 204, 186), "ashlar": (178, 170, 154), "tiles": (128, 74, 58),
-                        "slate": (84, 90, 98), "pane": (70, 62, 50), "cloud": (150, 152, 160)})
+masonry.COLOURS.update({"pasture": (92, 104, 66), "field": (120, 112, 70), "heath": (84, 88, 62),
+                        "lane": (128, 116, 96), "render": (214, 204, 186), "ashlar": (178, 170, 154), "tiles": (128, 74, 58),
+                        "slate": (84, 90, 98), "pane": (70, 62, 50), "bark": (92, 78, 64), "cloud": (150, 152, 160)})
 
 CHURCH = (-18, -12)
-SUMMIT = (24, -30)
+SUMMIT = (31, -4)
+OAK = (24.5, -3)
 
 
 def bell(distance, width):
@@ -46,7 +47,9 @@ def land():
             # Fields by the way that the land lies, in strips of their own.
             plot = (math.floor((x + 0.35 * z) / 24), math.floor((z - 0.2 * x) / 31))
             cover = plots.setdefault(plot, rng.choice(("pasture", "pasture", "field", "heath")))
-            if abs(x + 6 + 7 * math.sin(z / 21)) < 1.6:
+            if math.hypot(x - SUMMIT[0], z - SUMMIT[1]) < 30:
+                cover = "pasture"
+            if z > -35 and abs(x + 6 + 7 * math.sin(z / 21)) < 1.6:
                 cover = "lane"
             a, b, c, d = at[k][i], at[k + 1][i], at[k + 1][i + 1], at[k][i + 1]
             model.face("land", cover, [a, b, c])
@@ -82,7 +85,8 @@ class House:
         for side in (-1, 1):
             low, high = side * (deep + over), eaves - fall * over
             outline = [(0, ridge), (low, high), (low, high + thick), (0, ridge + thick)]
-            self.prism("roofs", roof, outline if side < 0 else outline[::-1], (middle - half - over, middle + half + over))
+            self.prism("roofs", roof, outline if side < 0 else outline[::-1],
+                       (middle - half - over, middle + half + over))
 
     def pane(self, along, up, across, wide, high):
         """A window just before a side wall."""
@@ -126,7 +130,46 @@ def village():
     model.face("roofs", "slate", ring)
     for side in (-1, 1):
         church.pane(tower, 11, side * 2.4, 0.9, 2.2)
+    x, z = OAK
+    oak(model, (x, height(x, z) - 0.3, z), rng)
     return model, panes
+
+
+def oak(model, foot, rng):
+    """A bare tree: limbs that taper and fork, each a prism of five sides."""
+    def limb(start, way, length, thick, depth):
+        end = tuple(a + length * c for a, c in zip(start, way))
+        side = unit(cross(way, (0.3, 0.1, 1) if abs(way[2]) < 0.9 else (1, 0, 0)))
+        up = cross(way, side)
+        slim = 0.68 * thick
+
+        def ring(at, radius):
+            turns = [math.tau * k / 5 for k in range(5)]
+            return [tuple(p + radius * (math.cos(t) * s + math.sin(t) * u) for p, s, u in zip(at, side, up))
+                    for t in turns]
+        low, high = ring(start, thick), ring(end, slim)
+        for k in range(5):
+            j = (k + 1) % 5
+            model.face("oak", "bark", [low[k], low[j], high[j], high[k]])
+        if depth == 0:
+            model.face("oak", "bark", high)
+            return
+        for _ in range(3 if depth > 3 else 2):
+            turn, spread = math.tau * rng.random(), 0.42 + 0.5 * rng.random()
+            aside = tuple(math.cos(turn) * s + math.sin(turn) * u for s, u in zip(side, up))
+            next_way = unit(tuple(w + spread * a + (0.12 if axis == 1 else 0) for axis, (w, a) in
+                                  enumerate(zip(way, aside))))
+            limb(end, next_way, length * (0.68 + 0.2 * rng.random()), slim * (0.75 + 0.2 * rng.random()), depth - 1)
+    limb(foot, (0.03, 0.998, 0.04), 3.0, 0.42, 5)
+
+
+def cross(a, b):
+    return (a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0])
+
+
+def unit(v):
+    length = math.sqrt(sum(c * c for c in v))
+    return tuple(c / length for c in v)
 
 
 def cloud():

@@ -49,12 +49,13 @@ std::size_t at(NodeId n) {
 void expectClear(const Bolt& bolt) {
   const auto grown = sim::stemVoxels(bolt.grown.skeleton);
   for (const sim::Voxel v : sim::stemVoxels(bolt.formed.skeleton)) {
-    if (bolt.scene.at(v)) EXPECT_NE(std::find(grown.begin(), grown.end(), v), grown.end()) << "it grew there";
+    const bool grew_there = std::find(grown.begin(), grown.end(), v) != grown.end();
+    EXPECT_TRUE(grew_there || !bolt.scene.at(v)) << v.x << ' ' << v.y << ' ' << v.z;
   }
 }
 
-TEST(Bolts, LeadFromTheCloudToTheOakAndBranchDownwards) {
-  for (const auto& [seed, coarser] : {std::pair{std::uint64_t{13}, 1.0}, {29, 1.0}, {13, 1.0 / 0.7}}) {
+TEST(Bolts, LeadFromTheCloudToTheHillAndBranchDownwards) {
+  for (const auto& [seed, coarser] : {std::pair{std::uint64_t{14}, 1.0}, {29, 1.0}, {14, 1.0 / 0.7}}) {
     const Bolt bolt = boltOf("lightning", seed, coarser);
     const sim::Skeleton& skeleton = bolt.formed.skeleton;
     const std::vector<float>& order = *sim::find(skeleton, "order");
@@ -65,7 +66,7 @@ TEST(Bolts, LeadFromTheCloudToTheOakAndBranchDownwards) {
       const Vec3 way = skeleton.position_vx[at(n)] - skeleton.position_vx[at(skeleton.parent[at(n)])];
       if (order[at(n)] > 0.0f) limbs += way;
     }
-    EXPECT_LT(lowest, 28.0) << "the oak's top, seed " << seed;
+    EXPECT_LT(lowest, 12.0 + 3.0 * bolt.frame.voxel_m) << "the hill's top is at 12, seed " << seed;
     EXPECT_GT(*std::max_element(order.begin(), order.end()), 1.5f);
     EXPECT_LT(limbs.y, -0.5 * std::hypot(limbs.x, limbs.z)) << "seed " << seed;
     EXPECT_GT(skeleton.size(), 3 * bolt.grown.skeleton.size()) << "rough ways have more pieces";

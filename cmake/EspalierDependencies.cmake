@@ -25,6 +25,7 @@ find_package(fmt REQUIRED CONFIG)
 find_package(hwy REQUIRED CONFIG)
 find_package(nlohmann_json REQUIRED CONFIG)
 find_path(RANDOM123_INCLUDE_DIR Random123/philox.h REQUIRED)
+find_path(KISSFFT_INCLUDE_DIR kissfft/kissfft.hh REQUIRED) # a template of the header alone: in double precision
 find_path(XXHASH_INCLUDE_DIR xxhash.h REQUIRED)
 find_library(XXHASH_LIBRARY xxhash REQUIRED)
 find_path(NOVA_INCLUDE_DIR libnova/libnova.h REQUIRED) # the sun's place; no CMake package, no .pc

@@ -85,6 +85,10 @@ grow scenes/library/clusters.yaml
 small $work/clusters/vines.png clusters 960
 grow scenes/library/shy_shrubs.yaml
 small $work/shy_shrubs/vines.png shy_shrubs 960
+for scene in lightning lightning_on_body; do
+  grow scenes/library/$scene.yaml
+  small $work/$scene/vines.png $scene 1000
+done
 grow scenes/library/film.yaml
 oiiotool $work/film/film_00{00,14,26,38,50,62}.png --mosaic:pad=6 3x2 -o $work/film.png
 small $work/film.png film 1200

@@ -63,6 +63,11 @@ sim::Sun makeSun(const SunSpec& spec) {
   return spec.place ? sim::makeSun(realSun(spec)) : sim::makeSun(arc(spec));
 }
 
+render::DaylightShare daylightShare(const Scene& scene) {
+  return {static_cast<float>(scene.sky.brightness) * scene.sky.tint,
+          sim::Colour(static_cast<float>(scene.sun.brightness))};
+}
+
 sim::Vec3 sunDirection(const SunSpec& spec, double hour) {
   return spec.place ? sim::sunDirection(realSun(spec), spec.firstDay(), hour)
                     : sim::sunDirection(arc(spec), hour);

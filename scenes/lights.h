@@ -1,6 +1,7 @@
 #pragma once
 #include <optional>
 
+#include "render/finish/daylight.h"
 #include "scenes/scene.h"
 #include "sim/light/background.h"
 #include "sim/light/brightest.h"
@@ -24,6 +25,8 @@ sim::SkyTable skyTableOf(const sim::Background& background);
 
 /// Throws sim::InputError for a sun that makes no sense or is never up.
 sim::Sun makeSun(const SunSpec& spec);
+/// What of a clear morning's light there is in images of vines.
+render::DaylightShare daylightShare(const Scene& scene);
 /// To the sun at an hour of the (first) day.
 sim::Vec3 sunDirection(const SunSpec& spec, double hour);
 /// To the sun at the hour of shadow mattes.

@@ -103,6 +103,9 @@ struct SkySpec {
   Sampling sampling = Sampling::lattice;
   int rays = 100;  ///< from each place, of random sampling
   BackgroundSpec background;
+  // Of images of vines: times that of a clear morning.
+  double brightness = 1.0;
+  sim::Colour tint{1.0f};  ///< linear RGB
 };
 
 /// Where on earth a real sun shines. (Not inside SunSpec: an optional of a struct that the struct around it
@@ -137,6 +140,7 @@ struct SunSpec {
 
   // Either.
   double accuracy_deg = sim::kSunAngle;  ///< of its directions
+  double brightness = 1.0;               ///< in images of vines, times that of a clear morning
   double shadow_hour = 15.0;  ///< time of day of the shadow matte; on the arc 6 is sunrise and 18 sunset
 
   std::chrono::year_month_day firstDay() const {
@@ -335,6 +339,7 @@ struct Scene {
   std::uint64_t seed = 1;
   int image_width = 1280;
   int image_height = 960;
+  double bloom = 0.0;  ///< of images of vines: the share that spreads of what is brighter than white
   Place images_place;  ///< where a scene file says how large images are, or which; without a path where none
                        ///< does
   std::vector<NamedCamera> cameras;

@@ -8,6 +8,15 @@ namespace espalier::render {
 using sim::Vec3;
 using sim::Vec3f;
 
+Daylight daylightOf(Vec3 to_sun, const DaylightShare& share) {
+  Daylight light;
+  light.to_sun = Vec3f(glm::normalize(to_sun));
+  light.sun *= light.to_sun.y > 0.0f ? share.sun : sim::Colour(0.0f);
+  for (sim::Colour* of_sky : {&light.zenith_light, &light.side_light, &light.horizon, &light.zenith})
+    *of_sky *= share.sky;
+  return light;
+}
+
 sim::Colour skySeen(const Daylight& light, Vec3f direction) {
   const float height = std::clamp(direction.y, 0.0f, 1.0f);
   const float veil = expf(-5.5f * height);  // haze thins out quickly above the horizon

@@ -16,6 +16,14 @@ struct Daylight {
   sim::Colour zenith{0.15f, 0.33f, 0.60f};        ///< seen
 };
 
+/// How much of a clear morning's light there is, by channel: dusk, night, an overcast day.
+struct DaylightShare {
+  sim::Colour sky{1.0f}, sun{1.0f};
+};
+
+/// A morning with the sun there, which need not be of unit length; below the horizon there is no sun.
+Daylight daylightOf(sim::Vec3 to_sun, const DaylightShare& share);
+
 /// The sky behind everything, in a unit direction; below the horizon there is haze.
 sim::Colour skySeen(const Daylight& light, sim::Vec3f direction);
 

@@ -90,8 +90,7 @@ class Painter {
         voxel_m_(static_cast<float>(scene.frame.voxel_m)),
         width_(width),
         height_(height) {
-    light_.to_sun = Vec3f(glm::normalize(scene.to_sun));
-    if (light_.to_sun.y <= 0.0f) light_.sun = Colour(0.0f);
+    light_ = daylightOf(scene.to_sun, scene.daylight);
     ground_.height_m -= 0.1 * scene.frame.voxel_m;  // just below a floor that is there
     const Vec3 extent = Vec3(scene.frame.size) * scene.frame.voxel_m;
     centre_ = Vec3f(sim::worldFromVoxel(scene.frame, 0.5 * Vec3(scene.frame.size)));
@@ -187,6 +186,8 @@ void Painter::meet(const SurfaceHit& hit, Vec3f direction, Fragment& f) const {
   f.look = f.blade ? bladeLook(surface, hit, pixel_ * hit.distance_m)
                    : barkLook(noise_, surface, hit, f.p_m, pixel_ * hit.distance_m);
   f.look.emits = mesh.emits;
+  if (mesh.emits_share != 1.0f && !mesh.orders.empty())
+    f.look.emits *= powf(mesh.emits_share, static_cast<float>(mesh.orders[t[0]]));
 }
 
 Vec3f Painter::sunPoint(glm::vec2 disc) const {
@@ -291,10 +292,9 @@ Colour Painter::pixel(int x, int y) const {
 
 }  // namespace
 
-OutdoorLight outdoorLight(const std::vector<const sim::Mesh*>& meshes, double voxel_m, Vec3 to_sun) {
-  Daylight light;
-  light.to_sun = Vec3f(glm::normalize(to_sun));
-  if (light.to_sun.y <= 0.0f) light.sun = Colour(0.0f);
+OutdoorLight outdoorLight(const std::vector<const sim::Mesh*>& meshes, double voxel_m, Vec3 to_sun,
+                          const DaylightShare& share) {
+  const Daylight light = daylightOf(to_sun, share);
   return {light.zenith_light, groundLight(groundOf(meshes, voxel_m), light), light.sun};
 }
 

@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "render/files/gltf.h"
+#include "render/finish/daylight.h"
 #include "render/finish/ray_scene.h"
 #include "render/image/camera.h"
 #include "render/image/image.h"
@@ -17,7 +18,8 @@ namespace espalier::render {
 struct OutdoorLight {
   sim::Colour sky, ground, sun;
 };
-OutdoorLight outdoorLight(const std::vector<const sim::Mesh*>& meshes, double voxel_m, sim::Vec3 to_sun);
+OutdoorLight outdoorLight(const std::vector<const sim::Mesh*>& meshes, double voxel_m, sim::Vec3 to_sun,
+                          const DaylightShare& share = {});
 
 /// What the finished picture is made of. Borrowed: everything must outlive the call.
 struct FinishedScene {
@@ -30,6 +32,7 @@ struct FinishedScene {
   /// without it a guess.
   std::function<sim::Colour(sim::Vec3 p_m, sim::Vec3f normal)> bounced = {};
   sim::Vec3 to_sun{0.4, 0.75, 0.5};  ///< need not be of unit length; below the horizon there is no sun
+  DaylightShare daylight;            ///< how much of it there is
 };
 
 /// The plant itself in daylight: the model diced to the voxel grid, each fragment lit by its voxel (Greene

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "render/form/forks.h"
+#include "render/form/rough.h"
 #include "sim/base/stop.h"
 #include "sim/grow/retiled.h"
 
@@ -12,8 +13,9 @@ namespace espalier::render {
 sim::Plant formed(const sim::Plant& plant, const sim::World& world, const KeptFree& kept_free) {
   const sim::Voxel size = world.frame().size;
   const KeptFree blocked = [&](sim::Voxel v) { return !sim::contains(size, v) || kept_free(v); };
-  if (plant.form.forks == sim::StemForm::Forks::murray) return withMurrayForks(plant, blocked);
-  return plant;
+  sim::Plant formed =
+      plant.form.forks == sim::StemForm::Forks::murray ? withMurrayForks(plant, blocked) : plant;
+  return plant.form.rough ? roughened(formed, *plant.form.rough, world, blocked) : formed;
 }
 
 FormedStand formedStand(sim::World before, const sim::World& grown, std::span<const sim::Plant> plants) {

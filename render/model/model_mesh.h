@@ -18,6 +18,7 @@ struct ModelMesh {
   std::string name;
   sim::Colour base_colour{0.5f};  ///< linear RGB
   sim::Colour emits{0.0f};        ///< light of its own, linear RGB
+  float emits_share = 1.0f;       ///< what of it is left with each of its orders
   /// Laid on it by its UVs in place of the base colour; null: none.
   std::shared_ptr<const LeafPicture> picture;
   bool body = false;  ///< closed, as stones are: neither veined nor seen through

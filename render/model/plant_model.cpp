@@ -138,6 +138,7 @@ PlantModel modelPlant(const sim::Plant& plant, const sim::Frame& frame, const Mo
   model.stems.name = plant.name + " stems";
   model.stems.base_colour = plant.stem_colour;
   model.stems.emits = plant.stem_emits;
+  model.stems.emits_share = plant.stem_emits_share;
   model.stems.picture = plant.bark.empty() ? plant.bark_picture : drawnBark(plant.stem_colour);
   sim::throwIfStopped();
 

@@ -50,17 +50,60 @@ std::vector<double> uncut(const sim::Skeleton& skeleton, const sim::StemGirth& g
   return girth.by == sim::StemGirth::By::age ? byAge(skeleton, girth) : byPipes(skeleton, girth);
 }
 
+/// Multiplies radii for each fork at which a segment's limb, or one that carries it, left another.
+void makeSlender(const sim::Skeleton& skeleton, double share, std::vector<double>& radii) {
+  const auto nodes = radii.size();
+  if (const auto* const orders = sim::find(skeleton, "order")) {
+    for (std::size_t n = 0; n < nodes; ++n)
+      radii[n] *= std::pow(share, std::max(0.0, static_cast<double>((*orders)[n])));
+    return;
+  }
+  const auto at = [&](std::size_t n) { return skeleton.position_vx[n]; };
+  // How straight it goes on from its parent.
+  const auto straightness = [&](std::size_t n) {
+    const auto parent = static_cast<std::size_t>(skeleton.parent[n]);
+    const sim::NodeId below = skeleton.parent[parent];
+    const sim::Vec3 before =
+        below == sim::kNoNode ? sim::Vec3(0, 1, 0) : at(parent) - at(static_cast<std::size_t>(below));
+    const sim::Vec3 way = at(n) - at(parent);
+    const double lengths = glm::length(before) * glm::length(way);
+    return lengths > 0.0 ? glm::dot(before, way) / lengths : 1.0;
+  };
+  std::vector<sim::NodeId> goes_on(nodes, sim::kNoNode);
+  for (std::size_t n = 0; n < nodes; ++n) {
+    if (skeleton.parent[n] == sim::kNoNode) continue;
+    sim::NodeId& main = goes_on[static_cast<std::size_t>(skeleton.parent[n])];
+    const auto other = static_cast<std::size_t>(main);
+    if (main == sim::kNoNode || radii[n] > radii[other] ||
+        (radii[n] == radii[other] && straightness(n) > straightness(other)))
+      main = static_cast<sim::NodeId>(n);
+  }
+  std::vector<double> shares(nodes, 1.0);
+  for (std::size_t n = 0; n < nodes; ++n) {
+    if (skeleton.parent[n] == sim::kNoNode) continue;
+    const auto parent = static_cast<std::size_t>(skeleton.parent[n]);
+    // All that grows from a seed is of the first order.
+    const bool same =
+        goes_on[parent] == static_cast<sim::NodeId>(n) || skeleton.parent[parent] == sim::kNoNode;
+    shares[n] = shares[parent] * (same ? 1.0 : share);
+    radii[n] *= shares[n];
+  }
+}
+
 }  // namespace
 
 std::vector<float> stemRadii(const sim::Skeleton& skeleton, const sim::StemGirth& girth) {
-  if (!(girth.exponent >= 1.0 && girth.twig_vx > 0.0 && girth.most_vx > 0.0 && girth.thickens_vx >= 0.0)) {
+  if (!(girth.exponent >= 1.0 && girth.twig_vx > 0.0 && girth.most_vx > 0.0 && girth.thickens_vx >= 0.0 &&
+        girth.order_share > 0.0)) {
     throw sim::InputError("the exponent of stems must be at least 1, and their radii positive");
   }
   const auto nodes = static_cast<std::size_t>(skeleton.size());
   std::vector<float> radii;
   radii.reserve(nodes);
-  for (const double radius : uncut(skeleton, girth))
-    radii.push_back(static_cast<float>(std::min(girth.most_vx, radius)));
+  std::vector<double> full = uncut(skeleton, girth);
+  if (girth.order_share != 1.0 && sim::find(skeleton, sim::kRadiusColumn) == nullptr)
+    makeSlender(skeleton, girth.order_share, full);
+  for (const double radius : full) radii.push_back(static_cast<float>(std::min(girth.most_vx, radius)));
   // A seed has no segment of its own; it is as thick as what grows from it.
   std::vector<float> thickest(nodes, 0.0f);
   for (std::size_t n = 0; n < nodes; ++n) {

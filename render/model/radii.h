@@ -10,8 +10,10 @@ namespace espalier::render {
 /// et al. 2007): r^exponent is the sum of the children's r^exponent. By age it is thicker by as much in each
 /// iteration since its node was placed (Tanaka et al. 2022).
 /// Where the skeleton has a column of radii (sim::kRadiusColumn) these are taken, up to the girth's most; of
-/// one that is no radius, the twig's. Throws InputError unless the exponent is 1 at least and the radii are
-/// positive.
+/// one that is no radius, the twig's. All but those are multiplied by the girth's share for each order of
+/// branching: as the process counts it (the column "order"), else a limb goes on in the thickest child, the
+/// straightest among equals.
+/// Throws InputError unless the exponent is 1 at least, the radii are positive, and the share is above 0.
 std::vector<float> stemRadii(const sim::Skeleton& skeleton, const sim::StemGirth& girth);
 
 }  // namespace espalier::render

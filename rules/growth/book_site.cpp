@@ -141,10 +141,19 @@ sim::Plant seedlingOf(const RuleBook& book) {
   plant.shapes = book.shapes();
   plant.stem_colour = book.top().stem.colour;
   const Stem& stem = book.top().stem;
-  if (stem.emits) plant.stem_emits = stem.emits->light();
+  if (stem.emits) {
+    plant.stem_emits = stem.emits->light();
+    plant.stem_emits_share = static_cast<float>(stem.emits->order_share);
+  }
   plant.bark = stem.picture ? "" : stem.texture;
   plant.bark_picture = stem.picture;
-  plant.girth = {stem.by, stem.radius.number, stem.exponent, stem.thickens.number, stem.thickest.number};
+  plant.girth = {
+      stem.by,         stem.radius.number, stem.exponent, stem.thickens.number, stem.thickest.number,
+      stem.order_share};
+  if (stem.rough) {
+    plant.form.rough = {stem.rough->hurst, stem.rough->amplitude.number, stem.rough->over.number,
+                        stem.rough->detail.number};
+  }
   plant.form.forks = stem.forks;
   plant.skeleton.columns["proximity_vx"];
   if (book.limbsMeet()) plant.skeleton.columns[sim::kJoinsColumn];

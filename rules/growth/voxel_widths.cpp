@@ -18,6 +18,7 @@ constexpr double kShortestSegment = 0.1, kLongestSegment = 60.0;
 constexpr double kFarthestTwist = 64.0;
 constexpr double kFarthestOff = 16.0;  // surfaces are looked for so far about each corner
 constexpr double kThinnestTwig = 1e-6, kThickestTwig = 100.0;  // thinner ones are none in single precision
+constexpr double kFinestDetail = 0.02;
 constexpr double kFarthestCorner = 1e5;  // as far as plain numbers reach: 1000 voxel widths, a hundredfold
 
 // A trial tiles an element whole, and a proposal holds the voxels of all that stand on its segment: with this
@@ -74,6 +75,9 @@ void convert(RuleSet& rules, double voxel_m) {
   for (std::optional<Distance>* distance :
        {&rules.colonization.step, &rules.colonization.influence, &rules.colonization.kill}) {
     if (*distance) convert(**distance, voxel_m);
+  }
+  if (Roughness* const rough = rules.stem.rough ? &*rules.stem.rough : nullptr) {
+    for (Distance* distance : {&rough->amplitude, &rough->over, &rough->detail}) convert(*distance, voxel_m);
   }
   Diffusion& diffusion = rules.diffusion;
   for (Distance* distance : {&diffusion.gap_min, &diffusion.gap_max, &diffusion.off})
@@ -182,6 +186,11 @@ std::string wrongWith(const RuleSet& rules, const std::string& at) {
   }
   if (wrong.empty()) wrong = within("stem.radius", rules.stem.radius, kThinnestTwig, kThickestTwig);
   if (wrong.empty()) wrong = within("stem.thickest", rules.stem.thickest, kThinnestTwig, kNoLimit);
+  if (rules.stem.rough) {
+    const Roughness& rough = *rules.stem.rough;
+    if (wrong.empty()) wrong = within("stem.rough.over", rough.over, kThinnestTwig, kNoLimit);
+    if (wrong.empty()) wrong = within("stem.rough.detail", rough.detail, kFinestDetail, kNoLimit);
+  }
   if (!wrong.empty()) return wrong;
   const double min = rules.require.proximity_min.number, max = rules.require.proximity_max.number;
   if (!(min < max)) {

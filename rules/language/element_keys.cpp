@@ -49,12 +49,37 @@ std::shared_ptr<const Table> variationKeys() {
 
 }  // namespace
 
+namespace {
+
+std::shared_ptr<const Table> roughnessKeys() {
+  return TableOf<Roughness>()
+      .number("hurst", &Roughness::hurst,
+              {.limits = {0.01, 0.99},
+               .meaning = "Hurst exponent of the noise: 0.5 is a random walk, less is more jagged, more is "
+                          "smoother."})
+      .distance("amplitude", &Roughness::amplitude,
+                {.unit = kWidths,
+                 .limits = {0.0, 1e6},
+                 .meaning = "How far ways stray along each axis over a stretch, in the mean of squares."})
+      .distance("over", &Roughness::over,
+                {.unit = kWidths,
+                 .limits = {0.0, 1e6, true},
+                 .meaning = "How long that stretch is; over others they stray by the exponent."})
+      .distance("detail", &Roughness::detail,
+                {.unit = kWidths,
+                 .limits = {0.0, 1000.0, true},
+                 .meaning = "Length of the straight pieces that rough ways are made of."})
+      .shared();
+}
+
+}  // namespace
+
 std::shared_ptr<const Table> stemKeys() {
   using Forks = sim::StemForm::Forks;
   using By = sim::StemGirth::By;
   return TableOf<Stem>()
       .colour("colour", &Stem::colour, {.meaning = "Colour of the bark."})
-      .section("emits", &Stem::emits, emissionKeys(),
+      .section("emits", &Stem::emits, stemEmissionKeys(),
                {.meaning = "Light that it sends out, and with interreflection onto others too; a colour "
                            "stands for its own."},
                "colour")
@@ -80,6 +105,15 @@ std::shared_ptr<const Table> stemKeys() {
                 {.unit = kWidths,
                  .limits = {0.0, 1000.0, true},
                  .meaning = "Greatest radius of any stem. Without it trunks are as thick as they come."})
+      .number("order_share", &Stem::order_share,
+              {.unit = "factor",
+               .limits = {0.0, 1.0, true},
+               .meaning = "Radii are multiplied by it for each order of branching: by less than 1, side "
+                          "limbs are slender."})
+      .section("rough", &Stem::rough, roughnessKeys(),
+               {.meaning = "Ways stray by fractional Brownian noise, once they have grown; a length stands "
+                           "for its amplitude."},
+               "amplitude")
       .choice<Forks>(
           "forks", &Stem::forks, {{"grown", Forks::grown}, {"murray", Forks::murray}},
           {.meaning = "Once it has grown: as it forked; or turned to the angles at which vessels of "

@@ -11,4 +11,9 @@ struct Emission {
   sim::Colour light() const { return static_cast<float>(strength) * colour; }
 };
 
+/// The same of stems.
+struct StemEmission : Emission {
+  double order_share = 1.0;  ///< what of it is left with each order of branching
+};
+
 }  // namespace espalier::rules

@@ -4,14 +4,32 @@
 #include "rules/language/key_builder.h"
 
 namespace espalier::rules {
+namespace {
 
-std::shared_ptr<const Table> emissionKeys() {
-  return TableOf<Emission>()
-      .colour("colour", &Emission::colour, {.meaning = "Of the light."})
-      .number("strength", &Emission::strength,
+template <class T>
+TableOf<T> keysOf() {
+  TableOf<T> table;
+  table.colour("colour", &T::colour, {.meaning = "Of the light."})
+      .number("strength", &T::strength,
               {.unit = "factor",
                .limits = {0.0, 1000.0},
-               .meaning = "How bright: 1 is white paper in full light."})
+               .meaning = "How bright: 1 is white paper in full light."});
+  return table;
+}
+
+}  // namespace
+
+std::shared_ptr<const Table> emissionKeys() {
+  return keysOf<Emission>().shared();
+}
+
+std::shared_ptr<const Table> stemEmissionKeys() {
+  return keysOf<StemEmission>()
+      .number("order_share", &StemEmission::order_share,
+              {.unit = "factor",
+               .limits = {0.0, 1.0},
+               .meaning = "What of it is left with each order of branching: limbs are the fainter, the more "
+                          "often they fork."})
       .shared();
 }
 

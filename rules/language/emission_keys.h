@@ -7,5 +7,7 @@ namespace espalier::rules {
 
 /// The keys of Emission.
 std::shared_ptr<const Table> emissionKeys();
+/// The keys of StemEmission.
+std::shared_ptr<const Table> stemEmissionKeys();
 
 }  // namespace espalier::rules

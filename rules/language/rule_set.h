@@ -291,6 +291,14 @@ struct Element {
   std::optional<Emission> emits;
 };
 
+/// How a plant's ways stray from those that grew: see sim::StemForm::Rough.
+struct Roughness {
+  double hurst = 0.7;
+  Distance amplitude{0.5};
+  Distance over{10.0};
+  Distance detail{0.5};
+};
+
 /// What a plant's stems are like: see sim::StemGirth and sim::StemForm.
 struct Stem {
   sim::Colour colour{0.16f, 0.10f, 0.05f};  ///< linear RGB
@@ -299,10 +307,12 @@ struct Stem {
   double exponent = 2.05;
   Distance thickens{0.02};  ///< by age: in an iteration
   Distance thickest{kNoLimit};
+  double order_share = 1.0;
+  std::optional<Roughness> rough;
   sim::StemForm::Forks forks = sim::StemForm::Forks::grown;
   std::string texture;                          ///< as Element::texture
   std::shared_ptr<const sim::Picture> picture;  ///< of a file; who reads it puts it here
-  std::optional<Emission> emits;
+  std::optional<StemEmission> emits;
 };
 
 struct RuleSet;

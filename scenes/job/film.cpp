@@ -4,12 +4,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <set>
 #include <utility>
 
 #include "render/finish/finished_picture.h"
+#include "render/image/bloom.h"
 #include "render/image/image_io.h"
 #include "render/image/tone.h"
 #include "scenes/film.h"
@@ -45,6 +47,7 @@ double filmBytes(const FilmSpec& film, int iterations) {
 struct Staged {
   std::vector<render::PlantModel> models;
   EarlierWorld world;
+  std::function<sim::Colour(sim::Vec3 p_m, sim::Vec3f normal)> bounced;
 };
 
 /// One frame after the other.
@@ -56,7 +59,13 @@ class Stage {
         light_(sources.site.world, sources.site.sky, sources.site.random_sky, births_,
                sources.growth.iterations,
                drawsVines(sources.scene.images) ? sources.light.space_sky : nullptr),
-        meshes_(meshesOf(sources.site)) {}
+        meshes_(meshesOf(sources.site)) {
+    if (!sources.scene.interreflection) return;
+    growing_.emplace(sources.scene, sources.site.meshes, sources.site.world, sources.growth.plants,
+                     sources.light, shadowDirection(sources.scene.sun));
+    if (growing_->anyShines())
+      bounce_.emplace(*growing_, sources.site.world, births_, sources.growth.iterations, sources.lit.vines);
+  }
 
   /// What stood after so many iterations, no less than the last time.
   Staged after(int iterations) {
@@ -64,7 +73,8 @@ class Stage {
     sim::parallelForEach(plants.size(), [&](std::size_t i) {
       plants[i] = sim::plantAfter(sources_.growth.plants[i], iterations);
     });
-    return {modelPlants(sources_.site.world.frame(), plants, sources_.bare), light_.after(iterations)};
+    return {modelPlants(sources_.site.world.frame(), plants, sources_.bare), light_.after(iterations),
+            bounce_ ? bounce_->after(iterations) : bouncedIn(sources_.lit, sources_.site.world.frame())};
   }
 
   /// As it is displayed.
@@ -77,9 +87,11 @@ class Stage {
     scene.frame = sources_.site.world.frame();
     scene.occupied = &staged.world.occupied;
     scene.sky = staged.world.sky.get();
-    scene.bounced = bouncedIn(sources_.lit, scene.frame);
+    scene.bounced = staged.bounced;
     scene.to_sun = shadowDirection(sources_.scene.sun);
+    scene.daylight = daylightShare(sources_.scene);
     render::Image picture = render::finishedPicture(scene, camera, film.width_px, film.height_px);
+    render::bloom(picture, sources_.scene.bloom);
     const render::ToneCurve tone;
     sim::parallelFor(static_cast<std::size_t>(picture.height), [&](std::size_t begin, std::size_t end) {
       for (std::size_t row = begin; row < end; ++row) {
@@ -98,6 +110,8 @@ class Stage {
   sim::VoxelBirths births_;
   FilmLight light_;
   std::vector<const sim::Mesh*> meshes_;
+  std::optional<GrowingBounce> growing_;
+  std::optional<FilmBounce> bounce_;
 };
 
 std::vector<std::uint8_t> bytesOf(const render::Image& display) {

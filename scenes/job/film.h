@@ -40,7 +40,7 @@ struct FilmSources {
   const sim::BitVolume& bare;  ///< what the scene alone occupies
   const sim::Growth& growth;
   const sim::Lighting& light;
-  const PictureLight& lit;  ///< what bounces, as all that grew stands there: in each frame
+  const PictureLight& lit;  ///< what bounces, as all that grew stands there
   const render::KnownPictures& textures;
   const sim::Provenance& made_by;
 };

@@ -75,9 +75,11 @@ std::vector<std::string> told(const std::vector<std::string>& differences) {
   return lines;
 }
 
-constexpr std::array<std::string_view, 9> kLooks{".stem.by",       ".stem.exponent", ".stem.thickens",
-                                                 ".stem.thickest", ".stem.texture",  ".varies.chance",
-                                                 ".varies.age",    ".varies.light",  ".varies.height"};
+constexpr std::array<std::string_view, 15> kLooks{
+    ".stem.order_share", ".stem.emits.order_share", ".rough.hurst",  ".rough.amplitude",
+    ".rough.over",       ".rough.detail",           ".stem.by",      ".stem.exponent",
+    ".stem.thickens",    ".stem.thickest",          ".stem.texture", ".varies.chance",
+    ".varies.age",       ".varies.light",           ".varies.height"};
 
 /// How thick stems are beyond their twigs is for models alone, and so are what is painted on them and how far
 /// leaves differ.
@@ -96,7 +98,7 @@ sim::Inputs inputsOf(const Scene& scene, const Site& site) {
   sim::Inputs inputs = {{"espalier", ESPALIER_VERSION}};
   for (auto& [path, value] : settings(scene)) {
     if (startsWith(path, {"name", "iterations", "image", "images", "film", "cameras", "exposure",
-                          "sun.shadow_hour"}) ||
+                          "sun.shadow_hour", "sun.brightness", "sky.brightness", "sky.tint"}) ||
         namesAFile(path) || ofLooksAlone(path))
       continue;
     inputs.emplace_back(path, value);

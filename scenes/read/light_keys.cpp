@@ -176,6 +176,13 @@ std::shared_ptr<const Table> skyKeys() {
              {.unit = "rays",
               .limits = {1.0, sim::kMostSkyDirections},
               .meaning = "From each place, of sampling: random."})
+      .number(
+          "brightness", &SkySpec::brightness,
+          {.unit = "factor",
+           .limits = {0.0, 10.0},
+           .meaning = "Of its light in images of vines: 1 is a clear morning, 0.03 dusk. Exposures do not "
+                      "hang on it."})
+      .colour("tint", &SkySpec::tint, {.meaning = "Colour that this light is multiplied by."})
       .section("background", &SkySpec::background, backgroundKeys(),
                {.meaning = "The sky behind what plants see of it that turn to its brightest part; exposures "
                            "do not hang on it."})
@@ -218,6 +225,11 @@ std::shared_ptr<const Table> sunKeys() {
               {.unit = kDegrees,
                .limits = {0.1, 10.0},
                .meaning = "How far a direction may lie from the place of the sun for which it stands."})
+      .number("brightness", &SunSpec::brightness,
+              {.unit = "factor",
+               .limits = {0.0, 10.0},
+               .meaning = "Of its light in images of vines: 1 is a clear morning, 0 none. Exposures do not "
+                          "hang on it."})
       .number("shadow_hour", &SunSpec::shadow_hour,
               {.unit = kHours,
                .limits = {0.0, 24.0},

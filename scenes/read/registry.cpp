@@ -306,6 +306,11 @@ Table makeTable() {
                  {.unit = "pixels", .limits = {16.0, 16'384.0}, .meaning = "Width of every image."})
           .whole("height", &Scene::image_height,
                  {.unit = "pixels", .limits = {16.0, 16'384.0}, .meaning = "Height of every image."})
+          .number("bloom", &Scene::bloom,
+                  {.unit = "share",
+                   .limits = {0.0, 1.0},
+                   .meaning = "Of vines and films: how much spreads as a glow of what is brighter than "
+                              "white."})
           .shared();
   return TableOf<Scene>()
       .header(

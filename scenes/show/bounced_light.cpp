@@ -7,6 +7,7 @@
 
 #include "render/finish/finished_picture.h"
 #include "render/voxels/panels.h"
+#include "scenes/lights.h"
 #include "sim/base/counted.h"
 #include "sim/base/faces.h"
 #include "sim/base/memory.h"
@@ -146,6 +147,55 @@ LitKinds litKinds(const std::vector<ImageSpec>& images) {
   return kinds;
 }
 
+namespace {
+
+BouncedLight::Outdoors outdoorsOf(const Scene& scene, const std::vector<sim::TiledMesh>& meshes,
+                                  const sim::World& world, sim::Vec3 to_sun) {
+  std::vector<const sim::Mesh*> scene_meshes;
+  for (const sim::TiledMesh& tiled : meshes) {
+    if (!tiled.guide) scene_meshes.push_back(&tiled.mesh);
+  }
+  const render::OutdoorLight outdoors =
+      render::outdoorLight(scene_meshes, world.frame().voxel_m, to_sun, daylightShare(scene));
+  return {outdoors.sky, outdoors.ground, outdoors.sun, to_sun};
+}
+
+/// The world as rays of bouncing light meet it. What takes little of its voxels stops light in few of them: a
+/// thin thing would shine from a handful. So of plants that shine all voxels stop light, and each sends out
+/// its share.
+sim::Interreflection interreflectionIn(const sim::World& world, const sim::Lighting& light,
+                                       const EmittedLight& emitted, const sim::BounceSettings& settings) {
+  if (!emitted.anyPlant()) return {world, light, settings};
+  sim::World shining = world;
+  sim::BitVolume voxels(world.frame().size);
+  const auto add = [&](sim::Voxel v) {
+    const bool of_scene = world.part(world.partAt(v)).kind == sim::PartKind::scene;
+    if (!of_scene && emitted.at(v) != sim::Colour(0.0f)) voxels.set(v);
+  };
+  for (const sim::TiledVoxel& tiled : light.surfaces) add(tiled.voxel);
+  for (const std::uint64_t face : light.faces) add(light.voxelOf(face));
+  shining.addOpaque(voxels);
+  return {shining, light, settings};
+}
+
+}  // namespace
+
+GrowingBounce::GrowingBounce(const Scene& scene, const std::vector<sim::TiledMesh>& meshes,
+                             const sim::World& world, const std::vector<sim::Plant>& plants,
+                             const sim::Lighting& light, sim::Vec3 to_sun)
+    : world_(world),
+      light_(light),
+      emitted_(meshes, world, plants),
+      outdoors_(outdoorsOf(scene, meshes, world, to_sun)),
+      settings_(bounceSettings(scene)) {}
+
+std::shared_ptr<const BouncedLight> GrowingBounce::when(const sim::BitVolume& stood) {
+  if (!interreflection_)
+    interreflection_.reset(new sim::Interreflection(interreflectionIn(world_, light_, emitted_, settings_)));
+  emitted_.darkenBut(stood);
+  return std::make_shared<const BouncedLight>(world_, light_, emitted_, *interreflection_, outdoors_);
+}
+
 PictureLight pictureLight(const Scene& scene, const std::vector<sim::TiledMesh>& meshes,
                           const sim::World& world, const std::vector<sim::Plant>& plants,
                           sim::Lighting& light, const LitKinds& kinds, sim::Vec3 to_sun) {
@@ -154,7 +204,7 @@ PictureLight pictureLight(const Scene& scene, const std::vector<sim::TiledMesh>&
   auto emitted = std::make_shared<EmittedLight>(meshes, world, plants);
   if (scene.interreflection) {
     const sim::BounceSettings settings = bounceSettings(scene);
-    sim::Interreflection interreflection(world, light, settings);
+    sim::Interreflection interreflection = interreflectionIn(world, light, *emitted, settings);
     const auto bounced = [&](const BouncedLight::Outdoors& outdoors) {
       return std::make_shared<const BouncedLight>(world, light, *emitted, interreflection, outdoors);
     };
@@ -162,14 +212,7 @@ PictureLight pictureLight(const Scene& scene, const std::vector<sim::TiledMesh>&
       const render::FirstPassLight outdoors = render::firstPassLight();
       lit.first_pass = bounced({outdoors.sky, sim::Colour(0.0f), outdoors.sun, to_sun});
     }
-    if (kinds.vines) {
-      std::vector<const sim::Mesh*> scene_meshes;
-      for (const sim::TiledMesh& tiled : meshes) {
-        if (!tiled.guide) scene_meshes.push_back(&tiled.mesh);
-      }
-      const render::OutdoorLight outdoors = render::outdoorLight(scene_meshes, world.frame().voxel_m, to_sun);
-      lit.vines = bounced({outdoors.sky, outdoors.ground, outdoors.sun, to_sun});
-    }
+    if (kinds.vines) lit.vines = bounced(outdoorsOf(scene, meshes, world, to_sun));
     light.about.interreflection = describe(settings, lit.first_pass ? *lit.first_pass : *lit.vines);
   }
   if (emitted->any()) lit.emitted = std::move(emitted);

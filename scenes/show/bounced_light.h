@@ -72,6 +72,27 @@ struct PictureLight {
 std::function<sim::Colour(sim::Vec3 p_m, sim::Vec3f normal)> bouncedIn(const PictureLight& lit,
                                                                        const sim::Frame& frame);
 
+/// What images of vines need while plants grow that shine by themselves: all else of the light is that of the
+/// end.
+class GrowingBounce {
+ public:
+  /// Of a scene that asks for interreflection. Borrows all.
+  GrowingBounce(const Scene& scene, const std::vector<sim::TiledMesh>& meshes, const sim::World& world,
+                const std::vector<sim::Plant>& plants, const sim::Lighting& light, sim::Vec3 to_sun);
+
+  bool anyShines() const { return emitted_.anyPlant(); }
+  /// `stood`: what of the world's voxels stood then.
+  std::shared_ptr<const BouncedLight> when(const sim::BitVolume& stood);
+
+ private:
+  const sim::World& world_;
+  const sim::Lighting& light_;
+  EmittedLight emitted_;
+  BouncedLight::Outdoors outdoors_;
+  sim::BounceSettings settings_;
+  std::unique_ptr<sim::Interreflection> interreflection_;  // made when it is first asked for
+};
+
 /// Which kinds of pictures are drawn that bounced light falls into.
 struct LitKinds {
   bool first_pass = false, vines = false;

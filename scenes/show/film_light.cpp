@@ -17,21 +17,28 @@ std::uint16_t between(std::uint16_t from, std::uint16_t to, std::int32_t part) {
   return static_cast<std::uint16_t>(from + ((change + kAll / 2) >> 15));
 }
 
+/// The beginning, the end, and between them what first has so many parts of all that is taken.
+std::vector<int> momentsOf(const sim::VoxelBirths& births, int iterations) {
+  std::vector<int> moments;
+  const std::size_t all = births.takenAfter(iterations);
+  for (int k = 0, moment = 0; k <= iterations; ++k) {
+    const auto reached = [&] {
+      return births.takenAfter(k) * FilmLight::kMoments >= all * static_cast<std::size_t>(moment);
+    };
+    if (k > 0 && k < iterations && !reached()) continue;
+    moments.push_back(k);
+    while (moment < FilmLight::kMoments && reached()) ++moment;
+  }
+  return moments;
+}
+
 }  // namespace
 
 FilmLight::FilmLight(const sim::World& world, const sim::Sky& sky, std::optional<sim::RandomSky> random_sky,
                      const sim::VoxelBirths& births, int iterations,
                      std::shared_ptr<const sim::ExposureField> now)
     : world_(world), sky_(sky), random_sky_(random_sky), births_(births) {
-  const std::size_t all = births.takenAfter(iterations);
-  for (int k = 0, moment = 0; k <= iterations; ++k) {
-    // The beginning, the end, and what first has so many parts of it all.
-    if (k > 0 && k < iterations && births.takenAfter(k) * kMoments < all * static_cast<std::size_t>(moment))
-      continue;
-    moments_.push_back({k, nullptr});
-    while (moment < kMoments && births.takenAfter(k) * kMoments >= all * static_cast<std::size_t>(moment))
-      ++moment;
-  }
+  for (const int k : momentsOf(births, iterations)) moments_.push_back({k, nullptr});
   moments_.back().sky = std::move(now);
 }
 
@@ -74,6 +81,36 @@ EarlierWorld FilmLight::after(int iterations) {
   });
   earlier.sky = std::move(mixed);
   return earlier;
+}
+
+FilmBounce::FilmBounce(GrowingBounce& growing, const sim::World& world, const sim::VoxelBirths& births,
+                       int iterations, std::shared_ptr<const BouncedLight> now)
+    : growing_(growing), world_(world), births_(births) {
+  for (const int k : momentsOf(births, iterations)) moments_.push_back({k, nullptr});
+  moments_.back().light = std::move(now);
+}
+
+const std::shared_ptr<const BouncedLight>& FilmBounce::lightAt(Moment& moment) {
+  if (!moment.light) moment.light = growing_.when(births_.after(world_.occupied(), moment.iterations));
+  return moment.light;
+}
+
+std::function<sim::Colour(sim::Vec3, sim::Vec3f)> FilmBounce::after(int iterations) {
+  while (next_ + 1 < moments_.size() && moments_[next_].iterations < iterations) {
+    if (next_ > 0) moments_[next_ - 1].light = nullptr;
+    ++next_;
+  }
+  const auto to = lightAt(moments_[next_]);
+  const sim::Frame frame = world_.frame();
+  if (moments_[next_].iterations <= iterations) {
+    return [=](sim::Vec3 p_m, sim::Vec3f normal) { return to->at(sim::voxelFromWorld(frame, p_m), normal); };
+  }
+  const int begins = moments_[next_ - 1].iterations, ends = moments_[next_].iterations;
+  const float part = static_cast<float>(iterations - begins) / static_cast<float>(ends - begins);
+  return [=, from = lightAt(moments_[next_ - 1])](sim::Vec3 p_m, sim::Vec3f normal) {
+    const sim::Vec3 place_vx = sim::voxelFromWorld(frame, p_m);
+    return glm::mix(from->at(place_vx, normal), to->at(place_vx, normal), part);
+  };
 }
 
 }  // namespace espalier::scenes

@@ -94,6 +94,8 @@ double pictureBytes(const PicturesWanted& wanted, double fragments) {
     if (isPanel(image.kind) && cameras.insert(image.camera).second)
       kept += pixels * (sizeof(std::size_t) + kFragment * fragments);
   }
+  // What spreads, by channel, and one of them turned.
+  if (wanted.bloom > 0.0) packed = std::max(packed, pixels * 4 * sizeof(float));
   // Then either a camera is still looking, or each thread packs a picture: with its legend drawn on a copy,
   // into bytes that are copied.
   double looking = 0.0;

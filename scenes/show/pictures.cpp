@@ -226,8 +226,8 @@ void Studio::drawLegend(Image& picture, const ImageSpec& image, Panel panel) con
 }
 
 Image Studio::vines(const ImageSpec& image) const {
-  Image picture = vinesPicture(image, finished_, look_.to_sun, cameraOf(wanted_, image),
-                               {wanted_.width_px, wanted_.height_px});
+  Image picture = vinesPicture(image, finished_, {look_.to_sun, wanted_.daylight, wanted_.bloom},
+                               cameraOf(wanted_, image), {wanted_.width_px, wanted_.height_px});
   sim::parallelForEach(static_cast<std::size_t>(picture.height), [&](std::size_t row) {
     float* pixel = picture.at(0, static_cast<int>(row));
     for (int x = 0; x < picture.width; ++x, pixel += 3) {
@@ -258,6 +258,8 @@ PicturesWanted picturesOf(const Scene& scene, const sim::Provenance& made_by) {
                         made_by,
                         scene.interreflection};
   for (const PlantSpec& plant : scene.plants) wanted.plants.push_back({plant.name, lightNeeds(*plant.rules)});
+  wanted.daylight = daylightShare(scene);
+  wanted.bloom = scene.bloom;
   if (scene.film) {
     wanted.film_frames = framesOf(*scene.film, scene.iterations).size();
     wanted.film_pixels = static_cast<double>(scene.film->width_px) * scene.film->height_px;

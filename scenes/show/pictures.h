@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "render/finish/daylight.h"
 #include "render/finish/ray_scene.h"
 #include "render/model/plant_model.h"
 #include "render/voxels/panels.h"
@@ -40,6 +41,8 @@ struct PicturesWanted {
   std::optional<InterreflectionSpec> interreflection = {};  ///< of first passes, volumes and vines
   std::size_t film_frames = 0;                              ///< of the scene's film, which is drawn by others
   double film_pixels = 0.0;                                 ///< of each
+  render::DaylightShare daylight = {};                      ///< of images of vines
+  double bloom = 0.0;                                       ///< likewise; see render::bloom
 };
 
 /// What a plant's outermost rule set asks for.

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "render/finish/finished_picture.h"
+#include "render/image/bloom.h"
 #include "scenes/show/model_parts.h"
 
 namespace espalier::scenes {
@@ -23,7 +24,7 @@ bool showsNoPlant(const ImageSpec& image) {
   return image.kind == ImageKind::vines && !shows(image, "stems") && !shows(image, "elements");
 }
 
-render::Image vinesPicture(const ImageSpec& image, const Finished& finished, sim::Vec3 to_sun,
+render::Image vinesPicture(const ImageSpec& image, const Finished& finished, const VinesLook& look,
                            const render::Camera& camera, glm::ivec2 size_px) {
   render::FinishedScene scene;
   for (const auto& tiled : finished.meshes) {
@@ -40,8 +41,11 @@ render::Image vinesPicture(const ImageSpec& image, const Finished& finished, sim
   scene.occupied = bare ? &finished.bare : &finished.world.occupied();
   scene.sky = (bare ? finished.light.bare_sky : finished.light.space_sky).get();
   if (!bare) scene.bounced = bouncedIn(finished.lit, scene.frame);
-  scene.to_sun = to_sun;
-  return render::finishedPicture(scene, camera, size_px.x, size_px.y);
+  scene.to_sun = look.to_sun;
+  scene.daylight = look.daylight;
+  render::Image picture = render::finishedPicture(scene, camera, size_px.x, size_px.y);
+  render::bloom(picture, look.bloom);
+  return picture;
 }
 
 }  // namespace espalier::scenes

@@ -38,6 +38,7 @@ enum class Purpose : std::uint8_t {
   sky = 7,
   spot = 8,
   attractor = 9,
+  rough = 10,
   custom = 128
 };
 

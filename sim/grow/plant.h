@@ -93,7 +93,8 @@ struct Plant {
   std::string bark =
       {};  ///< what is painted on its stems, as on ElementShape: a kind of bark, or a picture that tiles
   std::shared_ptr<const Picture> bark_picture = nullptr;
-  Colour stem_emits{0.0f};  ///< as ElementShape::emits
+  Colour stem_emits{0.0f};        ///< as ElementShape::emits
+  float stem_emits_share = 1.0f;  ///< what of it is left with each order of branching
   StemGirth girth;
   StemForm form;
   PartId stem_part = kFree;

@@ -14,6 +14,8 @@ struct StemGirth {
   double exponent = 2.05;     ///< 2: Leonardo's rule, 3: Murray's law
   double thickens_vx = 0.02;  ///< by age: in an iteration
   double most_vx = std::numeric_limits<double>::infinity();  ///< no stem's radius is more
+  /// What radii are multiplied by for each order of branching, 0 for limbs of seeds; more than 0, at most 1.
+  double order_share = 1.0;
 };
 
 }  // namespace espalier::sim

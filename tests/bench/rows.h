@@ -39,6 +39,9 @@ void benchLaying(Report& report);
 /// place.
 void benchBounced(Report& report);
 
+/// A bolt of lightning by the number of its attractors: front, world, light, model and picture.
+void benchBolt(Report& report);
+
 /// A sky of at least so many directions, of equal weight for equal parts.
 sim::DirectionSet skyOf(int directions);
 

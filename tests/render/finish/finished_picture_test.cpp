@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "render/finish/daylight.h"
@@ -105,6 +106,30 @@ TEST_F(FinishedPicture, TheSunCastsShadowsAndSetsAtTheHorizon) {
   EXPECT_LT(behind, 0.8 * front);
   EXPECT_LT(night, behind);
   EXPECT_GT(night, 0.0);
+}
+
+/// Light adds up: a picture is as dark as the sky and the sun that are left, in each channel.
+TEST_F(FinishedPicture, IsAsBrightAsTheSkyAndTheSunAre) {
+  const Image day = draw(80, 60);
+  scene_.daylight = {Colour(0.25f, 0.5f, 1.0f), Colour(0.25f, 0.5f, 1.0f)};
+  const Image evening = draw(80, 60);
+  const std::array shares{0.25f, 0.5f, 1.0f};
+  for (std::size_t i = 0; i < day.pixels.size(); i += 3) {
+    for (std::size_t c = 0; c < 3; ++c)
+      ASSERT_NEAR(evening.pixels[i + c], shares[c] * day.pixels[i + c], 0.05f) << i;
+  }
+  scene_.daylight = {Colour(1.0f), Colour(0.0f)};
+  const Image clouded = draw(80, 60);
+  scene_.to_sun = -scene_.to_sun;
+  scene_.daylight = {};
+  EXPECT_NE(clouded.pixels, day.pixels);
+  EXPECT_EQ(clouded.at(40, 32)[0], draw(80, 60).at(40, 32)[0]) << "no sun, or one that has set";
+  const render::OutdoorLight all = render::outdoorLight({&wall_}, 0.04, {0, 1, 0}),
+                             half = render::outdoorLight({&wall_}, 0.04, {0, 1, 0},
+                                                         {Colour(0.5f), Colour(0.5f)});
+  for (const auto part :
+       {&render::OutdoorLight::sky, &render::OutdoorLight::ground, &render::OutdoorLight::sun})
+    EXPECT_EQ(half.*part, 0.5f * all.*part);
 }
 
 /// A trunk has few sides: where it turns away from the sun, light fades over them and does not end at an

@@ -28,6 +28,32 @@ Sums sumsOf(const sim::Skeleton& skeleton, const std::vector<float>& radii, doub
   return sums;
 }
 
+TEST(Radii, SideLimbsAreSlenderByTheirOrder) {
+  sim::Skeleton skeleton;
+  const auto add = [&](sim::NodeId parent, sim::Vec3 at) { return tests::addNode(skeleton, parent, at); };
+  const auto seed = add(sim::kNoNode, {0, 0, 0}), fork = add(seed, {0, 2, 0});
+  const auto side = add(fork, {2, 3, 0}),
+             straight = add(fork, {0, 4, 0});  // as thick: the straight one goes on
+  const auto twig = add(side, {3, 5, 0}), on = add(side, {4, 4, 0}), tip = add(straight, {1, 6, 0}),
+             other = add(straight, {-1, 6, 0.5});
+  const StemGirth plain{.twig_vx = 0.1};
+  StemGirth slender = plain;
+  slender.order_share = 0.5;
+  const auto full = stemRadii(skeleton, plain), radii = stemRadii(skeleton, slender);
+  const auto share = [&](sim::NodeId n) {
+    return radii[static_cast<std::size_t>(n)] / full[static_cast<std::size_t>(n)];
+  };
+  for (const auto n : {seed, fork, straight}) EXPECT_FLOAT_EQ(share(n), 1.0f);
+  for (const auto n : {side, on}) EXPECT_FLOAT_EQ(share(n), 0.5f);
+  EXPECT_FLOAT_EQ(share(twig), 0.25f);
+  EXPECT_FLOAT_EQ(share(tip) * share(other), 0.5f) << "one of the two goes on";
+  skeleton.columns["order"] = {0, 0, 3, 0, 3, 3, 0, 0};  // as a process may count
+  const auto counted = stemRadii(skeleton, slender);
+  EXPECT_FLOAT_EQ(counted[static_cast<std::size_t>(side)], 0.125f * full[static_cast<std::size_t>(side)]);
+  slender.order_share = 0.0;
+  EXPECT_THROW(stemRadii(skeleton, slender), sim::InputError);
+}
+
 TEST(Radii, EveryForkFollowsThePipeModel) {
   const sim::Skeleton skeleton = tests::smallVine().skeleton;
   const auto radii = stemRadii(skeleton, {.twig_vx = 0.1});

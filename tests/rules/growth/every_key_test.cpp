@@ -113,11 +113,17 @@ const std::map<std::string, std::string> kWithoutEffect = {
     {"stem.texture", "the same"},
     {"stem.emits.colour", "the same"},
     {"stem.emits.strength", "the same"},
+    {"stem.emits.order_share", "the same"},
     {"stem.radius", "the same"},
     {"stem.by", "girth is for models alone"},
     {"stem.exponent", "the same"},
     {"stem.thickens", "the same"},
     {"stem.thickest", "the same"},
+    {"stem.order_share", "the same"},
+    {"stem.rough.hurst", "the same"},
+    {"stem.rough.amplitude", "the same"},
+    {"stem.rough.over", "the same"},
+    {"stem.rough.detail", "the same"},
     {"stem.forks", "what has grown is formed by it"},
     {"otherwise", "has tests of its own below"},
     {"regions", "the same"},
@@ -370,13 +376,24 @@ TEST(Stem, ItsGirthIsForModelsAlone) {
   girth.stem.exponent = 3.0;
   girth.stem.thickens = {4e-4, true};
   girth.stem.thickest = {0.08, true};
+  girth.stem.order_share = 0.5;
+  girth.stem.rough = {0.4, {0.02, true}, {0.4, true}, {0.01, true}};
+  girth.stem.emits = {{{1.0f, 0.5f, 0.0f}, 2.0}, 0.25};
   girth.stem.forks = sim::StemForm::Forks::murray;
   EXPECT_EQ(resultOf(girth).state, resultOf(lively()).state);
-  const sim::StemGirth made = makeProcess(shared(girth), 0.04)->seedling().girth;
+  const sim::Plant seedling = makeProcess(shared(girth), 0.04)->seedling();
+  const sim::StemGirth made = seedling.girth;
   EXPECT_EQ(made.by, sim::StemGirth::By::age);
   EXPECT_EQ(made.exponent, 3.0);
   EXPECT_DOUBLE_EQ(made.thickens_vx, 0.01);
   EXPECT_DOUBLE_EQ(made.most_vx, 2.0);
+  EXPECT_EQ(made.order_share, 0.5);
+  EXPECT_EQ(seedling.stem_emits_share, 0.25f);
+  const sim::StemForm::Rough rough = seedling.form.rough.value();
+  EXPECT_DOUBLE_EQ(rough.hurst + rough.over_vx + rough.detail_vx, 0.4 + 10.0 + 0.25);
+  EXPECT_DOUBLE_EQ(rough.amplitude_vx, 0.5);
+  girth.stem.rough->detail = {4e-4, true};  // a hundredth of a voxel width
+  EXPECT_THROW(makeProcess(shared(girth), 0.04), sim::InputError);
 }
 
 }  // namespace

@@ -74,12 +74,13 @@ TEST_F(OwnMeshes, AreWhatTheirScriptMakes) {
   if (std::system("python3 --version >/dev/null 2>&1") != 0) GTEST_SKIP() << "python3 is not here";
   for (const char* script :
        {"masonry.py", "make_garden_wall.py", "make_courtyard.py", "make_street.py", "make_lean_to.py",
-        "make_ruin.py", "make_arch.py", "make_shapes.py"}) {  // all use the first
+        "make_ruin.py", "make_arch.py", "make_shapes.py", "make_storm.py"}) {  // all use the first
     fs::copy_file(kMeshes / script, folder_ / script);
     ASSERT_EQ(std::system(("python3 '" + (folder_ / script).string() + "' >/dev/null").c_str()), 0);
   }
-  for (const char* name : {"garden_wall", "courtyard", "column", "maze_walls", "street", "lean_to", "ruin",
-                           "arch_cm", "sphere", "wren", "lawn", "cut_earth"}) {
+  for (const char* name :
+       {"garden_wall", "courtyard", "column", "maze_walls", "street", "lean_to", "ruin", "arch_cm", "sphere",
+        "wren", "lawn", "cut_earth", "storm_land", "storm_windows", "storm_cloud"}) {
     for (const char* ending : {".obj", ".mtl"}) {
       const auto made = folder_ / (std::string(name) + ending);
       EXPECT_TRUE(tests::readAll(made) == tests::readAll(kMeshes / made.filename())) << made.filename();

@@ -103,6 +103,22 @@ TEST_F(FilmOfGrowth, EndsWithThePicture) {
   }
 }
 
+/// Before anything has grown, a plant that shines lights nothing; in the end, all that it does in the
+/// picture.
+TEST_F(FilmOfGrowth, WhatShinesLightsAsFarAsItHasGrown) {
+  const std::string more =
+      "film: {every: 2, camera: main, width: 40, height: 30}\ninterreflection: {passes: 2, directions: 60}\n";
+  const auto with = [&](const char* stem) {
+    scratch_.write("vine.yaml", std::string("espalier: rules\nstem: {radius: 0.4, ") + stem + "}\n");
+    Files film = filmOf(more);
+    EXPECT_TRUE(pixelsOf(film.at("film_0003.png")) == pixelsOf(tests::fileText(scratch_.path("out/a.png"))));
+    return film;
+  };
+  const Files dark = with("emits: {strength: 0}"), bright = with("emits: {strength: 9}");
+  EXPECT_TRUE(pixelsOf(dark.at("film_0000.png")) == pixelsOf(bright.at("film_0000.png")));
+  EXPECT_FALSE(pixelsOf(dark.at("film_0003.png")) == pixelsOf(bright.at("film_0003.png")));
+}
+
 TEST_F(FilmOfGrowth, FollowsItsCamera) {
   const Files still = filmOf(kFilm),
               moves = filmOf("film: {every: 2, path: [main, other], width: 40, height: 30}\n", "moves");

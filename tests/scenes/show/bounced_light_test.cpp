@@ -128,6 +128,56 @@ TEST_F(RedWall, StemsAndElementsSendOutAsMuchAsThereIsOfThem) {
   EXPECT_FALSE(EmittedLight({}, world, {}).any());
 }
 
+/// A stem that takes a tenth of its voxels, ten times as bright, lights the floor as one that fills them.
+TEST_F(RedWall, WhatIsThinShinesFromAllOfItsVoxels) {
+  std::vector<Colour> light;
+  for (const float coverage : {1.0f, 0.1f}) {
+    const Scene of = scene("wall.obj");
+    Site site = makeSite(of);
+    sim::World& world = site.world;
+    sim::Plant plant;
+    plant.stem_emits = Colour(5.0f / coverage);
+    plant.stem_part = world.addPart(tests::stemPart("bolt"));
+    std::vector<sim::TiledVoxel> stem;
+    for (int y = 4; y < 20; ++y)
+      stem.push_back({{30, y, 35}, {.part = plant.stem_part, .coverage = coverage}});
+    world.occupy(stem);
+    sim::LightWanted wanted;
+    wanted.to_sun = kSun;
+    const sim::Lighting found = sim::lightOf(world, site.sky, site.sun, wanted);
+    const std::vector<sim::Plant> plants{plant};
+    GrowingBounce bounce(of, site.meshes, world, plants, found, kSun);
+    ASSERT_TRUE(bounce.anyShines());
+    const sim::BitVolume none(world.frame().size);
+    const auto all = bounce.when(world.occupied()), before = bounce.when(none);
+    for (const double x : {18.0, 24.0, 36.0}) {
+      const Vec3 at(x, 2.0, 33.0);
+      light.push_back(all->at(at, Vec3f(0, 1, 0)) - before->at(at, Vec3f(0, 1, 0)));
+      EXPECT_GT(light.back().g, 0.05f);
+    }
+  }
+  for (std::size_t i = 0; i < 3; ++i) EXPECT_NEAR(light[i].g, light[i + 3].g, 0.03f * light[i].g) << i;
+}
+
+/// The limb that leaves the upright one sends out a quarter of its light.
+TEST_F(RedWall, StemsSendOutLessWithEachOrderOfBranching) {
+  sim::World world = makeSite(scene("wall.obj", "")).world;
+  sim::Plant plant;
+  plant.stem_emits = Colour(4.0f);
+  plant.stem_emits_share = 0.25f;
+  plant.stem_part = world.addPart(tests::stemPart("bolt"));
+  plant.skeleton.parent = {sim::kNoNode, 0, 1, 1};
+  plant.skeleton.position_vx = {{20, 5, 30}, {20, 10, 30}, {20, 15, 30}, {25, 10, 30}};
+  plant.skeleton.born = {0, 1, 2, 2};
+  for (const sim::Voxel v : {sim::Voxel(20, 7, 30), {20, 13, 30}, {20, 10, 30}, {24, 10, 30}})
+    world.occupy(std::vector<sim::TiledVoxel>{{v, {.part = plant.stem_part, .coverage = 1.0f}}});
+  const EmittedLight emitted({}, world, {plant});
+  EXPECT_EQ(emitted.at({20, 7, 30}), Colour(4.0f));
+  EXPECT_EQ(emitted.at({20, 13, 30}), Colour(4.0f));
+  EXPECT_EQ(emitted.at({20, 10, 30}), Colour(4.0f)) << "where they meet";
+  EXPECT_EQ(emitted.at({24, 10, 30}), Colour(1.0f));
+}
+
 TEST_F(RedWall, WithoutInterreflectionNothingBounces) {
   const auto found = find(scene("wall.obj", ""), kSun);
   EXPECT_FALSE(found->lit.first_pass);

@@ -63,6 +63,7 @@ struct SceneMesh {
   Placement placement;
   std::optional<sim::Colour> colour;     ///< instead of the file's materials; linear RGB
   std::optional<rules::Emission> emits;  ///< likewise
+  std::optional<double> alpha;           ///< likewise: how much it hides of what is behind it, 0..1
   Place place = {};                      ///< where a scene file has it; without a path where none does
 };
 

@@ -141,6 +141,7 @@ sim::Plant seedlingOf(const RuleBook& book) {
   plant.stem_colour = book.top().stem.colour;
   const Stem& stem = book.top().stem;
   if (stem.emits) plant.stem_emits = stem.emits->light();
+  plant.stem_alpha = static_cast<float>(stem.alpha);
   plant.bark = stem.picture ? "" : stem.texture;
   plant.bark_picture = stem.picture;
   plant.girth = {stem.by, stem.radius.number, stem.exponent, stem.thickens.number, stem.thickest.number};

@@ -56,6 +56,9 @@ sim::Mesh readMesh(const SceneMesh& spec, SiteFiles& to) {
   if (spec.emits) {
     for (sim::Material& material : mesh.materials) material.emissive = spec.emits->light();
   }
+  if (spec.alpha) {
+    for (sim::Material& material : mesh.materials) sim::setOpacity(material, *spec.alpha);
+  }
   return mesh;
 }
 

@@ -91,6 +91,12 @@ std::shared_ptr<const Table> meshKeys() {
                {.meaning = "Light that it sends out, instead of the file's own, and with interreflection "
                            "onto others too."},
                "colour")
+      .number(
+          "opacity", &SceneMesh::alpha,
+          {.unit = "share",
+           .limits = {0.0, 1.0},
+           .meaning =
+               "Instead of the file's own: how much it hides of what is behind it, in pictures and models."})
       .oneOf({"file", "lines"})
       .shared();
 }

@@ -228,13 +228,7 @@ Mesh asItFaces(const TiledMesh& tiled) {
 
 /// Puts what takes no light into the world: lines are too thin for it, and guides are not there.
 void addOpen(World& world, const std::vector<TiledVoxel>& surface, bool guide) {
-  if (!guide) return world.occupyClear(surface);
-  for (auto from = surface.begin(); from != surface.end();) {
-    const PartId part = from->surface.part;
-    std::vector<Voxel> voxels;
-    for (; from != surface.end() && from->surface.part == part; ++from) voxels.push_back(from->voxel);
-    world.addGuide(part, voxels);
-  }
+  guide ? world.addGuide(surface) : world.occupyClear(surface);
 }
 
 /// Puts a mesh into the world; what was found out where it is filled.

@@ -110,6 +110,7 @@ inline const std::map<std::string, Change>& changes() {
        {"a.png",
         {{"regions: group", "regions: group, emits: {strength: 0.1}"}},
         {"strength: 0.1", "strength: 0.3"}}},
+      {"meshes[].opacity", {"a.png", {}, {"regions: group", "regions: group, opacity: 0.4"}}},
       {"meshes[].lines", {"world.vdb", {wire}, {"[-0.5, 1, 0.5]", "[-0.5, 1, 0.9]"}}},
       {"meshes[].guide", {"world.vdb", {wire}, {"name: wire", "name: wire, guide: true"}}},
       {"meshes[].thickness", {"plant.glb", {wire}, {"name: wire", "name: wire, thickness: 9 cm"}}},

@@ -60,9 +60,11 @@ struct SceneMesh {
   std::vector<std::vector<sim::Vec3>> lines_m;
   double thickness_m = 0.02;  ///< of lines and points as they are drawn; of what is open
   bool guide = false;         ///< is felt and stands in nobody's way (sim::TiledMesh)
+  bool shade = true;          ///< takes light
   Placement placement;
   std::optional<sim::Colour> colour;     ///< instead of the file's materials; linear RGB
   std::optional<rules::Emission> emits;  ///< likewise
+  std::optional<double> alpha;           ///< likewise: how much it hides of what is behind it, 0..1
   Place place = {};                      ///< where a scene file has it; without a path where none does
 };
 
@@ -244,7 +246,7 @@ struct AttractorsSpec {
   rules::StrewingSpec strewing;     ///< spread and density: of a solid
   std::optional<double> spacing_m;  ///< on a surface: the least between two
   int waves = 1;  ///< in which they come: each twice as dense as those before it, when nothing moves any more
-  Place place = {};                 ///< where a scene file has it
+  Place place = {};  ///< where a scene file has it
 };
 
 struct NamedCamera {

@@ -33,10 +33,11 @@ int plantMaterial(GltfMaterials& materials, const ModelMesh& mesh, const std::st
   material.emissive = mesh.emits;
   material.roughness = kind == PlantSurface::blades ? kLeafRoughness : kStemRoughness;
   material.double_sided = kind == PlantSurface::blades;
+  sim::setOpacity(material, static_cast<double>(mesh.alpha));
   if (mesh.picture == nullptr) return materials.of(material, -1);
   const bool tiles = mesh.picture->tiles;
   if (!tiles) {
-    material.alpha_mode = sim::Material::Alpha::mask;
+    if (mesh.alpha >= 1.0f) material.alpha_mode = sim::Material::Alpha::mask;
     material.alpha_cutoff = kCutout;
     material.double_sided = true;
   }

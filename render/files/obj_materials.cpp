@@ -38,9 +38,10 @@ const std::string& ObjMaterials::nameOf(const sim::Material& material) {
 }
 
 const std::string& ObjMaterials::nameOf(const std::string& kind, const ModelMesh& mesh) {
-  if (mesh.picture == nullptr) return nameOf(kind, Look{mesh.base_colour, 1.0f, false, {}, {}, mesh.emits});
-  return nameOf(
-      kind, Look{sim::Colour(1.0f), 1.0f, !mesh.picture->tiles, mesh.picture->png, "image/png", mesh.emits});
+  if (mesh.picture == nullptr)
+    return nameOf(kind, Look{mesh.base_colour, mesh.alpha, false, {}, {}, mesh.emits});
+  return nameOf(kind, Look{sim::Colour(1.0f), mesh.alpha, !mesh.picture->tiles, mesh.picture->png,
+                           "image/png", mesh.emits});
 }
 
 const std::string& ObjMaterials::nameOf(const std::string& wish, const Look& look) {

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "render/finish/clear_surface.h"
 #include "render/finish/daylight.h"
 #include "render/finish/ground.h"
 #include "render/finish/looks.h"
@@ -24,22 +25,26 @@ constexpr int kTile = 16;
 constexpr float kSunRadius =
     0.011f;  // of the disc, radians: a little wider than the real one, for softer edges
 constexpr float kSmoothEnough =
-    0.045f;                         // spread of display values within a pixel that needs no further samples
+    0.045f;                      // spread of display values within a pixel that needs no further samples
+constexpr int kMostLayers = 48;  // that are seen through, before the next is taken to hide all
+constexpr float kHardlySeen = 1.0f / 512.0f;
 constexpr double kHazeReach = 9.0;  // haze and floor, in diagonals of the world
 
 struct SamplePoint {
   glm::vec2 pixel, sun;  // 0..1
 };
 
-/// The most rounds of a pixel.
-constexpr std::uint32_t kRounds = 2;
+/// The most rounds of a pixel; and of one of a scene of which something is seen through, as of that the most
+/// is fine.
+constexpr std::uint32_t kRounds = 2, kClearRounds = 4;
 
 /// A round's samples: a turned grid, moved on between rounds so that all rounds together have every row and
 /// column once. The same for every pixel: penumbras come out as even steps rather than as grain.
 std::array<SamplePoint, kRays> samplePoints(std::uint32_t round) {
   constexpr std::array<glm::vec2, kRays> kGrid{
       glm::vec2(0.04f, 0.29f), {0.54f, 0.04f}, {0.29f, 0.79f}, {0.79f, 0.54f}};
-  const auto moved = static_cast<float>(round) / 8.0f;
+  constexpr std::array<float, kClearRounds> kMoved{0.0f, 0.125f, 0.0625f, 0.1875f};
+  const float moved = kMoved[round];
   std::array<SamplePoint, kRays> result;
   for (std::size_t i = 0; i < kRays; ++i) {
     result[i].pixel = glm::fract(kGrid[i] + glm::vec2(moved, 2.0f * moved));
@@ -55,24 +60,12 @@ struct Fragment {
   Vec3f normal{0.0f};  // faces the camera
   Vec3f flat{0.0f};    // the triangle's own, on the same side
   Look look;
-  bool blade = false;
+  bool blade = false;    // light from behind comes through
   bool round = false;    // the facets stand for a smooth surface
   Vec3f raised_m{0.0f};  // there the place on that
   float distance_m = 0.0f;
+  float sunlit = 0.0f;  // how much of the sun is seen from it
 };
-
-/// A place of a facet as high as the smooth surface is for which it stands: on the mean between the planes
-/// that touch that at the corners (Hanika, Hacking the shadow terminator, Ray Tracing Gems II, 2021). Shadows
-/// that began on facets would end along their edges.
-Vec3f raised(const ModelMesh& mesh, const std::array<std::uint32_t, 3>& t, const SurfaceHit& hit, Vec3f p_m) {
-  const std::array<float, 3> weights{1.0f - hit.u - hit.v, hit.u, hit.v};
-  Vec3f sum = p_m;
-  for (std::size_t k = 0; k < 3; ++k) {
-    const Vec3f normal = mesh.normals[t[k]];
-    sum -= weights[k] * std::min(0.0f, glm::dot(p_m - mesh.positions_m[t[k]], normal)) * normal;
-  }
-  return sum;
-}
 
 /// Of the ground around, which sees all of the sky.
 Colour groundLight(const Ground& ground, const Daylight& light) {
@@ -101,7 +94,7 @@ class Painter {
     sun_across_ = glm::normalize(
         glm::cross(light_.to_sun, std::abs(light_.to_sun.y) < 0.9f ? Vec3f(0, 1, 0) : Vec3f(1, 0, 0)));
     sun_up_ = glm::cross(light_.to_sun, sun_across_);
-    for (std::uint32_t r = 0; r < kRounds; ++r) {
+    for (std::uint32_t r = 0; r < kClearRounds; ++r) {
       points_[r] = samplePoints(r);
       for (std::size_t i = 0; i < kRays; ++i) to_suns_[r][i] = sunPoint(points_[r][i].sun);
     }
@@ -111,12 +104,17 @@ class Painter {
 
  private:
   using Round = std::array<Colour, kRays>;
+  using Fragments = std::array<Fragment, kRays>;
   Round round(int x, int y, std::uint32_t number) const;
+  Round seen(const std::array<SurfaceHit, kRays>& hits, const std::array<Vec3f, kRays>& directions,
+             const std::array<bool, kRays>& wanted, std::uint32_t number, Fragments& fragments) const;
   float groundBelow(Vec3f direction) const;
   void meetGround(float distance_m, Vec3f direction, Fragment& f) const;
   void meet(const SurfaceHit& hit, Vec3f direction, Fragment& f) const;
+  void meetClear(const Surface& surface, const SurfaceHit& hit, Fragment& f) const;
   Vec3f sunPoint(glm::vec2 disc) const;
   Colour lit(const Fragment& f, Vec3f direction, float sun_seen) const;
+  Colour mirrored(const Fragment& f, Vec3f direction, float mirror) const;
   Colour hazed(Colour light, const Fragment& f, Vec3f direction) const;
 
   RayScene rays_;
@@ -132,8 +130,8 @@ class Painter {
   float pixel_ = 0.0f;  // how much a pixel spans at a distance of 1
   int width_, height_;
   // by round and sample
-  std::array<std::array<SamplePoint, kRays>, kRounds> points_;
-  std::array<std::array<Vec3f, kRays>, kRounds> to_suns_;
+  std::array<std::array<SamplePoint, kRays>, kClearRounds> points_;
+  std::array<std::array<Vec3f, kRays>, kClearRounds> to_suns_;
 };
 
 /// How far away a ray from the eye meets the ground; infinity: nowhere.
@@ -153,6 +151,19 @@ void Painter::meetGround(float distance_m, Vec3f direction, Fragment& f) const {
   f.look = groundLook(noise_, ground_.colour, f.p_m);
 }
 
+/// What is seen through lets light from behind come through, and is smooth.
+void Painter::meetClear(const Surface& surface, const SurfaceHit& hit, Fragment& f) const {
+  f.look.alpha = surface.alphaAt(hit.triangle);
+  if (f.look.alpha >= 1.0f) return;
+  f.blade = true;
+  f.look.gloss = 0.0f;  // it mirrors
+  f.look.through = glm::max(f.look.through, f.look.albedo * (1.0f - f.look.alpha));
+  if (surface.mesh == nullptr || surface.mesh->normals.empty()) return;
+  const Vec3f smooth = onTriangle(surface.mesh->normals, surface.mesh->triangles[hit.triangle], hit.u, hit.v);
+  if (glm::dot(smooth, smooth) > 1e-6f)
+    f.normal = glm::normalize(glm::dot(smooth, f.flat) < 0.0f ? -smooth : smooth);
+}
+
 void Painter::meet(const SurfaceHit& hit, Vec3f direction, Fragment& f) const {
   const Surface& surface = rays_.surfaces()[hit.surface];
   f.met = true;
@@ -163,11 +174,13 @@ void Painter::meet(const SurfaceHit& hit, Vec3f direction, Fragment& f) const {
   if (surface.kind == SurfaceKind::scene) {
     f.look = sceneLook(noise_, surface, hit, f.p_m, pixel_ * hit.distance_m);
     f.look.emits = surface.mesh->materials[surface.mesh->material[hit.triangle]].emissive;
+    meetClear(surface, hit, f);
     return;
   }
   if (surface.kind == SurfaceKind::body) {
     f.look = bodyLook(noise_, surface, hit, f.p_m, pixel_ * hit.distance_m);
     f.look.emits = surface.model->emits;
+    meetClear(surface, hit, f);
     return;
   }
   const ModelMesh& mesh = *surface.model;
@@ -181,13 +194,14 @@ void Painter::meet(const SurfaceHit& hit, Vec3f direction, Fragment& f) const {
   }
   if (!f.blade && glm::dot(smooth, f.flat) > 0.0f) {
     f.round = true;
-    f.raised_m = raised(mesh, t, hit, f.p_m);
+    f.raised_m = raised(mesh, hit, f.p_m);
   }
   f.look = f.blade ? bladeLook(surface, hit, pixel_ * hit.distance_m)
                    : barkLook(noise_, surface, hit, f.p_m, pixel_ * hit.distance_m);
   f.look.emits = mesh.emits;
   if (mesh.emits_share != 1.0f && !mesh.orders.empty())
     f.look.emits *= powf(mesh.emits_share, static_cast<float>(mesh.orders[t[0]]));
+  meetClear(surface, hit, f);
 }
 
 Vec3f Painter::sunPoint(glm::vec2 disc) const {
@@ -235,17 +249,21 @@ Colour Painter::hazed(Colour light, const Fragment& f, Vec3f direction) const {
   return glm::mix(skySeen(light_, level), light, clear);
 }
 
-Painter::Round Painter::round(int x, int y, std::uint32_t number) const {
-  const auto& points = points_[number];
-  std::array<Vec3f, kRays> directions;
-  for (std::size_t i = 0; i < kRays; ++i) {
-    directions[i] = Vec3f(camera_.direction((x + static_cast<double>(points[i].pixel.x)) / width_,
-                                            (y + static_cast<double>(points[i].pixel.y)) / height_));
-  }
-  const auto hits = rays_.firstHits(Vec3f(camera_.eye_m()), directions);
-  std::array<Fragment, kRays> fragments;
+/// What a smooth surface that is seen through throws back.
+Colour Painter::mirrored(const Fragment& f, Vec3f direction, float mirror) const {
+  const Vec3f reflected = glm::reflect(direction, f.normal);
+  return mirror * sky_.at(Vec3(f.p_m), f.flat) * mirroredIn(light_, bounce_, reflected) +
+         f.sunlit * sunGlint(reflected, light_.to_sun) * light_.sun;
+}
+
+/// The light of what wanted rays met, and of the sky where they met nothing.
+Painter::Round Painter::seen(const std::array<SurfaceHit, kRays>& hits,
+                             const std::array<Vec3f, kRays>& directions,
+                             const std::array<bool, kRays>& wanted, std::uint32_t number,
+                             Fragments& fragments) const {
   RayScene::ShadowRays shadows;
   for (std::size_t i = 0; i < kRays; ++i) {
+    if (!wanted[i]) continue;
     Fragment& f = fragments[i];
     const float ground_m = groundBelow(directions[i]);
     if (hits[i].any() && !(ground_m < hits[i].distance_m)) {
@@ -261,14 +279,61 @@ Painter::Round Painter::round(int x, int y, std::uint32_t number) const {
                                    : f.p_m + (side > 0.0f ? 0.04f : -0.04f) * voxel_m_ * f.flat;
     shadows.directions[i] = to_suns_[number][i];
   }
-  const auto sunlit = rays_.clear(shadows);
-  Round result;
+  std::array<float, kRays> sunlit{};
+  if (rays_.translucent()) {
+    sunlit = rays_.lightThrough(shadows);
+  } else {
+    const auto open = rays_.clear(shadows);
+    std::copy(open.begin(), open.end(), sunlit.begin());
+  }
+  Round result{};
   for (std::size_t i = 0; i < kRays; ++i) {
-    const Fragment& f = fragments[i];
-    result[i] = f.met ? hazed(lit(f, directions[i], sunlit[i] ? 1.0f : 0.0f), f, directions[i])
-                      : skySeen(light_, directions[i]);
+    if (!wanted[i]) continue;
+    Fragment& f = fragments[i];
+    result[i] =
+        f.met ? hazed(lit(f, directions[i], sunlit[i]), f, directions[i]) : skySeen(light_, directions[i]);
+    f.sunlit = sunlit[i];
   }
   return result;
+}
+
+Painter::Round Painter::round(int x, int y, std::uint32_t number) const {
+  const auto& points = points_[number];
+  std::array<Vec3f, kRays> directions;
+  for (std::size_t i = 0; i < kRays; ++i) {
+    directions[i] = Vec3f(camera_.direction((x + static_cast<double>(points[i].pixel.x)) / width_,
+                                            (y + static_cast<double>(points[i].pixel.y)) / height_));
+  }
+  const Vec3f eye(camera_.eye_m());
+  std::array<bool, kRays> wanted{true, true, true, true};
+  auto hits = rays_.firstHits(eye, directions);
+  Fragments fragments;
+  Round light = seen(hits, directions, wanted, number, fragments);
+  // From the front to the back, as far as anything of it is seen.
+  Round result{};
+  std::array<float, kRays> left{1.0f, 1.0f, 1.0f, 1.0f}, beyond_m{};
+  for (int layer = 0;; ++layer) {
+    bool more = false;
+    for (std::size_t i = 0; i < kRays; ++i) {
+      if (!wanted[i]) continue;
+      const Fragment& f = fragments[i];
+      wanted[i] = f.met && f.look.alpha < 1.0f && layer < kMostLayers;
+      if (!wanted[i]) {
+        result[i] += left[i] * light[i];
+        continue;
+      }
+      const float mirror = filmMirror(-glm::dot(directions[i], f.normal));
+      result[i] += left[i] * ((1.0f - mirror) * f.look.alpha * light[i] + mirrored(f, directions[i], mirror));
+      left[i] *= (1.0f - mirror) * (1.0f - f.look.alpha);
+      wanted[i] = left[i] > kHardlySeen;
+      beyond_m[i] = f.distance_m * (1.0f + 1e-5f);
+      more = more || wanted[i];
+    }
+    if (!more) return result;
+    hits = rays_.nextHits(eye, directions, beyond_m, wanted);
+    fragments = {};
+    light = seen(hits, directions, wanted, number, fragments);
+  }
 }
 
 Colour Painter::pixel(int x, int y) const {
@@ -283,10 +348,10 @@ Colour Painter::pixel(int x, int y) const {
       brightest = std::max(brightest, shown);
     }
   };
-  add(round(x, y, 0));
-  const float spread = brightest - darkest;
-  const std::uint32_t rounds = spread < kSmoothEnough ? 1 : kRounds;
-  for (std::uint32_t r = 1; r < rounds; ++r) add(round(x, y, r));
+  const std::uint32_t least = (rays_.translucent() ? kClearRounds : kRounds) / 2;
+  for (std::uint32_t r = 0; r < least; ++r) add(round(x, y, r));
+  const std::uint32_t rounds = brightest - darkest < kSmoothEnough ? least : 2 * least;
+  for (std::uint32_t r = least; r < rounds; ++r) add(round(x, y, r));
   return sum / static_cast<float>(rounds * kRays);
 }
 

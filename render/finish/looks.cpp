@@ -51,6 +51,8 @@ Look sceneLook(const Noise& noise, const Surface& surface, const SurfaceHit& hit
   const std::uint32_t material = mesh.material[hit.triangle];
   const Colour base = mesh.materials[material].colour;
   const PictureTexture* const texture = surface.textures.empty() ? nullptr : surface.textures[material];
+  const float alpha = surface.alphaAt(hit.triangle);
+  if (texture == nullptr && alpha < 1.0f) return {base};  // clean, as a window is
   if (texture == nullptr) return stoneLook(noise, base, p_m);
   const auto& t = mesh.triangles[hit.triangle];
   const float span = pixel_m * picturePerMetre(mesh.vertices_m, mesh.uvs, t);
@@ -117,6 +119,17 @@ Vec3f bulgedNormal(const ModelMesh& mesh, const SurfaceHit& hit) {
   const float sign = determinant > 0.0f ? 1.0f : -1.0f;
   const glm::vec2 uv = atHit(mesh.uvs, t, hit);
   return normal + sign * (0.9f * (uv.x - 0.5f) / wide * across + 0.6f * (uv.y - 0.45f) / tall * along);
+}
+
+Vec3f raised(const ModelMesh& mesh, const SurfaceHit& hit, Vec3f p_m) {
+  const auto& t = mesh.triangles[hit.triangle];
+  const std::array<float, 3> weights{1.0f - hit.u - hit.v, hit.u, hit.v};
+  Vec3f sum = p_m;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const Vec3f normal = mesh.normals[t[k]];
+    sum -= weights[k] * std::min(0.0f, glm::dot(p_m - mesh.positions_m[t[k]], normal)) * normal;
+  }
+  return sum;
 }
 
 }  // namespace espalier::render

@@ -11,6 +11,7 @@ struct Look {
   sim::Colour through{0.0f};  ///< share of the light from behind that comes through: thin blades only
   float gloss = 0.0f;         ///< strength of the waxy sheen
   sim::Colour emits{0.0f};    ///< light of its own
+  float alpha = 1.0f;         ///< how much of what is behind it it hides
 };
 
 /// A scene's surface: by its texture where it has one, else in its material's colour, weathered a little. p
@@ -31,5 +32,9 @@ Look bladeLook(const Surface& blade, const SurfaceHit& hit, float pixel_m);
 /// A blade's normal as if its flat polygons were gently domed across and drooping at the tip. Not of unit
 /// length.
 sim::Vec3f bulgedNormal(const ModelMesh& mesh, const SurfaceHit& hit);
+/// A place of a facet as high as the smooth surface is for which it stands: on the mean between the planes
+/// that touch that at the corners (Hanika, Hacking the shadow terminator, Ray Tracing Gems II, 2021). Shadows
+/// that began on facets would end along their edges.
+sim::Vec3f raised(const ModelMesh& mesh, const SurfaceHit& hit, sim::Vec3f p_m);
 
 }  // namespace espalier::render

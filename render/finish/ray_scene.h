@@ -37,6 +37,13 @@ struct Surface {
   /// Of each of a scene surface's materials; null: it has none, or its picture is not known. Empty without
   /// UVs.
   std::vector<const PictureTexture*> textures = {};
+
+  /// How much a triangle of it hides of what is behind it, 0..1.
+  float alphaAt(std::uint32_t triangle) const {
+    return mesh != nullptr ? sim::opacityOf(mesh->materials[mesh->material[triangle]]) : model->alpha;
+  }
+  /// Whether it closes bodies, which hide where they are entered, and not where they are left.
+  bool closed() const { return kind == SurfaceKind::stem || kind == SurfaceKind::body; }
 };
 
 /// What there is of scene meshes' textures as pictures.
@@ -58,8 +65,19 @@ class RayScene {
 
   const std::vector<Surface>& surfaces() const { return *surfaces_; }
 
+  /// Whether anything of it is seen through.
+  bool translucent() const { return translucent_; }
+
   std::array<SurfaceHit, kRays> firstHits(sim::Vec3f origin_m,
-                                          const std::array<sim::Vec3f, kRays>& directions) const;
+                                          const std::array<sim::Vec3f, kRays>& directions) const {
+    constexpr std::array<bool, kRays> kAll{true, true, true, true};
+    return nextHits(origin_m, directions, {}, kAll);
+  }
+  /// The same of wanted rays, of what is farther away than so much. Where what is seen through closes a body,
+  /// it is met from outside alone.
+  std::array<SurfaceHit, kRays> nextHits(sim::Vec3f origin_m, const std::array<sim::Vec3f, kRays>& directions,
+                                         const std::array<float, kRays>& beyond_m,
+                                         const std::array<bool, kRays>& wanted) const;
 
   struct ShadowRays {
     std::array<sim::Vec3f, kRays> origins_m, directions;
@@ -72,14 +90,17 @@ class RayScene {
       return reach;
     }
   };
-  /// True where nothing stands in the way of a wanted ray.
+  /// True where nothing stands in the way of a wanted ray, be it seen through or not.
   std::array<bool, kRays> clear(const ShadowRays& rays) const;
+  /// The share of light that comes along a wanted ray through all that is seen through; 0 of others.
+  std::array<float, kRays> lightThrough(const ShadowRays& rays) const;
 
  private:
   struct Device;
   std::unique_ptr<Device> device_;
   void addTextures(Surface& surface, const KnownPictures& pictures);
 
+  bool translucent_ = false;
   std::map<const LeafPicture*, std::unique_ptr<const PictureTexture>> textures_;
   std::map<const sim::Texture*, std::unique_ptr<const PictureTexture>> scene_textures_;
   std::unique_ptr<std::vector<Surface>> surfaces_;  // where Embree knows them

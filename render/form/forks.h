@@ -16,11 +16,11 @@ ForkAngles murrayAngles(double r0, double r1, double r2);
 inline constexpr double kStraightRadii = 3.3;
 
 /// A plant whose forks have Murray's angles, by the radii that its girth gives; in the plane in which they
-/// forked, or the next to it that has room. Its forks stay where they are, and its tips but for those of twigs
-/// so short that they are straight altogether. Where more than two daughters left a node, only two still do;
-/// the others leave the thickest a little farther on. A stretch is straight at both ends as far as its length
-/// allows, and bends in between, back to where it grew. One that would enter what is blocked is less so, or
-/// not at all.
+/// forked, or the next to it that has room. Its forks stay where they are, and its tips but for those of
+/// twigs so short that they are straight altogether. Where more than two daughters left a node, only two
+/// still do; the others leave the thickest a little farther on. A stretch is straight at both ends as far as
+/// its length allows, and bends in between, back to where it grew. One that would enter what is blocked is
+/// less so, or not at all.
 sim::Plant withMurrayForks(const sim::Plant& plant, const KeptFree& blocked);
 
 }  // namespace espalier::render

@@ -56,6 +56,25 @@ class Renumbered {
   sim::Skeleton skeleton_;
 };
 
+/// Limbs that met in a place meet again, wherever that went.
+void joinAgain(const sim::Plant& plant, std::span<const Reshaped> ways, const Renumbered& numbers,
+               sim::Skeleton& now) {
+  const auto joins = now.columns.find(sim::kJoinsColumn);
+  if (joins == now.columns.end()) return;
+  std::fill(joins->second.begin(), joins->second.end(), 0.0f);
+  const std::vector<float>& were = plant.skeleton.columns.find(sim::kJoinsColumn)->second;
+  const auto endOf = [&](std::size_t node) {
+    return static_cast<std::size_t>(
+        numbers.numberOf(static_cast<NodeId>(node), ways[node].through.size() - 1));
+  };
+  for (std::size_t n = 0; n < were.size(); ++n) {
+    if (were[n] == 0.0f) continue;
+    const std::size_t to = endOf(static_cast<std::size_t>(were[n]));
+    joins->second[endOf(n)] = static_cast<float>(to);
+    now.position_vx[endOf(n)] = now.position_vx[to];
+  }
+}
+
 /// How far along the segment from a to b the place next to p is, 0 to 1.
 double shareOf(Vec3 a, Vec3 b, Vec3 p) {
   const Vec3 along = b - a;
@@ -69,6 +88,7 @@ sim::Plant reshaped(const sim::Plant& plant, std::span<const Reshaped> ways) {
   Renumbered numbers(plant, ways);
   sim::Plant result = plant;
   result.skeleton = numbers.take();
+  joinAgain(plant, ways, numbers, result.skeleton);
   const sim::Skeleton& was = plant.skeleton;
   for (sim::PlacedElement& element : result.elements) {
     const auto n = static_cast<std::size_t>(element.node);

@@ -25,6 +25,8 @@ ModelMesh likeOf(const ModelMesh& mesh) {
   like.name = mesh.name;
   like.base_colour = mesh.base_colour;
   like.picture = mesh.picture;
+  like.emits = mesh.emits;
+  like.alpha = mesh.alpha;
   return like;
 }
 

@@ -19,6 +19,7 @@ struct ModelMesh {
   sim::Colour base_colour{0.5f};  ///< linear RGB
   sim::Colour emits{0.0f};        ///< light of its own, linear RGB
   float emits_share = 1.0f;       ///< what of it is left with each of its orders
+  float alpha = 1.0f;             ///< how much it hides of what is behind it, 0..1
   /// Laid on it by its UVs in place of the base colour; null: none.
   std::shared_ptr<const LeafPicture> picture;
   bool body = false;  ///< closed, as stones are: neither veined nor seen through

@@ -139,11 +139,13 @@ PlantModel modelPlant(const sim::Plant& plant, const sim::Frame& frame, const Mo
   model.stems.base_colour = plant.stem_colour;
   model.stems.emits = plant.stem_emits;
   model.stems.emits_share = plant.stem_emits_share;
+  model.stems.alpha = plant.stem_alpha;
   model.stems.picture = plant.bark.empty() ? plant.bark_picture : drawnBark(plant.stem_colour);
   sim::throwIfStopped();
 
   model.stalks.name = plant.name + " stalks";
   model.stalks.base_colour = plant.stem_colour;
+  model.stalks.alpha = plant.stem_alpha;
   if (!plant.shapes.empty())
     model.stalks.base_colour = glm::mix(plant.stem_colour, plant.shapes.front().colour, kStalkGreen);
   for (const sim::ElementShape& shape : plant.shapes) {
@@ -151,6 +153,7 @@ PlantModel modelPlant(const sim::Plant& plant, const sim::Frame& frame, const Mo
     model.elements.back().name = plant.name + " " + shape.name;
     model.elements.back().base_colour = shape.colour;
     model.elements.back().emits = shape.emits;
+    model.elements.back().alpha = shape.alpha;
     model.elements.back().picture = shape.picture;
     model.elements.back().body = shape.body;
     if (!shape.drawn.empty()) model.elements.back().picture = drawnLeaf(shape.drawn, shape.colour);

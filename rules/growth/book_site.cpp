@@ -145,6 +145,7 @@ sim::Plant seedlingOf(const RuleBook& book) {
     plant.stem_emits = stem.emits->light();
     plant.stem_emits_share = static_cast<float>(stem.emits->order_share);
   }
+  plant.stem_alpha = static_cast<float>(stem.alpha);
   plant.bark = stem.picture ? "" : stem.texture;
   plant.bark_picture = stem.picture;
   plant.girth = {

@@ -43,6 +43,7 @@ sim::Vec3 fixedBy(Pose pose, const Senses& senses, sim::Vec3 surface) {
     case Pose::light:
       return senses.light;
     case Pose::surface:
+    case Pose::aside:
       return surface;
     case Pose::free:
       break;
@@ -62,9 +63,10 @@ sim::Vec3 inOrder(double turn_deg, sim::Vec3 stem, sim::Vec3 across) {
   return turn.x * across + turn.y * glm::cross(stem, across);
 }
 
-/// stand() of what lies on a surface with this normal; `out` is where it would leave its stem.
+/// stand() of what lies on a surface with this normal; `out` is where it would leave its stem, from which it
+/// turns by the pitch.
 void lie(sim::PlacedElement& element, const ElementPlace& place, sim::Vec3 normal, sim::Vec3 stem,
-         sim::Vec3& out, int trial, sim::Slots& slots) {
+         sim::Vec3& out, double pitch_deg, int trial, sim::Slots& slots) {
   const sim::Vec3 beside = glm::cross(normal, stem);
   const bool along = glm::length(beside) > 1e-3;  // else the limb says nothing of a way in the surface
   if (along) {
@@ -74,7 +76,10 @@ void lie(sim::PlacedElement& element, const ElementPlace& place, sim::Vec3 norma
     out = other ? -glm::normalize(beside) : glm::normalize(beside);
   }
   element.z = normal;
-  element.y = turned(squareTo(normal, along ? stem : out), normal, sway(trial, kTilt, slots));
+  const sim::Vec3 ahead = squareTo(normal, along ? stem : out);
+  const glm::dvec2 pitch = sim::unitCircle(pitch_deg / 360.0);
+  const sim::Vec3 way = along && pitch_deg > 0.0 ? pitch.x * ahead + pitch.y * out : ahead;
+  element.y = turned(way, normal, sway(trial, kTilt, slots));
   // Or all would lie in one plane, where none may lie over another: these overlap as tiles do.
   element.position_vx += std::min(0.25 + 0.05 * trial, kMostLift) * slots.uniform(kLift) * normal;
 }
@@ -116,13 +121,17 @@ std::vector<ElementPlace> placesInOrder(const Phyllotaxis& phyllotaxis, double b
 }
 
 sim::Vec3 surfaceNormal(const sim::World& world, sim::Vec3 place_vx) {
+  // In a guide itself nothing is farther away on one side than on the other.
+  const sim::Vec3 in_guide(world.guideNormalAt(sim::voxelAt(place_vx)));
+  if (in_guide != sim::Vec3(0.0)) return glm::normalize(in_guide);
   const sim::Vec3 away = sim::awayFromScene(world, sim::voxelAt(place_vx));
   if (away == sim::Vec3(0.0)) return away;
   for (double step = 0.0; step <= world.layers() + 1.0; step += 0.5) {
     const sim::Voxel v = sim::voxelAt(place_vx - step * away);
     if (!sim::contains(world.frame().size, v)) break;
-    if (!isScene(world, v)) continue;
-    const sim::Vec3 normal(world.surfaceAt(v)->normal);
+    const sim::Vec3 guide(world.guideNormalAt(v));
+    if (guide == sim::Vec3(0.0) && !isScene(world, v)) continue;
+    const sim::Vec3 normal(guide != sim::Vec3(0.0) ? guide : sim::Vec3(world.surfaceAt(v)->normal));
     const double faces = glm::dot(normal, away);
     // Distances grow about rounded edges; where the two disagree much, another sheet was hit.
     if (std::abs(faces) > 0.5) return glm::normalize(faces > 0.0 ? normal : -normal);
@@ -143,8 +152,11 @@ void stand(sim::PlacedElement& element, const Element& rule, const ElementPlace&
   sim::Vec3 out;  // square to the stem
   if (fixed != sim::Vec3(0.0)) {
     out = place.in_order ? inOrder(turn_deg, stem, across) : squareTo(stem, byItsWeight(around, stem, slots));
-    if (rule.pose == Pose::surface) {
-      lie(element, place, fixed, stem, out, trial, slots);
+    if (liesFlat(rule.pose)) {
+      const Value pitch = rule.phyllotaxis.value_or(Phyllotaxis()).pitch_deg;
+      const double pitch_deg =
+          rule.pose == Pose::surface ? 0.0 : evaluate(pitch, senses.circumstance, slots.uniform(kPitch));
+      lie(element, place, fixed, stem, out, pitch_deg, trial, slots);
     } else if (rule.pose == Pose::light) {
       element.z = fixed;
       element.y = turned(squareTo(fixed, out), fixed, sway(trial, kTilt, slots));

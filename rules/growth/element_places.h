@@ -62,8 +62,8 @@ enum ElementSlot : unsigned {
 inline constexpr double kMostLift = 0.75;
 
 /// Unit, square to the scene's surface that is nearest to a place inside the world, and away from it: as the
-/// surface was modelled, where that is known, and else as the distance to it grows. Zero where nothing is
-/// near.
+/// surface was modelled, where that is known, and else as the distance to it grows. In a guide it is the
+/// guide's own. Zero where nothing is near.
 sim::Vec3 surfaceNormal(const sim::World& world, sim::Vec3 place_vx);
 
 /// Which way an element's trial stands on its segment; the axes of `element` are set, and its position moved

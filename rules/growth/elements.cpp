@@ -46,7 +46,7 @@ sim::LatticeBox reachOf(const sim::SiteView& view, const RuleSet& rules, double 
   for (std::size_t i = 0; i < rules.elements.size(); ++i) {
     const auto part = view.plant.element_parts[static_cast<std::size_t>(first_shape) + i];
     double away_vx = highest(rules.elements[i].petiole.value);
-    if (rules.elements[i].pose == Pose::surface) away_vx += kMostLift;
+    if (liesFlat(rules.elements[i].pose)) away_vx += kMostLift;
     for (const sim::Vec3 corner : view.pieces.shapeOf(part).corners)
       reach = std::max(reach, away_vx + glm::length(corner) * highest(rules.elements[i].size) * vigour);
   }
@@ -82,7 +82,8 @@ std::vector<sim::ElementShape> shapesOf(const RuleSet& rules) {
   for (const Element& element : rules.elements) {
     shapes.push_back({element.name, element.polygons, element.colour, element.varies,
                       element.picture ? "" : element.texture, element.picture, element.body,
-                      element.emits ? element.emits->light() : sim::Colour(0.0f)});
+                      element.emits ? element.emits->light() : sim::Colour(0.0f),
+                      static_cast<float>(element.alpha)});
   }
   return shapes;
 }
@@ -126,7 +127,7 @@ std::vector<sim::ProposedElement> proposeElements(const sim::SiteView& view, con
         element.exposure = static_cast<float>(senses.exposure);
         element.scale = evaluate(rule.size, senses.circumstance, slots.uniform(kSize)) * senses.vigour;
         const sim::Vec3 surface =
-            rule.pose == Pose::surface ? surfaceNormal(view.world, element.position_vx) : sim::Vec3(0.0);
+            liesFlat(rule.pose) ? surfaceNormal(view.world, element.position_vx) : sim::Vec3(0.0);
         stand(element, rule, places[i], stem, begins.across, around, senses, surface, trial, slots);
         // The cheap questions first. The world is frozen: the element's own segment does not stand there yet.
         if (!sim::place(element, facet_shape, facets) || !sim::inside(view.world.frame().size, facets) ||

@@ -10,7 +10,7 @@ namespace {
 LaidKind kindOf(const Element& element) {
   LaidKind kind;
   kind.rule = &element;
-  kind.flat = element.pose == Pose::surface;
+  kind.flat = liesFlat(element.pose);
   std::vector<glm::dvec2> points;
   double nearest = kNoLimit;
   for (const auto& polygon : element.polygons) {
@@ -43,7 +43,7 @@ std::vector<LaidKind> laidKinds(const RuleBook& book) {
 Stance stanceOf(const sim::PlacedElement& element, Pose pose) {
   Stance stance;
   stance.at_vx = element.position_vx;
-  const bool faces_out = pose == Pose::surface || pose == Pose::light;
+  const bool faces_out = liesFlat(pose) || pose == Pose::light;
   stance.normal = faces_out ? element.z : element.y;
   stance.y = faces_out ? element.y : element.z;
   stance.x = glm::cross(stance.y, stance.normal);

@@ -26,6 +26,7 @@ void poseOn(const Stance& stance, Pose pose, sim::Vec3 light, Tilt tilt, sim::Pl
   };
   switch (pose) {
     case Pose::surface:
+    case Pose::aside:
       facingOut(stance.normal);
       break;
     case Pose::light:

@@ -83,6 +83,12 @@ std::shared_ptr<const Table> stemKeys() {
                {.meaning = "Light that it sends out, and with interreflection onto others too; a colour "
                            "stands for its own."},
                "colour")
+      .number(
+          "opacity", &Stem::alpha,
+          {.unit = "share",
+           .limits = {0.0, 1.0},
+           .meaning =
+               "How much it hides of what is behind it, in pictures and models: 0.3 is ice, 1 hides all."})
       .file(
           "texture", &Stem::texture,
           {.meaning = "What is painted on it, side by side: bark, which is drawn in `colour`, or a PNG file "
@@ -158,14 +164,21 @@ std::shared_ptr<const Table> elementKeys() {
            {"hang", Pose::hang},
            {"stand", Pose::stand},
            {"light", Pose::light},
-           {"surface", Pose::surface}},
-          {.meaning = "Hanging or standing upright, facing the brightest sky, or flat on the nearest "
-                      "surface; free: by face and pitch."})
+           {"surface", Pose::surface},
+           {"aside", Pose::aside}},
+          {.meaning = "Upright, hanging, facing the brightest sky, or flat on a surface: along its limb, or "
+                      "aside by pitch."})
       .colour("colour", &Element::colour, {.meaning = "Colour of its polygons."})
       .section("emits", &Element::emits, emissionKeys(),
                {.meaning = "Light that it sends out, and with interreflection onto others too; a colour "
                            "stands for its own."},
                "colour")
+      .number(
+          "opacity", &Element::alpha,
+          {.unit = "share",
+           .limits = {0.0, 1.0},
+           .meaning =
+               "How much it hides of what is behind it, in pictures and models: 0.3 is ice, 1 hides all."})
       .custom(
           "polygons", Kind::polygons,
           [](Element& e, const Datum& d) {

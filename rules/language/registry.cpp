@@ -108,12 +108,13 @@ std::shared_ptr<const Table> colonizationKeys() {
       .distance("influence", &Colonization::influence,
                 derived("An attractor acts on nodes that are nearer than this."))
       .distance("kill", &Colonization::kill, derived("An attractor ends when a node comes nearer than this."))
-      .choice<Acts>("acts", &Colonization::acts,
-                    {{"on_nearest_node", Acts::on_nearest_node},
-                     {"on_every_node", Acts::on_every_node},
-                     {"on_all_neighbours", Acts::on_all_neighbours}},
-                    {.meaning = "Each attractor pulls its nearest node, or all around it, which meet; or each "
-                                "node picks its nearest attractor."})
+      .choice<Acts>(
+          "acts", &Colonization::acts,
+          {{"on_nearest_node", Acts::on_nearest_node},
+           {"on_every_node", Acts::on_every_node},
+           {"on_all_neighbours", Acts::on_all_neighbours}},
+          {.meaning = "Each attractor pulls its nearest node, or all around it, which meet; or each "
+                      "node picks its nearest attractor."})
       .flag("onto", &Colonization::onto,
             {.meaning = "New nodes stand on attractors, which are used up, in place of a step farther."})
       .flag("repeated", &Colonization::repeated,

@@ -258,12 +258,17 @@ struct Phyllotaxis {
 
 /// What decides how an element stands.
 enum class Pose {
-  free,    ///< chance or phyllotaxis, and its face by Element::face
-  hang,    ///< it grows straight down
-  stand,   ///< straight up
-  light,   ///< its face looks at the brightest part of the sky; free where none is seen
-  surface  ///< it lies flat on the scene, along its limb; free where nothing is near
+  free,     ///< chance or phyllotaxis, and its face by Element::face
+  hang,     ///< it grows straight down
+  stand,    ///< straight up
+  light,    ///< its face looks at the brightest part of the sky; free where none is seen
+  surface,  ///< it lies flat on the scene, along its limb; free where nothing is near
+  aside     ///< likewise flat, but leaving its limb by the pitch, to one side or the other
 };
+
+inline bool liesFlat(Pose pose) {
+  return pose == Pose::surface || pose == Pose::aside;
+}
 
 struct Element {
   std::string name = "leaf";
@@ -289,6 +294,7 @@ struct Element {
   double opacity = 1.0;  ///< share of the polygons' area that the texture leaves; who reads it puts it here
   sim::ColourVariation varies;
   std::optional<Emission> emits;
+  double alpha = 1.0;  ///< how much it hides of what is behind it, 0..1: in pictures alone
 };
 
 /// How a plant's ways stray from those that grew: see sim::StemForm::Rough.
@@ -313,6 +319,7 @@ struct Stem {
   std::string texture;                          ///< as Element::texture
   std::shared_ptr<const sim::Picture> picture;  ///< of a file; who reads it puts it here
   std::optional<StemEmission> emits;
+  double alpha = 1.0;  ///< as Element::alpha
 };
 
 struct RuleSet;

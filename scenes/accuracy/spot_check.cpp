@@ -225,7 +225,7 @@ std::optional<Certificate::SpotCheck> spotCheck(const Site& site, const sim::Lig
                                                 std::uint64_t seed) {
   render::ModelScene model;
   for (const sim::TiledMesh& tiled : site.meshes) {
-    if (tiled.lit()) model.meshes.push_back(&tiled.mesh);
+    if (tiled.lit() && tiled.shade) model.meshes.push_back(&tiled.mesh);
   }
   const render::RayScene scene(model);
   const std::vector<Point> points = drawPoints(site, seed);

@@ -191,6 +191,7 @@ sim::TiledMesh lineShape(const SceneMesh& spec, LineArt art) {
   tiled.mesh.name = spec.name;
   tiled.mesh.regions = std::move(art.regions);
   tiled.mesh.materials = {{.name = spec.name, .colour = spec.colour.value_or(sim::Material{}.colour)}};
+  if (spec.alpha) sim::setOpacity(tiled.mesh.materials.front(), *spec.alpha);
   for (sim::Line& line : art.lines) {
     line.from_m = placing.point(line.from_m);
     line.to_m = placing.point(line.to_m);

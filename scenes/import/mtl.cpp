@@ -114,6 +114,10 @@ int readMtl(std::string_view mtl, MtlMaterials& materials) {
       }
       for (int c = 0; c < 3; ++c)
         (material->material.*own->member)[c] = sim::linearFromSrgb(std::clamp((*colour)[c], 0.0f, 1.0f));
+    } else if (statement.keyword() == "d" && material != nullptr) {
+      const auto opacity = numberOf(statement.takeNumber());
+      if (opacity) sim::setOpacity(material->material, std::clamp(*opacity, 0.0f, 1.0f));
+      if (!opacity && wrong_line == 0) wrong_line = statement.line();
     } else if ((statement.keyword() == "map_Kd" || statement.keyword() == "map_kd") && material != nullptr) {
       readPicture(statement.rest(), *material);
     }

@@ -22,11 +22,12 @@ using MtlMaterials = std::map<std::string, MtlMaterial>;
 /// What an MTL file does not say the look of: grey.
 sim::Material unknownMaterial(const std::string& name);
 
-/// Adds an MTL file's materials with their diffuse colours and pictures, and what they emit (`newmtl`, `Kd`,
-/// `Ke`, `map_Kd` with its options -clamp, -s and -o) as linear light; the format does not say what its
-/// values are, so they are taken as display values (IEC 61966-2-1), as a colour picker shows them. All else
-/// in the file is not read. Read here as Assimp 5.2.5 takes 33 kB for each material. Gives the line of the
-/// first `Kd` or `Ke` back that is no colour, and is left out; 0: there is none.
+/// Adds an MTL file's materials with their diffuse colours and pictures, how much they hide, and what they
+/// emit (`newmtl`, `Kd`, `d`, `Ke`, `map_Kd` with its options -clamp, -s and -o), light as linear; the format
+/// does not say what its values are, so they are taken as display values (IEC 61966-2-1), as a colour picker
+/// shows them. All else in the file is not read, `Tr` among it, which means one thing here and its contrary
+/// there. Read here as Assimp 5.2.5 takes 33 kB for each material. Gives the line of the first `Kd` or `Ke`
+/// back that is no colour, or `d` that is no number, and is left out; 0: there is none.
 int readMtl(std::string_view mtl, MtlMaterials& materials);
 
 }  // namespace espalier::scenes

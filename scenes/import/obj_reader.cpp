@@ -91,7 +91,8 @@ class MtlFiles {
     wrong_ = {{},
               library.line,
               library.column,
-              fmt::format("line {} of the MTL file {} is no colour, and is left out", line, inQuotes(name))};
+              fmt::format("line {} of the MTL file {} is neither a colour nor an opacity, and is left out",
+                          line, inQuotes(name))};
   }
 
   MeshFolderIo& io_;

@@ -56,6 +56,9 @@ sim::Mesh readMesh(const SceneMesh& spec, SiteFiles& to) {
   if (spec.emits) {
     for (sim::Material& material : mesh.materials) material.emissive = spec.emits->light();
   }
+  if (spec.alpha) {
+    for (sim::Material& material : mesh.materials) sim::setOpacity(material, *spec.alpha);
+  }
   return mesh;
 }
 
@@ -64,6 +67,7 @@ void addMesh(const SceneMesh& spec, sim::Mesh mesh, SiteFiles& to) {
   if (spec.tiled) {
     to.meshes.push_back({std::move(mesh), spec.solid.value_or(false), !spec.solid && !spec.guide});
     to.meshes.back().guide = spec.guide;
+    to.meshes.back().shade = spec.shade;
     return;
   }
   mesh.uvs = {};  // nobody sees it

@@ -80,6 +80,9 @@ std::shared_ptr<const Table> meshKeys() {
       .flag("guide", &SceneMesh::guide,
             {.meaning = "Is felt by what grows, as near and as a region, but stands in nobody's way and "
                         "casts no shadow: a sketch for growth to follow."})
+      .flag("shade", &SceneMesh::shade,
+            {.meaning = "Whether it takes light; otherwise nothing grows through it, but light goes, as "
+                        "through glass."})
       .metres("thickness", &SceneMesh::thickness_m,
               {.unit = kMetres,
                .limits = {0.0, 1e6, true},
@@ -91,6 +94,12 @@ std::shared_ptr<const Table> meshKeys() {
                {.meaning = "Light that it sends out, instead of the file's own, and with interreflection "
                            "onto others too."},
                "colour")
+      .number(
+          "opacity", &SceneMesh::alpha,
+          {.unit = "share",
+           .limits = {0.0, 1.0},
+           .meaning =
+               "Instead of the file's own: how much it hides of what is behind it, in pictures and models."})
       .oneOf({"file", "lines"})
       .shared();
 }

@@ -126,6 +126,8 @@ void checkLines(const Scene& scene, const Given& given, const Complain& complain
       if (!mesh.tiled)
         wrong("tiled", "lines with tiled: false are no shape for attractors; expected it without");
     }
+    if (!mesh.shade && (mesh.guide || !mesh.tiled || !mesh.lines_m.empty()))
+      wrong("shade", "guides, lines and what is not tiled take no light anyway; expected it without");
     if (!mesh.guide) continue;
     if (!mesh.tiled) wrong("guide", "a guide with tiled: false is felt by nobody; expected one of them");
     if (says("solid"))

@@ -68,6 +68,7 @@ struct ElementShape {
   std::shared_ptr<const Picture> picture = nullptr;
   bool body = false;   ///< its polygons close a body, such as a stone: no light comes through it
   Colour emits{0.0f};  ///< light that it sends out by itself, linear; growth does not look at it
+  float alpha = 1.0f;  ///< how much it hides of what is behind it, 0..1; growth and light do not look at it
 };
 
 struct PlacedElement {
@@ -95,6 +96,7 @@ struct Plant {
   std::shared_ptr<const Picture> bark_picture = nullptr;
   Colour stem_emits{0.0f};        ///< as ElementShape::emits
   float stem_emits_share = 1.0f;  ///< what of it is left with each order of branching
+  float stem_alpha = 1.0f;        ///< as ElementShape::alpha
   StemGirth girth;
   StemForm form;
   PartId stem_part = kFree;

@@ -228,13 +228,7 @@ Mesh asItFaces(const TiledMesh& tiled) {
 
 /// Puts what takes no light into the world: lines are too thin for it, and guides are not there.
 void addOpen(World& world, const std::vector<TiledVoxel>& surface, bool guide) {
-  if (!guide) return world.occupyClear(surface);
-  for (auto from = surface.begin(); from != surface.end();) {
-    const PartId part = from->surface.part;
-    std::vector<Voxel> voxels;
-    for (; from != surface.end() && from->surface.part == part; ++from) voxels.push_back(from->voxel);
-    world.addGuide(part, voxels);
-  }
+  guide ? world.addGuide(surface) : world.occupyClear(surface);
 }
 
 /// Puts a mesh into the world; what was found out where it is filled.
@@ -256,7 +250,7 @@ FillReport add(World& world, const TiledMesh& tiled, PartId first_part) {
   const bool finds = tiled.where_closed && !tiled.solid;
   Filled filled = finds ? fillMesh(triangles, touched, enclosedBy(triangles, touched))
                         : fillMesh(triangles, touched, tiled.solid);
-  world.addOpaque(filled.opaque);
+  if (tiled.shade) world.addOpaque(filled.opaque);
   if (tiled.solid || finds) faceOutwards(surface, filled.opaque);
   world.occupyClear(surface);
   if (!tiled.solid && !finds) return {};
@@ -284,7 +278,7 @@ World buildWorld(const Frame& frame, const std::vector<TiledMesh>& meshes, int l
     const FillReport report =
         m.turned.empty() || !m.lit()
             ? add(world, m, first_part)
-            : add(world, {asItFaces(m), m.solid, m.where_closed, {}, {}, m.guide}, first_part);
+            : add(world, {asItFaces(m), m.solid, m.where_closed, {}, {}, m.guide, m.shade}, first_part);
     if (report.found && report.filled > 0) world.setFoundClosed(m.mesh.name);
     if (fills != nullptr && (m.solid || report.filled > 0)) fills->push_back(report);
   }

@@ -30,6 +30,7 @@ struct TiledMesh {
   std::vector<Line> lines = {};
   /// Is felt, as near and as a region, and stands in nobody's way: neither of growth nor of light.
   bool guide = false;
+  bool shade = true;  ///< takes light; if not, it goes through, as through glass
 
   /// Whether light falls on its triangles.
   bool lit() const { return !guide && lines.empty(); }

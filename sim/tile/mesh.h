@@ -34,6 +34,19 @@ struct Material {
   std::shared_ptr<const Texture> texture = nullptr;  ///< by which the colour is multiplied; null: none
 };
 
+/// How much of what is behind it a material hides: 0 all is seen through it .. 1 nothing is.
+inline float opacityOf(const Material& material) {
+  return material.alpha_mode == Material::Alpha::blend ? material.alpha : 1.0f;
+}
+/// `opacity`: 0..1. What is cut out by a mask stays so where it is opaque.
+inline void setOpacity(Material& material, double opacity) {
+  material.alpha = static_cast<float>(opacity);
+  if (opacity < 1.0)
+    material.alpha_mode = Material::Alpha::blend;
+  else if (material.alpha_mode == Material::Alpha::blend)
+    material.alpha_mode = Material::Alpha::opaque;
+}
+
 /// A triangle mesh as a plain value. Nothing is assumed of it: real meshes are open, inside out and unwelded.
 struct Mesh {
   std::string name;

@@ -33,6 +33,7 @@ std::unique_ptr<World::Grids> makeGrids(const Frame& frame) {
       .normal = makeGrid<openvdb::Vec3SGrid>("normal", none, transform),
       .offset_vx = makeGrid<openvdb::FloatGrid>("offset_vx", 0.0f, transform),
       .guide = makeGrid<openvdb::Int32Grid>("guide", kFree, transform),
+      .guide_normal = makeGrid<openvdb::Vec3SGrid>("guide_normal", none, transform),
       .layer = makeGrid<openvdb::Int32Grid>("layer", -1, transform),
       .nearest = makeGrid<openvdb::Int32Grid>("nearest", kFree, transform),
       .distance_vx = makeGrid<openvdb::FloatGrid>("distance_vx", kFar, transform),
@@ -99,6 +100,7 @@ World::World(const World& other)
           .normal = other.grids_->normal->deepCopy(),
           .offset_vx = other.grids_->offset_vx->deepCopy(),
           .guide = other.grids_->guide->deepCopy(),
+          .guide_normal = other.grids_->guide_normal->deepCopy(),
           .layer = other.grids_->layer->deepCopy(),
           .nearest = other.grids_->nearest->deepCopy(),
           .distance_vx = other.grids_->distance_vx->deepCopy(),
@@ -256,12 +258,18 @@ void World::addOpaque(const BitVolume& voxels) {
   ++version_;
 }
 
-void World::addGuide(PartId part, std::span<const Voxel> voxels) {
-  for (const Voxel v : voxels) {
+void World::addGuide(std::span<const TiledVoxel> voxels) {
+  for (const auto& [v, surface] : voxels) {
     if (!contains(frame_.size, v)) throw BrokenContract("a guide's voxel lies outside the world");
-    if (!occupied_.at(v) && guideAt(v) == kFree) grids_->guide->tree().setValueOn(coordOf(v), part);
+    if (occupied_.at(v) || guideAt(v) != kFree) continue;
+    grids_->guide->tree().setValueOn(coordOf(v), surface.part);
+    grids_->guide_normal->tree().setValueOn(coordOf(v), toVdb(surface.normal));
   }
   ++version_;
+}
+
+Vec3f World::guideNormalAt(Voxel v) const {
+  return fromVdb(grids_->guide_normal->tree().getValue(coordOf(v)));
 }
 
 PartId World::guideAt(Voxel v) const {

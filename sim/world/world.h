@@ -136,10 +136,10 @@ class World {
   void occupyBlocks(std::span<const TiledVoxel> blocks);
   /// Adds voxels to what takes light.
   void addOpaque(const BitVolume& voxels);
-  /// Free voxels that are felt as the scene is, and hold nothing: of a guide's part each. They count from the
-  /// next setLayers on. Throws BrokenContract for a voxel outside the world; one that is occupied, or another
-  /// guide's, keeps what it has.
-  void addGuide(PartId part, std::span<const Voxel> voxels);
+  /// Free voxels that are felt as the scene is, and hold nothing: of a guide's part and normal each. They
+  /// count from the next setLayers on. Throws BrokenContract for a voxel outside the world; one that is
+  /// occupied, or another guide's, keeps what it has.
+  void addGuide(std::span<const TiledVoxel> voxels);
   /// Finds for every voxel within `layers` of a scene voxel, or of a guide, its Nearness; replaces what was
   /// known before. Throws InputError for more than 128 layers, and where they hold more voxels than NearSteps
   /// can count.
@@ -149,6 +149,8 @@ class World {
   PartId partAt(Voxel v) const;
   /// The part whose guide a voxel is; kFree where none is.
   PartId guideAt(Voxel v) const;
+  /// Unit, as the guide was modelled there; zero where none is, or it has no sides.
+  Vec3f guideNormalAt(Voxel v) const;
   /// Of the voxels from `first` on along x that bits of `among` name (bit i: i voxels on), those that partAt
   /// says belong to a plant with this number. All of them must lie inside the world.
   std::uint64_t ofPlant(Voxel first, std::uint64_t among, int plant) const;

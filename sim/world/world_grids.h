@@ -15,14 +15,15 @@ inline openvdb::Coord coordOf(Voxel v) {
 /// The truth of the world: the scene's surfaces and the boundary layers in grids, the plants' voxels beside
 /// them. All grids share one transform, with voxel (0,0,0) at the frame's origin.
 struct World::Grids {
-  openvdb::Int32Grid::Ptr part;       ///< active where the scene is; background kFree
-  openvdb::Vec3SGrid::Ptr colour;     ///< active where the scene is
-  openvdb::FloatGrid::Ptr coverage;   ///< active where the scene is
-  openvdb::Vec3SGrid::Ptr normal;     ///< active where the scene is
-  openvdb::FloatGrid::Ptr offset_vx;  ///< active where the scene is
-  openvdb::Int32Grid::Ptr guide;      ///< part of the guide; active where one is; background kFree
-  openvdb::Int32Grid::Ptr layer;      ///< active within the boundary layers, 0 on the objects; background -1
-  openvdb::Int32Grid::Ptr nearest;    ///< part of the nearest scene object, same topology as layer
+  openvdb::Int32Grid::Ptr part;          ///< active where the scene is; background kFree
+  openvdb::Vec3SGrid::Ptr colour;        ///< active where the scene is
+  openvdb::FloatGrid::Ptr coverage;      ///< active where the scene is
+  openvdb::Vec3SGrid::Ptr normal;        ///< active where the scene is
+  openvdb::FloatGrid::Ptr offset_vx;     ///< active where the scene is
+  openvdb::Int32Grid::Ptr guide;         ///< part of the guide; active where one is; background kFree
+  openvdb::Vec3SGrid::Ptr guide_normal;  ///< of the guide, likewise
+  openvdb::Int32Grid::Ptr layer;    ///< active within the boundary layers, 0 on the objects; background -1
+  openvdb::Int32Grid::Ptr nearest;  ///< part of the nearest scene object, same topology as layer
   openvdb::FloatGrid::Ptr distance_vx;  ///< distance to it, same topology as layer; background infinity
 
   /// The same data by block. Leaves are never removed but by setLayers, which makes `near` anew.

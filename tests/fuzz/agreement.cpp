@@ -173,8 +173,10 @@ void agreeOnMeshes(Drawn& meshes, tests::Numbers& numbers) {
     }
     if (find(mesh.value, "file") && find(mesh.value, "lines"))
       takeOut(mesh.value, {numbers.chance(0.5) ? "lines" : "file"});
-    if (find(mesh.value, "lines")) takeOut(mesh.value, {"regions", "solid", "optional", "unit", "tiled"});
-    if (find(mesh.value, "guide")) takeOut(mesh.value, {"solid", "tiled"});
+    if (find(mesh.value, "lines"))
+      takeOut(mesh.value, {"regions", "solid", "optional", "unit", "tiled", "shade"});
+    if (find(mesh.value, "guide")) takeOut(mesh.value, {"solid", "tiled", "shade"});
+    if (find(mesh.value, "tiled")) takeOut(mesh.value, {"shade"});
   }
 }
 

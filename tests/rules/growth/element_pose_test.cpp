@@ -133,6 +133,58 @@ TEST_P(ElementPose, OnASurfaceGrowsAlongItsLimb) {
   EXPECT_GT(farthest_deg, 0.5) << "they turn about their normals";
 }
 
+/// Of all that lie on their segment beside a surface: how many degrees each leaves its limb by, to one side
+/// (above 0) or the other.
+std::vector<double> asideOf(const sim::Growth& growth) {
+  std::vector<double> sides;
+  forEachElement(growth, [&](const auto& e, const auto& skeleton) {
+    const auto n = static_cast<std::size_t>(e.node);
+    Vec3 way = skeleton.position_vx[n] - skeleton.position_vx[static_cast<std::size_t>(skeleton.parent[n])];
+    way -= glm::dot(way, e.z) * e.z;
+    if (glm::length(way) < 0.5) return;
+    way = glm::normalize(way);
+    sides.push_back(180.0 / std::numbers::pi *
+                    std::atan2(glm::dot(e.z, glm::cross(way, e.y)), glm::dot(way, e.y)));
+  });
+  return sides;
+}
+
+TEST(ElementPoseAside, LeavesItsLimbByThePitchInTwoRowsOnTheSurface) {
+  RuleSet rules = posing(Pose::aside, true);
+  rules.elements.at(0).phyllotaxis->angle_deg = 180.0;
+  rules.elements.at(0).phyllotaxis->pitch_deg = 60.0;
+  rules.elements.at(0).crosses = true;  // or many would have to sway
+  const std::vector<double> sides = asideOf(leafy(rules));
+  ASSERT_GT(sides.size(), 40u);
+  std::size_t left = 0, by_pitch = 0;
+  for (const double side : sides) {
+    left += side > 0.0;
+    by_pitch += std::abs(std::abs(side) - 60.0) < 4.1;  // as far as first trials sway
+  }
+  EXPECT_GT(by_pitch, sides.size() * 9 / 10);
+  EXPECT_NEAR(static_cast<double>(left) / static_cast<double>(sides.size()), 0.5, 0.1);
+  rules.elements.at(0).pose = Pose::surface;  // which asks for no pitch
+  std::size_t along = 0;
+  for (const double side : asideOf(leafy(rules))) along += std::abs(side) < 10.0;
+  EXPECT_GT(along, sides.size() / 2);
+}
+
+/// In a sheet of guide voxels nothing is nearer on one side than on the other, so that the sheet says it.
+TEST(ElementPoseAside, InAGuideTheGuideSaysWhichWayIsUp) {
+  sim::World world({Vec3(0.0), 0.04, {24, 24, 24}});
+  const sim::PartId part = world.addPart({"pane", "pane", sim::PartKind::scene, -1});
+  const Vec3 normal = glm::normalize(Vec3(0.2, 0.1, 1.0));
+  std::vector<sim::TiledVoxel> pane;
+  for (int y = 0; y < 24; ++y)
+    for (int x = 0; x < 24; ++x) pane.push_back({{x, y, 12}, {part, {}, 1.0f, sim::Vec3f(normal)}});
+  world.addGuide(pane);
+  world.setLayers(2);
+  EXPECT_LT(glm::distance(surfaceNormal(world, {10, 10, 12}), normal), 1e-6);
+  EXPECT_LT(glm::distance(surfaceNormal(world, {10, 10, 13}), normal), 1e-6);
+  EXPECT_LT(glm::distance(surfaceNormal(world, {10, 10, 11}), -normal), 1e-6) << "of its other side";
+  EXPECT_EQ(surfaceNormal(world, {10, 10, 20}), Vec3(0.0));
+}
+
 /// A tunnel along x, whose roof goes so far; wholly dark where that is all of it.
 sim::World tunnel(int roofed_to) {
   sim::World world({Vec3(0.0), 0.04, {61, 30, 41}});

@@ -99,6 +99,7 @@ const std::map<std::string, Datum>& otherValues() {
       {"elements[].colour", sim::Colour(0.9f, 0.1f, 0.1f)},
       {"elements[].emits.colour", sim::Colour(0.9f, 0.1f, 0.1f)},
       {"elements[].emits.strength", 7.0},
+      {"elements[].opacity", 0.4},
   };
   return values;
 }
@@ -114,6 +115,7 @@ const std::map<std::string, std::string> kWithoutEffect = {
     {"stem.emits.colour", "the same"},
     {"stem.emits.strength", "the same"},
     {"stem.emits.order_share", "the same"},
+    {"stem.opacity", "the same"},
     {"stem.radius", "the same"},
     {"stem.by", "girth is for models alone"},
     {"stem.exponent", "the same"},
@@ -235,6 +237,7 @@ Result resultOf(const RuleSet& book, int iterations = 7) {
       result.shapes.insert(result.shapes.end(), {shape.name, shape.drawn});
       colour(shape.colour);
       colour(shape.emits);
+      result.colours.push_back(shape.alpha);
       colour({static_cast<float>(shape.varies.by_chance), static_cast<float>(shape.varies.by_age),
               static_cast<float>(shape.varies.by_light)});
       result.colours.push_back(static_cast<float>(shape.varies.by_height));
@@ -307,7 +310,7 @@ TEST_P(EveryKey, ChangesWhatGrows) {
       EXPECT_NE(result.shapes, plain.shapes);
       EXPECT_EQ(result.state, plain.state);
     } else if (path == "elements[].colour" || path.starts_with("elements[].emits.") ||
-               path.starts_with("elements[].varies.")) {
+               path == "elements[].opacity" || path.starts_with("elements[].varies.")) {
       EXPECT_NE(result.colours, plain.colours);
       EXPECT_EQ(result.state, plain.state);
     } else {

@@ -140,12 +140,14 @@ TEST_F(ObjMaterials, ColoursAsOtherProgramsWriteThem) {
   found = read(kSquareObj);
   expectGrey(found.mesh);
   EXPECT_EQ(warnings(found),
-            "square.obj:1:8: line 4 of the MTL file 'paint.mtl' is no colour, and is left out");
+            "square.obj:1:8: line 4 of the MTL file 'paint.mtl' is neither a colour nor an opacity, and is "
+            "left out");
   for (const std::string wrong :
        {"Kd", "Kd 1 1", "Kd nan 0 0", "Kd 1e39 0 0", "Kd xyz 1 1 1", "Kd 0x1 0 0"}) {
     write("paint.mtl", "newmtl red\n" + wrong + "\n");  // and no grey
     EXPECT_EQ(warnings(read(kSquareObj)),
-              "square.obj:1:8: line 2 of the MTL file 'paint.mtl' is no colour, and is left out\n"
+              "square.obj:1:8: line 2 of the MTL file 'paint.mtl' is neither a colour nor an opacity, and is "
+              "left out\n"
               "square.obj:10:8: no MTL file that it names has the material 'grey', which is grey");
   }
   for (const std::string right : {"Kd -1 2 1e-50", "Kd 0,0 1,0 0", "map_Kd -s 1 1 1 lost.png\nKd 0 1 0"}) {

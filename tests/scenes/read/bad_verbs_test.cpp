@@ -61,7 +61,8 @@ const std::vector<BadFile> kBadVerbs = {
      {"2:19: [0, 0, 0] is no direction; expected one that leads somewhere"}},
     {"an unknown pose",
      "elements:\n  - texture: ivy\n    pose: hangs\n",
-     {"4:11: elements[0].pose is 'hangs'; expected one of free, hang, stand, light, surface; did you mean "
+     {"4:11: elements[0].pose is 'hangs'; expected one of free, hang, stand, light, surface, aside; did you "
+      "mean "
       "'hang'?"}},
     {"too much of a difference by height",
      "elements:\n  - {texture: ivy, varies: {height: 3.5}}\n",

@@ -50,10 +50,10 @@ TEST(Peaks, EachPieceHasOneAndALevelOneHasNone) {
 TEST(Peaks, GuidesHaveThemToo) {
   World world({Vec3(0.0), 0.04, {21, 21, 3}});
   const PartId part = world.addPart({"mesh", "arch", PartKind::scene, -1});
-  std::vector<Voxel> arch;
+  std::vector<TiledVoxel> arch;
   for (int x = 0; x <= 20; ++x)
-    arch.emplace_back(x, static_cast<int>(std::sqrt(100.0 - (x - 10) * (x - 10))), 1);
-  world.addGuide(part, arch);
+    arch.push_back({{x, static_cast<int>(std::sqrt(100.0 - (x - 10) * (x - 10))), 1}, {part}});
+  world.addGuide(arch);
   EXPECT_EQ(peaks(world, 3), (std::vector<Vec3>{{10, 10, 1}}));
 }
 

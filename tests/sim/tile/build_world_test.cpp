@@ -44,6 +44,20 @@ TEST(BuildWorld, ABoxBetweenVoxelsCountsExactly) {
   EXPECT_EQ(inside->normal, Vec3f(0.0f));
 }
 
+TEST(BuildWorld, WhatDoesNotShadeStandsInTheWayOfAllButLight) {
+  const Mesh box = tests::boxMesh({1.5, 2.5, 3.5}, {6.5, 9.5, 7.5});
+  for (const bool solid : {true, false}) {
+    TiledMesh glass{box, solid};
+    const World wall = buildWorld(tests::unitFrame(Voxel(14)), {glass}, 1);
+    glass.shade = false;
+    const World clear = buildWorld(tests::unitFrame(Voxel(14)), {glass}, 1);
+    EXPECT_EQ(clear.solid().words(), wall.solid().words());
+    EXPECT_GT(wall.opaque().count(), 0u);
+    EXPECT_EQ(clear.opaque().count(), 0u);
+    EXPECT_EQ(clear.nearnessAt({4, 5, 11})->distance_vx, wall.nearnessAt({4, 5, 11})->distance_vx);
+  }
+}
+
 TEST(BuildWorld, CoverageIsTheAreaInsideTheVoxel) {
   // A horizontal rectangle, its border at quarters of voxels.
   Mesh sheet = tests::emptyMesh("sheet");

@@ -56,25 +56,6 @@ class Renumbered {
   sim::Skeleton skeleton_;
 };
 
-/// Limbs that met in a place meet again, wherever that went.
-void joinAgain(const sim::Plant& plant, std::span<const Reshaped> ways, const Renumbered& numbers,
-               sim::Skeleton& now) {
-  const auto joins = now.columns.find(sim::kJoinsColumn);
-  if (joins == now.columns.end()) return;
-  std::fill(joins->second.begin(), joins->second.end(), 0.0f);
-  const std::vector<float>& were = plant.skeleton.columns.find(sim::kJoinsColumn)->second;
-  const auto endOf = [&](std::size_t node) {
-    return static_cast<std::size_t>(
-        numbers.numberOf(static_cast<NodeId>(node), ways[node].through.size() - 1));
-  };
-  for (std::size_t n = 0; n < were.size(); ++n) {
-    if (were[n] == 0.0f) continue;
-    const std::size_t to = endOf(static_cast<std::size_t>(were[n]));
-    joins->second[endOf(n)] = static_cast<float>(to);
-    now.position_vx[endOf(n)] = now.position_vx[to];
-  }
-}
-
 /// How far along the segment from a to b the place next to p is, 0 to 1.
 double shareOf(Vec3 a, Vec3 b, Vec3 p) {
   const Vec3 along = b - a;
@@ -84,11 +65,36 @@ double shareOf(Vec3 a, Vec3 b, Vec3 p) {
 
 }  // namespace
 
+void renumberJoins(const sim::Skeleton& old, const std::function<NodeId(NodeId)>& number,
+                   sim::Skeleton& now) {
+  const std::vector<float>* const were = sim::find(old, sim::kJoinsColumn);
+  if (were == nullptr) return;
+  std::vector<float>& joins = now.columns[sim::kJoinsColumn];
+  joins.assign(now.parent.size(), 0.0f);
+  for (NodeId n = 0; n < old.size(); ++n) {
+    const auto joined = static_cast<NodeId>((*were)[static_cast<std::size_t>(n)]);
+    if (joined > 0) joins[static_cast<std::size_t>(number(n))] = static_cast<float>(number(joined));
+  }
+}
+
+void meetAgain(sim::Skeleton& skeleton) {
+  const std::vector<float>* const joins = sim::find(skeleton, sim::kJoinsColumn);
+  if (joins == nullptr) return;
+  for (std::size_t n = 0; n < joins->size(); ++n) {
+    if ((*joins)[n] > 0.0f)
+      skeleton.position_vx[n] = skeleton.position_vx[static_cast<std::size_t>((*joins)[n])];
+  }
+}
+
 sim::Plant reshaped(const sim::Plant& plant, std::span<const Reshaped> ways) {
   Renumbered numbers(plant, ways);
   sim::Plant result = plant;
   result.skeleton = numbers.take();
-  joinAgain(plant, ways, numbers, result.skeleton);
+  renumberJoins(
+      plant.skeleton,
+      [&](NodeId n) { return numbers.numberOf(n, ways[static_cast<std::size_t>(n)].through.size() - 1); },
+      result.skeleton);
+  meetAgain(result.skeleton);
   const sim::Skeleton& was = plant.skeleton;
   for (sim::PlacedElement& element : result.elements) {
     const auto n = static_cast<std::size_t>(element.node);

@@ -1,4 +1,5 @@
 #pragma once
+#include <functional>
 #include <optional>
 #include <span>
 #include <vector>
@@ -24,5 +25,12 @@ struct Reshaped {
 /// New nodes are born with the one whose segment they are on, and have its quantities. Elements go along with
 /// the places on which they stood.
 sim::Plant reshaped(const sim::Plant& plant, std::span<const Reshaped> ways);
+
+/// Of a skeleton whose segments were cut into pieces: which of its nodes join which (sim::kJoinsColumn).
+/// `number`: the new one of an old node.
+void renumberJoins(const sim::Skeleton& old, const std::function<sim::NodeId(sim::NodeId)>& number,
+                   sim::Skeleton& now);
+/// Nodes that join others come to where these are now.
+void meetAgain(sim::Skeleton& skeleton);
 
 }  // namespace espalier::render

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "render/form/fbm.h"
+#include "render/form/reshaped.h"
 #include "render/model/radii.h"
 #include "render/model/stem_curves.h"
 #include "sim/base/error.h"
@@ -86,6 +87,8 @@ sim::Skeleton cut(const sim::Skeleton& old, const Pieces& pieces) {
       for (const auto& [name, values] : old.columns) skeleton.columns[name].push_back(values[at(n)]);
     }
   }
+  renumberJoins(
+      old, [&](NodeId n) { return pieces.of[at(n)]; }, skeleton);
   return skeleton;
 }
 
@@ -316,6 +319,7 @@ sim::Plant roughened(const sim::Plant& plant, const Rough& rough, const sim::Wor
   Room room(straight, displacement, world.frame().size, kept_free, kEased * rough.detail_vx);
   room.shares();
   for (std::size_t n = 0; n < displacement.size(); ++n) result.skeleton.position_vx[n] = room.place(n);
+  meetAgain(result.skeleton);
   for (sim::PlacedElement& element : result.elements) move(element, old, pieces, straight, result.skeleton);
   return result;
 }

@@ -163,6 +163,37 @@ TEST(MurrayForks, ElementsGoAlong) {
   EXPECT_GT(moved, 20u);
 }
 
+TEST(Formed, LimbsThatMetMeetAgain) {
+  sim::Plant plant = wanderer(11, 20, 5);
+  plant.form.rough = sim::StemForm::Rough{0.6, 0.5, 4.0, 0.5};
+  sim::Skeleton& s = plant.skeleton;
+  std::vector<int> children(s.parent.size(), 0);
+  for (NodeId n = 1; n < s.size(); ++n)
+    ++children[static_cast<std::size_t>(s.parent[static_cast<std::size_t>(n)])];
+  // Some tips come to where other limbs pass.
+  std::vector<float>& joins = s.columns[sim::kJoinsColumn];
+  joins.assign(s.parent.size(), 0.0f);
+  std::size_t met = 0;
+  for (std::size_t n = 40; n < children.size(); ++n) {
+    if (children[n] != 0) continue;
+    const std::size_t to = 7 + 3 * met++;
+    joins[n] = static_cast<float>(to);
+    s.position_vx[n] = s.position_vx[to];
+  }
+  ASSERT_GT(met, 5u);
+  const sim::World world({{0, 0, 0}, 0.1, {200, 200, 200}});
+  const sim::Plant after = formed(plant, world, kNothing);
+  const std::vector<float>& now = after.skeleton.columns.at(sim::kJoinsColumn);
+  std::size_t meet = 0;
+  for (std::size_t n = 0; n < now.size(); ++n) {
+    if (now[n] == 0.0f) continue;
+    ++meet;
+    EXPECT_EQ(after.skeleton.position_vx[n], after.skeleton.position_vx[static_cast<std::size_t>(now[n])]);
+  }
+  EXPECT_EQ(meet, met);
+  EXPECT_GT(after.skeleton.size(), 2 * plant.skeleton.size());
+}
+
 std::size_t shared(const sim::Plant& one, const sim::Plant& two) {
   const auto a = sim::stemVoxels(one.skeleton), b = sim::stemVoxels(two.skeleton);
   std::vector<sim::Voxel> both;

@@ -54,7 +54,7 @@ int main(int argc, char** argv) {
     if (wanted(9)) bench::benchStems(report);
     if (wanted(10)) bench::benchLaying(report);
     if (wanted(11)) bench::benchBounced(report);
-    if (wanted(12)) bench::benchBolt(report);
+    if (wanted(12)) bench::benchBranching(report);
     report.writeCsv(csv);
     if (!document.empty()) report.writeInto(document);
   } catch (const std::exception& error) {

@@ -39,8 +39,8 @@ void benchLaying(Report& report);
 /// place.
 void benchBounced(Report& report);
 
-/// A bolt of lightning by the number of its attractors: front, world, light, model and picture.
-void benchBolt(Report& report);
+/// Bolts and vessels by the number of their attractors: world, front, light, model and pictures.
+void benchBranching(Report& report);
 
 /// A sky of at least so many directions, of equal weight for equal parts.
 sim::DirectionSet skyOf(int directions);

@@ -45,20 +45,21 @@ namespace {
 constexpr const char *kSkeletonFile = "skeleton.json", *kWorldFile = "world.vdb";
 
 /// For pictures of what has grown on a site. Borrows all but the textures.
-Finished finishedOn(const Scene& scene, const Site& site, const sim::BitVolume& bare,
-                    const sim::Growth& growth, const sim::Lighting& light, const PictureLight& lit,
+Finished finishedOn(const Scene& scene, const Site& site, const sim::BitVolume& bare, const Shown& shown,
+                    const sim::Lighting& light, const PictureLight& lit,
                     const std::optional<WorldOccupancy>& occupancy,
                     const std::vector<render::PlantModel>& models, render::KnownPictures textures) {
   return {site.meshes,
           site.world,
           bare,
-          growth,
+          shown.growth(),
           light,
           models,
           std::move(textures),
           growthSettings(scene, site, {}).sky_table,
           lit,
-          occupancy ? &*occupancy : nullptr};
+          occupancy ? &*occupancy : nullptr,
+          &shown.grown()};
 }
 
 /// What light and files take besides: of each voxel some bits, and two numbers where there are vines to draw;
@@ -179,6 +180,7 @@ Report runScene(const Scene& scene, const RunOptions& options, const Keeping& ke
   // Plants grow in the site's own world: a run grows once, and a second world would take as much memory.
   sim::World& world = site.world;
 
+  std::optional<sim::World> before = worldToForm(site, prepared.plantings);
   std::optional<sim::Growth> kept;
   if (keeping.resume) {
     stages.run("reading", [&] {
@@ -187,7 +189,6 @@ Report runScene(const Scene& scene, const RunOptions& options, const Keeping& ke
       }
     });
   }
-  std::optional<sim::World> before = worldToForm(site, prepared.plantings);
   sim::Growth grown = stages.run("growing", [&] {
     return growOn(scene, prepared, std::move(kept), bare, options, output, keeping, stages.began(), report);
   });
@@ -247,7 +248,7 @@ Report runScene(const Scene& scene, const RunOptions& options, const Keeping& ke
       textures = texturesFor(drawsVines(scene.images) || scene.film, scene, site.meshes, options, report);
       for (const Problem& unread : textures.unread) late_warnings.push_back(unread.text);
       const Finished finished =
-          finishedOn(scene, site, bare, growth, light, lit, occupancy, models, textures.pictures);
+          finishedOn(scene, site, bare, shown, light, lit, occupancy, models, textures.pictures);
       auto pictures =
           inScene(scene, [&] { return drawPictures(picturesOf(scene, report.made_by), finished); });
       for (OutputFile& file : pictures) files.push_back(std::move(file));
@@ -346,7 +347,7 @@ Report renderScene(Scene scene, const std::filesystem::path& from, const RunOpti
     textures = texturesFor(drawsVines(scene.images) || scene.film, scene, site.meshes, options, report);
     for (const Problem& one : textures.unread) late_warnings.push_back(one.text);
     const Finished finished =
-        finishedOn(scene, site, bare, growth, light, lit, occupancy, models, textures.pictures);
+        finishedOn(scene, site, bare, shown, light, lit, occupancy, models, textures.pictures);
     return inScene(scene, [&] { return drawPictures(picturesOf(scene, report.made_by), finished); });
   });
   if (scene.film) {

@@ -73,7 +73,7 @@ std::unique_ptr<const GraphPictures::View> GraphPictures::viewBy(const render::C
   const sim::BitVolume& bare = finished_.bare;
   auto view = std::make_unique<View>();
   view->camera = camera;
-  view->whole = growthGraph(finished_.growth, frame);
+  view->whole = growthGraph(finished_.grown != nullptr ? *finished_.grown : finished_.growth, frame);
   if (bare.count() > 0) {
     const sim::Bricks& bricks = view->bricks.emplace(bare);
     view->ground = render::paleScene(

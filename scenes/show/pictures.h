@@ -63,6 +63,7 @@ struct Finished {
   std::function<sim::SkyTable()> sky_table = {};  ///< as growth has it, for images of sky tables
   PictureLight lit = {};                          ///< beside `light`
   const WorldOccupancy* occupancy = nullptr;      ///< for images of volumes
+  const sim::Growth* grown = nullptr;  ///< for images of points and graphs: what grew, if it is not `growth`
 };
 
 /// Whether it is one of the panels of render/voxels/panels.h.

@@ -89,6 +89,8 @@ for scene in lightning lightning_on_body; do
   grow scenes/library/$scene.yaml
   small $work/$scene/vines.png $scene 1000
 done
+oiiotool $work/lightning/film_00{05,11,22}.png --mosaic:pad=6 3x1 -o $work/lightning_film.png
+small $work/lightning_film.png lightning_film 980
 grow scenes/library/film.yaml
 oiiotool $work/film/film_00{00,14,26,38,50,62}.png --mosaic:pad=6 3x2 -o $work/film.png
 small $work/film.png film 1200

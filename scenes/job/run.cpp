@@ -26,6 +26,7 @@
 #include "scenes/prepare/plantings.h"
 #include "scenes/prepare/site.h"
 #include "scenes/problem.h"
+#include "scenes/show/emitted_light.h"
 #include "scenes/show/guide_volumes.h"
 #include "scenes/show/light_fields.h"
 #include "scenes/show/picture_memory.h"
@@ -194,6 +195,7 @@ Report runScene(const Scene& scene, const RunOptions& options, const Keeping& ke
   report.growth = growthReport(scene, site, bare, grown, prepared.seed_lights);
   const Shown shown(std::move(grown), std::move(before), site, stages);
   const sim::Growth& growth = shown.growth();
+  if (scene.interreflection) letBeMet(site.world, growth.plants);
   if (!growth.cut_short.empty()) report.warnings.push_back(growth.cut_short);
   for (const std::string& met : report.growth->in_the_way) report.warnings.push_back(met);
   report.occupied_voxels = world.occupied().count();
@@ -323,6 +325,7 @@ Report renderScene(Scene scene, const std::filesystem::path& from, const RunOpti
   report.growth = growthReport(scene, site, bare, grown, prepared.seed_lights);
   const Shown shown(std::move(grown), std::move(before), site, stages);
   const sim::Growth& growth = shown.growth();
+  if (scene.interreflection) letBeMet(site.world, growth.plants);
   report.occupied_voxels = site.world.occupied().count();
   std::optional<WorldOccupancy> occupancy;
   sim::Lighting light = stages.run("lighting", [&] {

@@ -160,24 +160,6 @@ BouncedLight::Outdoors outdoorsOf(const Scene& scene, const std::vector<sim::Til
   return {outdoors.sky, outdoors.ground, outdoors.sun, to_sun};
 }
 
-/// The world as rays of bouncing light meet it. What takes little of its voxels stops light in few of them: a
-/// thin thing would shine from a handful. So of plants that shine all voxels stop light, and each sends out
-/// its share.
-sim::Interreflection interreflectionIn(const sim::World& world, const sim::Lighting& light,
-                                       const EmittedLight& emitted, const sim::BounceSettings& settings) {
-  if (!emitted.anyPlant()) return {world, light, settings};
-  sim::World shining = world;
-  sim::BitVolume voxels(world.frame().size);
-  const auto add = [&](sim::Voxel v) {
-    const bool of_scene = world.part(world.partAt(v)).kind == sim::PartKind::scene;
-    if (!of_scene && emitted.at(v) != sim::Colour(0.0f)) voxels.set(v);
-  };
-  for (const sim::TiledVoxel& tiled : light.surfaces) add(tiled.voxel);
-  for (const std::uint64_t face : light.faces) add(light.voxelOf(face));
-  shining.addOpaque(voxels);
-  return {shining, light, settings};
-}
-
 }  // namespace
 
 GrowingBounce::GrowingBounce(const Scene& scene, const std::vector<sim::TiledMesh>& meshes,
@@ -190,8 +172,7 @@ GrowingBounce::GrowingBounce(const Scene& scene, const std::vector<sim::TiledMes
       settings_(bounceSettings(scene)) {}
 
 std::shared_ptr<const BouncedLight> GrowingBounce::when(const sim::BitVolume& stood) {
-  if (!interreflection_)
-    interreflection_.reset(new sim::Interreflection(interreflectionIn(world_, light_, emitted_, settings_)));
+  if (!interreflection_) interreflection_.emplace(world_, light_, settings_);
   emitted_.darkenBut(stood);
   return std::make_shared<const BouncedLight>(world_, light_, emitted_, *interreflection_, outdoors_);
 }
@@ -204,7 +185,7 @@ PictureLight pictureLight(const Scene& scene, const std::vector<sim::TiledMesh>&
   auto emitted = std::make_shared<EmittedLight>(meshes, world, plants);
   if (scene.interreflection) {
     const sim::BounceSettings settings = bounceSettings(scene);
-    sim::Interreflection interreflection = interreflectionIn(world, light, *emitted, settings);
+    sim::Interreflection interreflection(world, light, settings);
     const auto bounced = [&](const BouncedLight::Outdoors& outdoors) {
       return std::make_shared<const BouncedLight>(world, light, *emitted, interreflection, outdoors);
     };

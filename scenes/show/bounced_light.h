@@ -2,6 +2,7 @@
 #include <array>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "scenes/scene.h"
@@ -90,7 +91,7 @@ class GrowingBounce {
   EmittedLight emitted_;
   BouncedLight::Outdoors outdoors_;
   sim::BounceSettings settings_;
-  std::unique_ptr<sim::Interreflection> interreflection_;  // made when it is first asked for
+  std::optional<sim::Interreflection> interreflection_;  // made when it is first asked for
 };
 
 /// Which kinds of pictures are drawn that bounced light falls into.

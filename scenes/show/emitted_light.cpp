@@ -67,4 +67,23 @@ sim::Colour EmittedLight::at(sim::Voxel voxel) const {
   return sum + share * of_part->second;
 }
 
+void letBeMet(sim::World& world, const std::vector<sim::Plant>& plants) {
+  std::vector<sim::PartId> shining;
+  const auto add = [&](sim::PartId part, sim::Colour emits) {
+    if (part != sim::kFree && emits != sim::Colour(0.0f)) shining.push_back(part);
+  };
+  for (const sim::Plant& plant : plants) {
+    add(plant.stem_part, plant.stem_emits);
+    for (std::size_t i = 0; i < plant.element_parts.size(); ++i)
+      add(plant.element_parts[i], plant.shapes[i].emits);
+  }
+  if (shining.empty()) return;
+  sim::BitVolume voxels(world.frame().size);
+  for (const sim::TiledVoxel& tiled : world.surfaces()) {
+    if (std::find(shining.begin(), shining.end(), tiled.surface.part) != shining.end())
+      voxels.set(tiled.voxel);
+  }
+  world.addOpaque(voxels);
+}
+
 }  // namespace espalier::scenes

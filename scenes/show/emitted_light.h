@@ -38,4 +38,8 @@ class EmittedLight {
   std::vector<Fainter> fainter_;  // in rows: of stems whose light hangs on their order
 };
 
+/// Lets all voxels of plants' parts that shine take light. What takes little of its voxels takes it in few of
+/// them, by chance, and a thin thing would be met in a handful: each sends out its own share.
+void letBeMet(sim::World& world, const std::vector<sim::Plant>& plants);
+
 }  // namespace espalier::scenes

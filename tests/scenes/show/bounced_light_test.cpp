@@ -142,10 +142,11 @@ TEST_F(RedWall, WhatIsThinShinesFromAllOfItsVoxels) {
     for (int y = 4; y < 20; ++y)
       stem.push_back({{30, y, 35}, {.part = plant.stem_part, .coverage = coverage}});
     world.occupy(stem);
+    const std::vector<sim::Plant> plants{plant};
+    letBeMet(world, plants);
     sim::LightWanted wanted;
     wanted.to_sun = kSun;
     const sim::Lighting found = sim::lightOf(world, site.sky, site.sun, wanted);
-    const std::vector<sim::Plant> plants{plant};
     GrowingBounce bounce(of, site.meshes, world, plants, found, kSun);
     ASSERT_TRUE(bounce.anyShines());
     const sim::BitVolume none(world.frame().size);

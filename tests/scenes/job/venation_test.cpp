@@ -42,7 +42,8 @@ std::string sceneOf(const Leaf& leaf) {
       "meshes: [{{file: {}/{}.obj, unit: cm, name: blade, guide: true}}]\n"
       "world: {{voxel: {} mm, margin: 3 mm}}\n"
       "attractors: {{blade: {}}}\n"
-      "plants: [{{rules: {{base: {}{}}}, seeds: [[0, 0.0005, 0]]}}]\n",
+      "plants: [{{rules: {{base: {}{}}}, seeds: [[0, 0.0005, 0]]}}]\n"
+      "images: [{{kind: cut_out, name: leaf}}]\n",
       leaf.seed, folder, leaf.outline, leaf.voxel_mm,
       leaf.attractors.empty() ? fmt::format("{{surface: blade, spacing: {}, waves: 3}}", leaf.spacing)
                               : leaf.attractors,
@@ -222,6 +223,7 @@ TEST(Venation, SaysWhatIsWrong) {
       Site site = makeSite(*read);
       const auto plantings = makePlantings(*read, site);
       attractorsOf(*read, site);
+      requireCutOutsSeen(*read, site.meshes);
     } catch (const sim::InputError& error) {
       return error.what();
     }
@@ -233,6 +235,10 @@ TEST(Venation, SaysWhatIsWrong) {
   EXPECT_NE(problemsOf({.attractors = "{sphere: 3 cm, at: [0, 0.05, 0], count: 9, waves: 2}"})
                 .find("waves means nothing"),
             std::string::npos);
+  // Of a body no side is the one.
+  const std::string body = problemsOf({.outline = "sphere"});
+  EXPECT_NE(body.find("leaf.yaml:"), std::string::npos) << body;
+  EXPECT_NE(body.find("expected an open sheet"), std::string::npos) << body;
 }
 
 }  // namespace

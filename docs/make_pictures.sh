@@ -159,6 +159,11 @@ small $work/broadleaf/vines.png broadleaf 760
 small $work/pachira/vines.png pachira 560
 small $work/animal_tree/vines.png animal_tree 760
 small $work/figure_18/vines.png figure_18 1100
+for scene in venation veined_branch lobed_leaf; do grow scenes/library/$scene.yaml; done
+small $work/venation/vines.png venation 1000
+small $work/venation/closed_leaf.png closed_leaf 460
+small $work/veined_branch/vines.png veined_branch 900
+small $work/lobed_leaf/leaf.png lobed_leaf 560
 grow docs/first/tree.yaml
 small $work/tree/vines.png first_tree 760
 

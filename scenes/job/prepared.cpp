@@ -6,6 +6,7 @@
 #include "scenes/prepare/shut_out.h"
 #include "scenes/prepare/unknown_regions.h"
 #include "scenes/show/cube_pictures.h"
+#include "scenes/show/cut_out_picture.h"
 
 namespace espalier::scenes {
 
@@ -20,6 +21,7 @@ Prepared prepare(const Scene& scene, const RunOptions& options, Report& report, 
     wrong.part([&] { requireCamerasInTheOpen(scene, site.world); });
     wrong.part([&] { requireLampsInTheOpen(scene, site); });
     wrong.part([&] { requireCubesSeen(scene, site.world.frame()); });
+    wrong.part([&] { requireCutOutsSeen(scene, site.meshes); });
     wrong.part([&] { requireFilmFitsIn(scene, options, site.world); });
     wrong.part([&] { attractors = attractorsOf(scene, site, &of_attractors); });
     wrong.end();

@@ -47,23 +47,22 @@ def stalk():
     return model
 
 
-LOBES = ((0, 6.2, 23), (52, 5.4, 19), (-52, 5.4, 19), (112, 3.4, 18), (-112, 3.4, 18))  # degrees from up, length, half width
+LOBES = ((0, 6.3, 27), (50, 5.6, 25), (-50, 5.6, 25), (104, 3.9, 26), (-104, 3.9, 26))  # degrees from up, length, half width
 
 
 def reach(angle):
     """How far the lobed blade goes that way from where its stalk ends; angles from straight up."""
-    far = 1.7
+    far = 2.3 - 1.3 * min(1.0, max(0.0, abs(angle) - 138) / 42) ** 1.5
     for at, length, half in LOBES:
         off = abs((angle - at + 180) % 360 - 180) / half
-        if off < 1.75:
-            shoulder = max(0.0, math.cos(off * math.pi / 3.5)) ** 1.9
-            teeth = 1 + 0.045 * math.cos(off * 9.0) * min(1.0, off) * (off < 1.2)
-            far = max(far, length * shoulder * teeth)
-    return far * (1 if abs(angle) < 165 else 0.55)
+        if off < 1:
+            teeth = 1 + 0.055 * (math.cos(2 * math.pi * 2.5 * off) - 1) * math.sin(math.pi * off)
+            far = max(far, (far + (length - far) * (1 - off) ** 1.12) * teeth)
+    return far
 
 
 def lobed():
-    model, steps = Model(), 360
+    model, steps = Model(), 480
     foot = 3.0
     model.face("blade", "blade_red", [(-STALK_HALF, 0, 0), (STALK_HALF, 0, 0), (STALK_HALF, foot, 0), (-STALK_HALF, foot, 0)])
     rim = []

@@ -7,6 +7,7 @@
 
 #include "render/image/cut_out.h"
 #include "render/model/radii.h"
+#include "scenes/problem.h"
 #include "sim/base/error.h"
 
 namespace espalier::scenes {
@@ -25,8 +26,8 @@ struct View {
   }
 };
 
-const sim::Mesh& meshOf(const Finished& finished, const ImageSpec& image) {
-  for (const sim::TiledMesh& tiled : finished.meshes) {
+const sim::Mesh& meshOf(const std::vector<sim::TiledMesh>& meshes, const ImageSpec& image) {
+  for (const sim::TiledMesh& tiled : meshes) {
     if (tiled.lines.empty() && (image.mesh.empty() || tiled.mesh.name == image.mesh)) return tiled.mesh;
   }
   throw sim::InputError(fmt::format("image '{}': there is no mesh '{}' with faces", image.name, image.mesh));
@@ -79,8 +80,17 @@ void addLimbs(const sim::Plant& plant, const sim::Frame& frame, const View& view
 
 }  // namespace
 
+void requireCutOutsSeen(const Scene& scene, const std::vector<sim::TiledMesh>& meshes) {
+  Gathering wrong(scene.file);
+  for (const ImageSpec& image : scene.images) {
+    if (image.kind == ImageKind::cut_out)
+      wrong.part(scene.images_place, [&] { viewOf(meshOf(meshes, image), image); });
+  }
+  wrong.end();
+}
+
 render::Image drawCutOut(const Finished& finished, const ImageSpec& image, glm::ivec2 most_px) {
-  const sim::Mesh& mesh = meshOf(finished, image);
+  const sim::Mesh& mesh = meshOf(finished.meshes, image);
   const View view = viewOf(mesh, image);
   std::vector<render::CutOutTriangle> body;
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {

@@ -9,4 +9,7 @@ namespace espalier::scenes {
 /// RGBA. Throws InputError for a mesh that is not there or has no area from that side.
 render::Image drawCutOut(const Finished& finished, const ImageSpec& image, glm::ivec2 most_px);
 
+/// Throws PlacedError where a scene's cut-outs have no mesh that is seen straight on.
+void requireCutOutsSeen(const Scene& scene, const std::vector<sim::TiledMesh>& meshes);
+
 }  // namespace espalier::scenes

@@ -87,6 +87,10 @@ void agreeOnImages(Drawn& images, const std::vector<std::string>& plants,
       if (find(image.value, key) && numbers.chance(0.5)) find(image.value, "kind")->text = only;
     }
   }
+  for (DrawnEntry& image : images.entries) {  // bodies have no side from which they are cut out
+    Drawn* const kind = find(image.value, "kind");
+    if (kind && kind->text == "cut_out" && numbers.chance(0.8)) kind->text = "narrow_band";
+  }
   Drawn others = images;  // a sheet shows no sheets
   std::erase_if(others.entries, [](DrawnEntry& image) {
     const Drawn* const kind = find(image.value, "kind");
@@ -131,7 +135,7 @@ Meshes meshesOf(Drawn* list) {
 /// Each has one source, and the keys that belong to it.
 void agreeOnAttractors(Drawn& attractors, const Meshes& meshes, tests::Numbers& numbers) {
   const std::set<std::string> of_solids{"at", "spread", "density"};
-  const std::set<std::string> no_sources{"at", "spread", "density", "count", "spacing", "type"};
+  const std::set<std::string> no_sources{"at", "spread", "density", "count", "spacing", "type", "waves"};
   for (DrawnEntry& one : attractors.entries) {
     if (meshes.all.empty()) takeOut(one.value, {"surface"});
     if (meshes.bodies.empty() && numbers.chance(0.9)) takeOut(one.value, {"inside"});
@@ -148,6 +152,7 @@ void agreeOnAttractors(Drawn& attractors, const Meshes& meshes, tests::Numbers& 
     if (on_mesh || kept == "points") takeOut(one.value, of_solids);
     takeOut(one.value, {kept == "points" ? "count" : "type"});
     if (kept != "surface") takeOut(one.value, {"spacing"});
+    if (!find(one.value, "spacing")) takeOut(one.value, {"waves"});
   }
 }
 
@@ -234,13 +239,17 @@ void agreeOnRules(Drawn& rules) {
       if (measure && measure->text == "height") takeOut(sense.value, {"within"});
       Drawn* const of = find(sense.value, "of");
       const bool of_nearest = measure && (measure->text == "distance" || measure->text == "nearness");
-      if (of != nullptr && of->text == "lines" && !of_nearest) of->text = "scene";
+      if (of != nullptr && (of->text == "lines" || of->text == "surfaces") && !of_nearest) of->text = "scene";
       if (!of_nearest) continue;
       if (of == nullptr)
         measure->text = "density";
       else if (of->text == "everything" || of->text == "plants" || of->text == "own")
         of->text = "others";
     }
+  }
+  if (Drawn* const front = find(rules, "colonization")) {
+    Drawn* const acts = find(*front, "acts");
+    if (acts && acts->text == "on_all_neighbours") takeOut(*front, {"onto", "repeated"});
   }
   Drawn* const diffusion = find(rules, "diffusion");
   if (diffusion != nullptr) agreeOnDiffusion(*diffusion);

@@ -115,6 +115,7 @@ void RandomFiles::knowSpecials() {
     std::vector<std::string> of(rules::kWhose.begin(), rules::kWhose.end());
     if (world_.meshes && numbers_.chance(0.1)) of = {"floor"};
     if (numbers_.chance(0.02)) of = {rules::kOfLines};  // most scenes that are drawn have none
+    if (world_.meshes && numbers_.chance(0.1)) of = {rules::kOfSurfaces};
     return numbers_.pick(of);
   });
   // Most tips read what lies between, mostly.

@@ -32,7 +32,7 @@ double coverageOf(const Image& image) {
   return sum;
 }
 
-TEST(CutOut, FillsThePictureAndCoversWhatTheBodyDoes) {
+TEST(CutOutDrawing, FillsThePictureAndCoversWhatTheBodyDoes) {
   for (const float size : {0.01f, 7.0f}) {
     const Image image = drawCutOut(diamond({-3.0f, 2.0f}, size), {}, 300, 202);
     EXPECT_EQ(image.channels, 4);
@@ -47,7 +47,7 @@ TEST(CutOut, FillsThePictureAndCoversWhatTheBodyDoes) {
   }
 }
 
-TEST(CutOut, DrawsLinesAsWideAsTheyAre) {
+TEST(CutOutDrawing, DrawsLinesAsWideAsTheyAre) {
   const auto body = diamond({0, 0}, 1.0f);
   const std::vector<CutOutLine> line{{{0.5f, 0.2f}, {0.5f, 1.8f}, 0.05f, 0.05f, kLine}};
   const Image image = drawCutOut(body, line, 300, 202);
@@ -62,14 +62,14 @@ TEST(CutOut, DrawsLinesAsWideAsTheyAre) {
   EXPECT_NEAR(coverageOf(image), coverageOf(bare), 1e-3) << "a line covers nothing beyond the body";
 }
 
-TEST(CutOut, IsSeenOnPaper) {
+TEST(CutOutDrawing, IsSeenOnPaper) {
   const Image paper = onPaper(drawCutOut(diamond({0, 0}, 1.0f), {}, 300, 202));
   EXPECT_EQ(paper.channels, 3);
   EXPECT_GT(paper.at(0, 0)[0], 0.95f);
   EXPECT_NEAR(paper.at(51, 101)[1], srgbFromLinear(kBody).g, 1e-5);
 }
 
-TEST(CutOut, RefusesABodyWithoutArea) {
+TEST(CutOutDrawing, RefusesABodyWithoutArea) {
   const std::vector<CutOutTriangle> flat{{{vec2(0, 0), vec2(1, 1), vec2(2, 2)}, kBody}};
   EXPECT_NE(tests::messageOf([&] { drawCutOut(flat, {}, 100, 100); }).find("without area"),
             std::string::npos);

@@ -5,10 +5,13 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "render/image/image_io.h"
 #include "scenes/prepare/attractors.h"
 #include "scenes/prepare/plantings.h"
 #include "scenes/problem.h"
 #include "scenes/read/read_scene.h"
+#include "scenes/show/cut_out_picture.h"
+#include "sim/base/error.h"
 #include "sim/base/parallel.h"
 #include "sim/grow/grow.h"
 #include "sim/grow/state.h"
@@ -28,8 +31,8 @@ struct Leaf {
   int seed = 1;
   double voxel_mm = 1.0;
   std::string spacing = "4 mm";
-  std::string attractors = "";                                      ///< instead of those on the blade
-  std::string more = ", colonization: {step: 1 mm, kill: 1.2 mm}";  ///< of its rules
+  std::string attractors = "";  ///< instead of those on the blade
+  std::string more = ", colonization: {step: 1 mm, influence: 8 mm, kill: 1.2 mm}";  ///< of its rules
 };
 
 std::string sceneOf(const Leaf& leaf) {
@@ -39,7 +42,8 @@ std::string sceneOf(const Leaf& leaf) {
       "meshes: [{{file: {}/{}.obj, unit: cm, name: blade, guide: true}}]\n"
       "world: {{voxel: {} mm, margin: 3 mm}}\n"
       "attractors: {{blade: {}}}\n"
-      "plants: [{{rules: {{base: {}{}}}, seeds: [[0, 0.0005, 0]]}}]\n",
+      "plants: [{{rules: {{base: {}{}}}, seeds: [[0, 0.0005, 0]]}}]\n"
+      "images: [{{kind: cut_out, name: leaf}}]\n",
       leaf.seed, folder, leaf.outline, leaf.voxel_mm,
       leaf.attractors.empty() ? fmt::format("{{surface: blade, spacing: {}, waves: 3}}", leaf.spacing)
                               : leaf.attractors,
@@ -147,7 +151,7 @@ TEST(Venation, IsTheSameOnAnyNumberOfThreads) {
 
 TEST(Venation, GoesOnFromASavedState) {
   const Grown whole = grown({});
-  for (const int before : {30, 150}) {
+  for (const int before : {30, 80}) {
     const Grown half = grown({}, before);
     ASSERT_LT(half.growth.iterations, whole.growth.iterations) << "or nothing is left to grow";
     const sim::BitVolume bare = makeSite(half.scene).world.occupied();
@@ -162,6 +166,54 @@ TEST(Venation, GoesOnFromASavedState) {
   }
 }
 
+/// The share of its bounds that a mesh covers, seen along z.
+double shareOf(const sim::Mesh& mesh) {
+  Vec3 low(HUGE_VAL), high(-HUGE_VAL);
+  double area = 0.0;
+  for (const Vec3 at : mesh.vertices_m) {
+    low = glm::min(low, at);
+    high = glm::max(high, at);
+  }
+  for (const auto& [a, b, c] : mesh.triangles) {
+    const Vec3 at = mesh.vertices_m[a];
+    area += 0.5 * std::abs(glm::cross(mesh.vertices_m[b] - at, mesh.vertices_m[c] - at).z);
+  }
+  return area / ((high.x - low.x) * (high.y - low.y));
+}
+
+TEST(Venation, IsCutOutAsAPictureThatElementsTakeAsItIs) {
+  const tests::Scratch scratch;
+  const Grown leaf = grown({});
+  const sim::BitVolume bare = leaf.site.world.occupied();
+  const sim::Lighting light = {};
+  const std::vector<render::PlantModel> models;
+  const Finished finished{leaf.site.meshes, leaf.site.world, bare, leaf.growth, light, models};
+  ImageSpec image;
+  image.name = "leaf";
+  image.kind = ImageKind::cut_out;
+  const render::Image picture = drawCutOut(finished, image, {300, 200});
+  EXPECT_EQ(picture.height, 200);
+  const double outline = shareOf(leaf.site.meshes.at(0).mesh);
+  scratch.write("leaf.png", render::encodePng(picture));
+  const auto read = readScene(scratch.write(
+      "tree.yaml",
+      "espalier: scene\nworld: {voxel: 4 cm, bounds: {min: [0, 0, 0], max: [1, 1, 1]}}\n"
+      "plants: [{rules: {elements: [{texture: leaf.png, size: 9 cm}]}, seeds: [[0.5, 0.5, 0.5]]}]\n"));
+  ASSERT_TRUE(read) << format(read.problems());
+  const rules::Element& element = read->plants.at(0).rules->elements.at(0);
+  EXPECT_NEAR(element.opacity, outline, 0.02);
+  EXPECT_GT(outline, 0.4);
+  EXPECT_LT(outline, 0.8);
+  // With the veins in it: without them all of it has one colour.
+  const Grown young = grown({}, 0);
+  const Finished unveined{young.site.meshes, young.site.world, bare, young.growth, light, models};
+  const render::Image plain = drawCutOut(unveined, image, {300, 200});
+  const auto middle = [](const render::Image& of) { return of.at(of.width / 2, of.height / 2); };
+  EXPECT_GT(middle(picture)[0], middle(plain)[0] + 0.1f) << "the great vein";
+  image.mesh = "none";
+  EXPECT_THROW(drawCutOut(finished, image, {300, 200}), sim::InputError);
+}
+
 TEST(Venation, SaysWhatIsWrong) {
   const tests::Scratch scratch;
   const auto problemsOf = [&](const Leaf& leaf) -> std::string {
@@ -171,6 +223,7 @@ TEST(Venation, SaysWhatIsWrong) {
       Site site = makeSite(*read);
       const auto plantings = makePlantings(*read, site);
       attractorsOf(*read, site);
+      requireCutOutsSeen(*read, site.meshes);
     } catch (const sim::InputError& error) {
       return error.what();
     }
@@ -182,6 +235,10 @@ TEST(Venation, SaysWhatIsWrong) {
   EXPECT_NE(problemsOf({.attractors = "{sphere: 3 cm, at: [0, 0.05, 0], count: 9, waves: 2}"})
                 .find("waves means nothing"),
             std::string::npos);
+  // Of a body no side is the one.
+  const std::string body = problemsOf({.outline = "sphere"});
+  EXPECT_NE(body.find("leaf.yaml:"), std::string::npos) << body;
+  EXPECT_NE(body.find("expected an open sheet"), std::string::npos) << body;
 }
 
 }  // namespace

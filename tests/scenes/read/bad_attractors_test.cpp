@@ -75,6 +75,10 @@ const std::vector<BadFile> kBadAttractors = {
     {"spacing in a solid",
      "attractors: {crown: {dome: 6, at: [0, 0, 0], spacing: 1}}\n",
      {"3:55: spacing means nothing to attractors by dome; expected it with a surface"}},
+    {"waves without a spacing",
+     "meshes: [{file: walls.obj, optional: true}]\nattractors: {crown: {surface: walls, count: 9, waves: "
+     "2}}\n",
+     {"4:55: waves means nothing to attractors by surface; expected it with a surface and a spacing"}},
     {"a density on a mesh",
      "meshes: [{file: walls.obj, optional: true}]\nattractors: {crown: {inside: walls, density: [[0, 1]]}}\n",
      {"4:37: density means nothing to attractors by inside; expected it with a solid"}},

@@ -43,6 +43,11 @@ const std::vector<BadFile> kBadRules = {
     {"a crown beside attractors",
      "propagate: colonization\ncolonization: {attractors: a, crown: {dome: 6 m}}\n",
      {"3:31: a crown beside attractors; expected one of them"}},
+    {"steps onto attractors that pull all around them",
+     "propagate: colonization\ncolonization: {attractors: a, acts: on_all_neighbours, onto: true}\n",
+     {"3:62: onto means nothing where attractors pull all around them; expected it with acts: "
+      "on_nearest_node "
+      "or on_every_node"}},
     {"a crown without a shape",
      "propagate: colonization\ncolonization: {crown: {count: 5}}\n",
      {"3:16: a crown without a shape; expected one, such as dome: {radius: 6 m}"}},

@@ -76,6 +76,28 @@ TEST(SurfacePoints, KeepTheirDistance) {
   EXPECT_LT(free, 40);
 }
 
+TEST(SurfacePoints, ComeInWavesFromSparseToDense) {
+  const Mesh mesh = tests::sphereMesh({1, 2, 3}, 2, 16);
+  const double spacing = 0.2;
+  const auto points = scatterApart(mesh, 100'000, spacing, kSurfaceStream, 3);
+  const auto all_at_once = scatterApart(mesh, 100'000, spacing, kSurfaceStream);
+  EXPECT_TRUE(all_at_once.wave.empty());
+  EXPECT_NEAR(static_cast<double>(points.at.size()), static_cast<double>(all_at_once.at.size()),
+              0.1 * static_cast<double>(all_at_once.at.size()));
+  ASSERT_EQ(points.wave.size(), points.at.size());
+  EXPECT_TRUE(std::is_sorted(points.wave.begin(), points.wave.end()));
+  std::vector<std::size_t> count(3);
+  for (std::size_t i = 0; i < points.at.size(); ++i) {
+    ++count.at(static_cast<std::size_t>(points.wave[i]));
+    double least = INFINITY;
+    for (std::size_t k = 0; k < i; ++k) least = std::min(least, glm::distance(points.at[i], points.at[k]));
+    ASSERT_GE(least, spacing * (1 << (2 - points.wave[i])));
+  }
+  EXPECT_GT(count[0], 10u);
+  EXPECT_GT(count[1], 2 * count[0]);
+  EXPECT_GT(count[2], 2 * count[1]);
+}
+
 TEST(SurfacePoints, ScaleToTheBit) {
   const Mesh mesh = tests::sphereMesh({1, 2, 3}, 2, 8);
   Mesh large = mesh;

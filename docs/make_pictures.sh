@@ -143,6 +143,10 @@ grow scenes/library/whorls.yaml
 small $work/whorls/figure_7.png whorls 960 32
 small $work/whorls/figure_8.png whorls_on_a_body 1100
 small $work/whorls/fields.png fields 1100
+for scene in frost_bubble frost_pane; do
+  grow scenes/library/$scene.yaml
+  small $work/$scene/vines.png $scene 1000
+done
 grow scenes/library/whorls_volume.yaml
 small $work/whorls_volume/graph.png whorls_volume 1000
 

@@ -75,14 +75,16 @@ std::vector<std::string> told(const std::vector<std::string>& differences) {
   return lines;
 }
 
-constexpr std::array<std::string_view, 15> kLooks{
-    ".stem.order_share", ".stem.emits.order_share", ".rough.hurst",  ".rough.amplitude",
-    ".rough.over",       ".rough.detail",           ".stem.by",      ".stem.exponent",
-    ".stem.thickens",    ".stem.thickest",          ".stem.texture", ".varies.chance",
-    ".varies.age",       ".varies.light",           ".varies.height"};
+constexpr std::array<std::string_view, 17> kLooks{
+    ".opacity",       ".stem.order_share", ".stem.emits.order_share",
+    ".rough.hurst",   ".rough.amplitude",  ".rough.over",
+    ".rough.detail",  ".stem.forks",       ".stem.by",
+    ".stem.exponent", ".stem.thickens",    ".stem.thickest",
+    ".stem.texture",  ".varies.chance",    ".varies.age",
+    ".varies.light",  ".varies.height"};
 
-/// How thick stems are beyond their twigs is for models alone, and so are what is painted on them and how far
-/// leaves differ.
+/// How thick stems are beyond their twigs is for models alone, and so are what is painted on them, how far
+/// leaves differ, and what is seen through.
 bool ofLooksAlone(const std::string& path) {
   return std::any_of(kLooks.begin(), kLooks.end(), [&](std::string_view key) { return path.ends_with(key); });
 }

@@ -17,7 +17,7 @@ import masonry
 from make_shapes import ball
 from masonry import Model
 
-masonry.COLOURS.update({"wood": (92, 66, 46), "wood_dark": (64, 45, 32), "snow": (160, 178, 212), "glass": (190, 216, 240)})
+masonry.COLOURS.update({"wood": (72, 54, 44), "wood_dark": (54, 40, 33), "snow": (160, 178, 212), "glass": (190, 216, 240)})
 
 WIDE, HIGH, BAR = 1.2, 0.9, 0.12  # of the glass; of the frame around it
 
@@ -31,12 +31,12 @@ def write_bubble(path):
     out += ["g bubble", "usemtl glass"]
     out += ["f " + " ".join(f"{i + 1}//{i + 1}" for i in face) for face in faces]
     path.write_text("\n".join(out) + "\n")
-    write_clear(path.with_suffix(".mtl"))
+    write_clear(path.with_suffix(".mtl"), 0.03)
 
 
-def write_clear(path):
+def write_clear(path, opacity):
     kd = " ".join(f"{c / 255:.4f}" for c in masonry.COLOURS["glass"])
-    path.write_text(f"# Made by make_winter.py\nnewmtl glass\nKd {kd}\nd 0.03\n")
+    path.write_text(f"# Made by make_winter.py\nnewmtl glass\nKd {kd}\nd {opacity}\n")
 
 
 def write_glass(path):
@@ -44,7 +44,7 @@ def write_glass(path):
     path.write_text("\n".join([
         "# The glass of window.obj", "# Made by make_winter.py; metres, y up.", f"mtllib {path.with_suffix('.mtl').name}",
         *(f"v {a} {b} 0" for a, b in ((-x, -y), (x, -y), (x, y), (-x, y))), "g glass", "usemtl glass", "f 1 2 3 4"]) + "\n")
-    write_clear(path.with_suffix(".mtl"))
+    write_clear(path.with_suffix(".mtl"), 0.01)
 
 
 def window():
@@ -82,7 +82,7 @@ def write_board(path):
         "# A winter dusk, far away", "# Made by make_winter.py; metres, y up.", f"mtllib {path.with_suffix('.mtl').name}",
         "v -4 -3 0", "v 4 -3 0", "v 4 3 0", "v -4 3 0", "vt 0 0", "vt 1 0", "vt 1 1", "vt 0 1", "g dusk", "usemtl dusk",
         "f 1/1 2/2 3/3 4/4"]) + "\n")
-    path.with_suffix(".mtl").write_text("# Made by make_winter.py\nnewmtl dusk\nKd 0.62 0.66 0.74\nmap_Kd dusk.png\n")
+    path.with_suffix(".mtl").write_text("# Made by make_winter.py\nnewmtl dusk\nKd 0.62 0.62 0.76\nmap_Kd dusk.png\n")
     write_picture(path.with_suffix(".png"), 512, 384)
 
 

@@ -116,6 +116,20 @@ TEST_F(MeshLooks, OptionsOfMtlPictures) {
   EXPECT_EQ(pictureOf("map_Kd -clamp").picture, "");
 }
 
+TEST_F(MeshLooks, MtlSaysHowMuchIsHidden) {
+  MtlMaterials materials;
+  EXPECT_EQ(
+      readMtl("newmtl glass\nd 0.25\nnewmtl wall\nd 1\nnewmtl more\nd 7\nnewmtl old\nTr 0.5\n", materials),
+      0);
+  EXPECT_EQ(sim::opacityOf(materials.at("glass").material), 0.25f);
+  EXPECT_EQ(materials.at("glass").material.alpha_mode, Material::Alpha::blend);
+  for (const char* opaque : {"wall", "more", "old"}) {
+    EXPECT_EQ(sim::opacityOf(materials.at(opaque).material), 1.0f);
+    EXPECT_EQ(materials.at(opaque).material.alpha_mode, Material::Alpha::opaque);
+  }
+  EXPECT_EQ(readMtl("newmtl glass\nd -halo 0.2\n", materials), 2);
+}
+
 /// The small document with UVs as shorts, normals, and a material that says all that is read.
 json texturedDocument() {
   json document = tests::gltfDocument();

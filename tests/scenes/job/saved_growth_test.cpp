@@ -170,8 +170,9 @@ TEST(KeptPictures, AreThoseThatItGoesOnWith) {
 TEST(KeptLooks, OfPlantsThatWentOnAreThoseOfOneRun) {
   const tests::Scratch scratch;
   scratch.write("leaf.png", pngOf(1.0f));
-  const auto run = [&](const char* folder, const char* iterations, bool resume) {
-    std::string text = paintedPlot("bark, emits: {colour: \"#80ff80\", strength: 3}");
+  const auto run = [&](const char* folder, const char* iterations, bool resume, double opacity) {
+    std::string text =
+        paintedPlot(fmt::format("bark, opacity: {}, emits: {{colour: \"#80ff80\", strength: 3}}", opacity));
     text.replace(text.find("size: 0.4"), 9, "size: 0.4, emits: \"#ff8080\"");
     text.replace(text.find("iterations: 8"), 13, iterations);
     auto scene = readScene(scratch.write("scene.yaml", text));
@@ -181,11 +182,12 @@ TEST(KeptLooks, OfPlantsThatWentOnAreThoseOfOneRun) {
     options.pictures = false;
     runScene(*scene, options, {.resume = resume});
   };
-  run("at_once", "iterations: 8", false);
-  run("in_two", "iterations: 4", false);
-  run("in_two", "iterations: 8", true);
+  run("at_once", "iterations: 8", false, 0.5);
+  run("in_two", "iterations: 4", false, 0.9);
+  run("in_two", "iterations: 8", true, 0.5);
   const std::string model = tests::fileText(scratch.path("at_once/plant.glb"));
   EXPECT_NE(model.find("KHR_materials_emissive_strength"), std::string::npos);
+  EXPECT_NE(model.find("BLEND"), std::string::npos);
   EXPECT_TRUE(model == tests::fileText(scratch.path("in_two/plant.glb")));
 }
 

@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <numbers>
+#include <ostream>
 #include <stdexcept>
 
 #include "scenes/prepare/plantings.h"
@@ -24,6 +25,10 @@ struct Body {
   int seed = 1;
   double voxel_m = 0.02;
 };
+
+void PrintTo(const Body& body, std::ostream* out) {
+  *out << body.mesh << ", seed " << body.seed << ", voxel " << body.voxel_m << " m";
+}
 
 sim::Plant spread(const Body& body, double angle_deg) {
   const tests::Scratch scratch;

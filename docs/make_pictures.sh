@@ -180,6 +180,20 @@ small $work/figure_3a/column_layers.png column_layers 640
 grow scenes/library/ruin.yaml
 small $work/ruin/vines.png ruin 780
 
+grow scenes/library/vessels.yaml
+small $work/vessels/vines.png vessels 540
+# The surroundings of the heart, with forks as they grew and turned.
+for forks in grown murray; do
+  sed "s/forks: murray/forks: $forks/" rules/library/vessels.yaml >$work/vessels_$forks.rules.yaml
+  sed -e "s#../meshes/#$PWD/scenes/meshes/#; s#../../rules/library/vessels#vessels_$forks.rules#" -e 's/show: .*/show: [stems]}/' \
+      -e 's/^  - vines/  - {kind: vines, show: [stems]}/' -e 's/width: 720, height: 1280/width: 560, height: 560/' \
+      -e 's/main: .*/main: {eye: [0.5, 1.35, 1.5], target: [0.0, 1.27, 0], fov: 14}/' \
+      scenes/library/vessels.yaml >$work/vessels_$forks.yaml
+  grow $work/vessels_$forks.yaml
+done
+oiiotool $work/vessels_grown/vines.png $work/vessels_murray/vines.png --mosaic:pad=8 2x1 -o $work/murray.png
+small $work/murray.png murray 1128
+
 for recipe in docs/examples/*.yaml; do
   name=$(basename $recipe .yaml)
   grow $recipe

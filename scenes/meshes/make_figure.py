@@ -102,6 +102,29 @@ def figure():
     return model
 
 
+def write_smooth(model, path, about):
+    """With the normal of the figure's surface at each corner, so that it has no facets where light glances off it."""
+    model.write(path, about, maker="make_figure.py")
+    all_parts = parts()
+
+    def normal(p):
+        reach = 0.004
+        slope = []
+        for axis in range(3):
+            ahead, behind = list(p), list(p)
+            ahead[axis] += reach
+            behind[axis] -= reach
+            slope.append(field(ahead, all_parts) - field(behind, all_parts))
+        length = math.sqrt(sum(c * c for c in slope))
+        return tuple(c / length for c in slope)
+    lines = path.read_text().splitlines()
+    last = max(i for i, line in enumerate(lines) if line.startswith("v "))
+    normals = ["vn " + " ".join(f"{c:.3f}" for c in normal(p)) for p in model.points]
+    faces = [" ".join(["f"] + [f"{c}//{c}" for c in line.split()[1:]]) if line.startswith("f ") else line
+             for line in lines[last + 1:]]
+    path.write_text("\n".join(lines[:last + 1] + normals + faces) + "\n")
+
+
 if __name__ == "__main__":
     here = pathlib.Path(__file__).resolve().parent
-    figure().write(here / "figure.obj", "A standing figure", maker="make_figure.py")
+    write_smooth(figure(), here / "figure.obj", "A standing figure")

@@ -23,7 +23,7 @@
 namespace espalier::scenes {
 namespace {
 
-struct Changed {
+struct ChangedVessels {
   const char* name;
   std::uint64_t seed;
   double voxel_m;
@@ -31,11 +31,11 @@ struct Changed {
   std::vector<sim::Vec3> starts;  ///< there
 };
 
-std::ostream& operator<<(std::ostream& out, const Changed& changed) {
+std::ostream& operator<<(std::ostream& out, const ChangedVessels& changed) {
   return out << changed.name;
 }
 
-Scene vessels(const Changed& changed) {
+Scene vessels(const ChangedVessels& changed) {
   auto read = readScene(tests::sourceFolder() / "scenes/library/vessels.yaml");
   if (!read) throw std::runtime_error(format(read.problems()));
   Scene scene = *read;
@@ -47,12 +47,12 @@ Scene vessels(const Changed& changed) {
   return scene;
 }
 
-struct Grown {
+struct GrownVessels {
   render::FormedStand stand;
   sim::BitVolume inside, skin;
 };
 
-Grown grownIn(const Changed& changed) {
+GrownVessels vesselsIn(const ChangedVessels& changed) {
   const Scene scene = vessels(changed);
   Site site = makeSite(scene);
   const sim::World before = site.world;
@@ -63,13 +63,13 @@ Grown grownIn(const Changed& changed) {
           sim::insideOf(site.meshes.at(0).mesh, site.world.frame()), before.occupied()};
 }
 
-class Vessels : public testing::TestWithParam<Changed> {
+class Vessels : public testing::TestWithParam<ChangedVessels> {
  protected:
   /// Each grown once.
-  static const Grown& grown() {
-    static std::map<std::string, Grown> all;
+  static const GrownVessels& grown() {
+    static std::map<std::string, GrownVessels> all;
     const auto at = all.find(GetParam().name);
-    return at != all.end() ? at->second : all.emplace(GetParam().name, grownIn(GetParam())).first->second;
+    return at != all.end() ? at->second : all.emplace(GetParam().name, vesselsIn(GetParam())).first->second;
   }
 };
 
@@ -115,13 +115,16 @@ TEST_P(Vessels, ForkAtMurraysAngle) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(
-    Scenes, Vessels,
-    testing::Values(
-        Changed{"library", 1, 0.006, "", {}}, Changed{"another_seed", 77, 0.006, "", {}},
-        Changed{"coarser", 1, 0.006 / 0.7, "", {}},
-        Changed{"in_a_ball", 5, 0.006, "scenes/meshes/sphere.obj", {{0.02, 0.1, 0.0}, {-0.02, 0.1, 0.0}}}),
-    [](const auto& changed) { return changed.param.name; });
+INSTANTIATE_TEST_SUITE_P(Scenes, Vessels,
+                         testing::Values(ChangedVessels{"library", 1, 0.006, "", {}},
+                                         ChangedVessels{"another_seed", 77, 0.006, "", {}},
+                                         ChangedVessels{"coarser", 1, 0.006 / 0.7, "", {}},
+                                         ChangedVessels{"in_a_ball",
+                                                        5,
+                                                        0.006,
+                                                        "scenes/meshes/sphere.obj",
+                                                        {{0.02, 0.1, 0.0}, {-0.02, 0.1, 0.0}}}),
+                         [](const auto& changed) { return changed.param.name; });
 
 }  // namespace
 }  // namespace espalier::scenes

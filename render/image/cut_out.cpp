@@ -44,7 +44,7 @@ Frame2 frameOf(std::span<const CutOutTriangle> body, int most_width_px, int most
   if (!(area > 0.0f))
     throw sim::InputError("a body without area; expected triangles that are seen straight on");
   const vec2 extent = frame.high - frame.low;
-  const vec2 room = vec2(most_width_px, most_height_px) - 2.0f * kMargin_px;
+  const vec2 room = glm::max(vec2(most_width_px, most_height_px) - 2.0f * kMargin_px, 1.0f);
   frame.scale = std::min(room.x / extent.x, room.y / extent.y);
   const vec2 size = glm::ceil(extent * frame.scale - 0.01f) + 2.0f * kMargin_px;
   frame.width = std::clamp(static_cast<int>(size.x), 1, most_width_px);

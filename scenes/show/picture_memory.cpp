@@ -26,6 +26,9 @@ constexpr double kFragment = sizeof(render::Fragment) + 1 + 12 * kFloat;
 /// where its own begin.
 constexpr double kSeen = 3 * sizeof(render::Fragment) + kFloat + sizeof(std::size_t);
 
+/// A pixel of a cut-out while it is drawn: what lies in it, and which of its samples are covered.
+constexpr double kCut = 14 * kFloat + 2;
+
 /// Channels of the measured values; none of what has none.
 int measuredChannels(ImageKind kind) {
   switch (kind) {
@@ -77,7 +80,7 @@ PicturesWanted fitting(PicturesWanted wanted) {
 
 double pictureBytes(const PicturesWanted& wanted, double fragments) {
   const double pixels = static_cast<double>(wanted.width_px) * wanted.height_px;
-  double kept = 0.0, packed = 0.0;
+  double kept = 0.0, packed = 0.0, cut = 0.0;
   bool graphs = false;
   std::set<std::string> cameras;
   for (const ImageSpec& image : wanted.images) {
@@ -89,6 +92,10 @@ double pictureBytes(const PicturesWanted& wanted, double fragments) {
       // Pictures stay as they were drawn, and their files' bytes besides, which packing may not make less.
       kept += pixels * (kDisplay + 3 + 2 * kFloat * measured);
       packed = std::max(packed, pixels * (kDisplay + 3 + kFloat * measured));
+    }
+    if (image.kind == ImageKind::cut_out) {
+      kept += pixels * (kDisplay + kFloat + 4);
+      cut = pixels * kCut;
     }
     graphs = graphs || isGraph(image.kind);
     if (isPanel(image.kind) && cameras.insert(image.camera).second)
@@ -104,7 +111,7 @@ double pictureBytes(const PicturesWanted& wanted, double fragments) {
   // Below points and graphs lies what a camera sees, which only they need, and which they share.
   if (graphs)
     looking = pixels * (kSeen + kDisplay + 2 * static_cast<double>(sizeof(render::Fragment)) * fragments);
-  return kept + std::max(looking, packed * sim::threadCount());
+  return kept + std::max({looking, cut, packed * sim::threadCount()});
 }
 
 std::size_t mostFragments(const PicturesWanted& wanted) {

@@ -27,8 +27,8 @@ const std::vector<BadFile> kBadVerbs = {
      {"2:42: within says nothing of a height, which goes all the way down"}},
     {"how far a plant is from itself",
      "senses: {gap: {measure: distance, of: plants}}\n",
-     {"2:39: the distance to plants is none, as a plant touches itself; expected others, scene, lines or "
-      "a region"}},
+     {"2:39: the distance to plants is none, as a plant touches itself; expected others, scene, lines, "
+      "surfaces or a region"}},
     {"a density of lines",
      "senses: {line: {of: lines}}\n",
      {"2:21: lines are too thin for it; expected measure: distance or nearness, or the voxels of another"}},

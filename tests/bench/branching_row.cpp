@@ -17,7 +17,7 @@
 namespace espalier::bench {
 namespace {
 
-constexpr const char* kRow = "12 what branches";
+constexpr const char* kBranchingRow = "12 what branches";
 
 /// The front alone, to the attractors of a scene's first plant from its seed; lengths that its rules leave
 /// out as the process takes them.
@@ -57,10 +57,10 @@ void benchOne(const char* name, int count, Report& report) {
   fs::remove_all(options.folder);
   std::map<std::string, double> stages_s(run.run.stages_s.begin(), run.run.stages_s.end());
   std::size_t triangles = 0;
-  for (const auto& plant : run.growth->plants) triangles += plant.triangles;
+  for (const auto& plant : run.growth->plants) triangles += plant.triangles.value_or(0);
   report.note(fmt::format("  {}, {} attractors: {} nodes of the first plant, {} triangles of all", name,
                           count, colony.position.size(), triangles));
-  const auto add = [&](const char* what, double seconds) { report.add({kRow, what, seconds, "s"}); };
+  const auto add = [&](const char* what, double seconds) { report.add({kBranchingRow, what, seconds, "s"}); };
   add("    the world", stages_s["tiling"]);
   add("    the first plant's front, bare", front_s);
   add("    growth in the world, fronts included", stages_s["growing"]);

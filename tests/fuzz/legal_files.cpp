@@ -64,7 +64,11 @@ class LegalFiles {
   void one(std::uint64_t number) {
     const fs::path folder = fs::path(arguments_.folder) / fmt::format("{}", number);
     fs::remove_all(folder);  // what a run that was ended has left
-    const WrittenScene scene = RandomFiles(number, folder).scene();
+    std::set<std::string> favoured;
+    if (arguments_.only_draw) {
+      for (std::string& key : unseen()) favoured.insert(std::move(key));
+    }
+    const WrittenScene scene = RandomFiles(number, folder, std::move(favoured)).scene();
     keys_.insert(scene.keys.begin(), scene.keys.end());
     if (!scene.refused.empty()) {
       ++reasons_["not legal: " + reasonOf(scene.refused)];

@@ -38,9 +38,10 @@ const std::set<std::string> kOfLayers = {"rules:propagate", "rules:diffusion", "
 
 }  // namespace
 
-RandomFiles::RandomFiles(std::uint64_t seed, std::filesystem::path folder)
+RandomFiles::RandomFiles(std::uint64_t seed, std::filesystem::path folder, std::set<std::string> favoured)
     : numbers_(seed),
       folder_(std::move(folder)),
+      favoured_(std::move(favoured)),
       world_(drawWorld(numbers_)),
       colonizes_(numbers_.chance(0.35)),
       odd_numbers_(~seed),
@@ -234,11 +235,19 @@ void RandomFiles::knowSpecials() {
   };
 }
 
+/// It, or what it holds.
+bool RandomFiles::isFavoured(const std::string& path) const {
+  const auto next = favoured_.lower_bound(path);
+  return next != favoured_.end() && next->starts_with(path) &&
+         (next->size() == path.size() || (*next)[path.size()] == '.' || (*next)[path.size()] == '[');
+}
+
 bool RandomFiles::wanted(const rules::Key& key, const std::string& path) {
   if (key.required || key.kind == Kind::header) return true;
   if (kAlways.contains(path)) return true;
   if (path == "scene:meshes") return world_.meshes;
   if (path.starts_with("scene:") && (path.ends_with(".unit") || path.ends_with(".up"))) return odd_;
+  if (isFavoured(path)) return numbers_.chance(0.9);
   // A world of lines and guides alone has no surface to be lit.
   if (path == "scene:meshes[].lines" || path == "scene:meshes[].guide") return numbers_.chance(0.1);
   if (colonizes_ && kOfFronts.contains(path)) return true;

@@ -27,8 +27,9 @@ struct WrittenScene {
 
 class RandomFiles {
  public:
-  /// Writes into a folder. Equal numbers give equal files.
-  RandomFiles(std::uint64_t seed, std::filesystem::path folder);
+  /// Writes into a folder. Equal numbers give equal files. `favoured`: paths of keys that shall be drawn more
+  /// often than others.
+  RandomFiles(std::uint64_t seed, std::filesystem::path folder, std::set<std::string> favoured = {});
 
   /// Draws a scene and its files and writes them; what the reader's checks complain of is taken out again,
   /// key by key.
@@ -61,6 +62,7 @@ class RandomFiles {
   Drawn table(const rules::Table& table, const std::string& path);
   bool value(const rules::Key& key, const std::string& path, Drawn& drawn);
   bool wanted(const rules::Key& key, const std::string& path);
+  bool isFavoured(const std::string& path) const;
   bool rules(Drawn& drawn);
   Drawn ruleMap();
   bool regions(Drawn& drawn);
@@ -72,6 +74,7 @@ class RandomFiles {
 
   tests::Numbers numbers_;
   std::filesystem::path folder_;
+  std::set<std::string> favoured_;
   World world_;
   bool colonizes_;              // its plants
   tests::Numbers odd_numbers_;  ///< of strangers' files, so that all others stay as they are

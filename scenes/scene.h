@@ -240,7 +240,7 @@ struct AttractorsSpec {
   rules::StrewingSpec strewing;     ///< spread and density: of a solid
   std::optional<double> spacing_m;  ///< on a surface: the least between two
   int waves = 1;  ///< in which they come: each twice as dense as those before it, when nothing moves any more
-  Place place = {};                 ///< where a scene file has it
+  Place place = {};  ///< where a scene file has it
 };
 
 struct NamedCamera {

@@ -15,8 +15,7 @@ constexpr Limits kWeight{0.0, 1.0};
 constexpr Limits kAngle{0.0, 180.0};
 constexpr Limits kTrials{1.0, 10'000.0};  // as many as a random key tells apart
 constexpr Limits kDistance{0.0, 1000.0};
-const char* const kVoxels = "voxel widths";
-const char* const kDegrees = "degrees";
+const char *const kVoxels = "voxel widths", *const kDegrees = "degrees";
 
 std::shared_ptr<const Table> randomTreeKeys() {
   const auto trials = TableOf<RandomTree>()
@@ -112,8 +111,7 @@ std::shared_ptr<const Table> colonizationKeys() {
                     {{"on_nearest_node", Acts::on_nearest_node},
                      {"on_every_node", Acts::on_every_node},
                      {"on_all_neighbours", Acts::on_all_neighbours}},
-                    {.meaning = "Each attractor pulls its nearest node, or all around it, which meet; or each "
-                                "node picks its nearest attractor."})
+                    {.meaning = "Attractors pull the nearest node or all around; or nodes pick the nearest."})
       .flag("onto", &Colonization::onto,
             {.meaning = "New nodes stand on attractors, which are used up, in place of a step farther."})
       .flag("repeated", &Colonization::repeated,

@@ -36,9 +36,10 @@ void checkSense(const SenseSpec& sense, const Check::Given& given, const Check::
   if (of_nearest && holds_own)
     complain(
         at + (given(at + ".of") > 0 ? ".of" : ".measure"),
-        fmt::format("the distance to {} is none, as a plant touches itself; expected others, scene, lines, surfaces "
-                    "or a region",
-                    sense.of));
+        fmt::format(
+            "the distance to {} is none, as a plant touches itself; expected others, scene, lines, surfaces "
+            "or a region",
+            sense.of));
 }
 
 }  // namespace
@@ -54,11 +55,10 @@ std::shared_ptr<const Table> senseKeys() {
           {.meaning =
                "Share of the voxels within, distance in metres, nearness (1 there, 0 from within on) or "
                "metres above."})
-      .text(
-          "of", &SenseSpec::of,
-          {.meaning = "Whose: everything, scene, plants, own, others, a region by its name; or lines or "
-                      "surfaces, which are exact.",
-           .most = 100})
+      .text("of", &SenseSpec::of,
+            {.meaning = "Whose: everything, scene, plants, own, others, a region by its name; or lines or "
+                        "surfaces, which are exact.",
+             .most = 100})
       .distance("within", &SenseSpec::within,
                 {.unit = "voxel widths", .limits = {0.0, 64.0, true}, .meaning = "How far it is looked for."})
       .shared();

@@ -44,7 +44,7 @@ void benchOne(int count, Report& report) {
   fs::remove_all(options.folder);
   std::map<std::string, double> stages_s(run.run.stages_s.begin(), run.run.stages_s.end());
   report.note(fmt::format("  {} attractors: {} nodes, {} triangles", count, colony.position.size(),
-                          run.growth->plants[0].triangles));
+                          run.growth->plants[0].triangles.value_or(0)));
   const auto add = [&](const char* what, double seconds) { report.add({kRow, what, seconds, "s"}); };
   add("    the front, bare", front_s);
   add("    growth in its world, the front included", stages_s["growing"]);

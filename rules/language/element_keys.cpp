@@ -54,7 +54,8 @@ namespace {
 std::shared_ptr<const Table> roughnessKeys() {
   return TableOf<Roughness>()
       .number("hurst", &Roughness::hurst,
-              {.limits = {0.01, 0.99},
+              {.unit = "exponent",
+               .limits = {0.01, 0.99},
                .meaning = "Hurst exponent of the noise: 0.5 is a random walk, less is more jagged, more is "
                           "smoother."})
       .distance("amplitude", &Roughness::amplitude,

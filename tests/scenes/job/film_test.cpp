@@ -114,9 +114,9 @@ TEST_F(FilmOfGrowth, WhatShinesLightsAsFarAsItHasGrown) {
     EXPECT_TRUE(pixelsOf(film.at("film_0003.png")) == pixelsOf(tests::fileText(scratch_.path("out/a.png"))));
     return film;
   };
-  const Files dark = with("emits: {strength: 0}"), bright = with("emits: {strength: 9}");
-  EXPECT_TRUE(pixelsOf(dark.at("film_0000.png")) == pixelsOf(bright.at("film_0000.png")));
-  EXPECT_FALSE(pixelsOf(dark.at("film_0003.png")) == pixelsOf(bright.at("film_0003.png")));
+  const Files dim = with("emits: {strength: 1}"), bright = with("emits: {strength: 9}");
+  EXPECT_TRUE(pixelsOf(dim.at("film_0000.png")) == pixelsOf(bright.at("film_0000.png")));
+  EXPECT_FALSE(pixelsOf(dim.at("film_0003.png")) == pixelsOf(bright.at("film_0003.png")));
 }
 
 TEST_F(FilmOfGrowth, FollowsItsCamera) {

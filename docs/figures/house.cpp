@@ -33,7 +33,7 @@ const std::map<std::string, Setting>& settings() {
         {0.900f, 0.935f, 0.880f},
         {0.33f, 0.50f, 0.27f}}},
       {"render",
-       {{{"finish", "files", "model", "image"}, {"voxels", "image"}},
+       {{{"finish", "files", "model", "image"}, {"form", "model", "image"}, {"voxels", "image"}},
         {0.890f, 0.920f, 0.950f},
         {0.27f, 0.42f, 0.60f}}},
       {"scenes",

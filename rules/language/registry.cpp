@@ -1,9 +1,9 @@
 #include "rules/language/registry.h"
 
-#include "rules/language/colonization_keys.h"
 #include "rules/language/diffusion_keys.h"
 #include "rules/language/element_keys.h"
 #include "rules/language/envelope_keys.h"
+#include "rules/language/front_keys.h"
 #include "rules/language/key_builder.h"
 #include "rules/language/sense_keys.h"
 #include "rules/language/wander_keys.h"

@@ -1,4 +1,4 @@
-#include "rules/language/colonization_keys.h"
+#include "rules/language/front_keys.h"
 
 #include "rules/language/envelope_keys.h"
 #include "rules/language/key_builder.h"

@@ -15,7 +15,7 @@
 namespace espalier::bench {
 namespace {
 
-constexpr const char* kRow = "12 lightning";
+constexpr const char* kBoltRow = "12 lightning";
 
 /// The front alone, to the scene's attractors from its seed.
 rules::Colony colonized(const scenes::Scene& scene, const scenes::Site& site) {
@@ -29,7 +29,7 @@ rules::Colony colonized(const scenes::Scene& scene, const scenes::Site& site) {
                          {widths(rules.step), widths(rules.influence), widths(rules.kill)}, scene.iterations);
 }
 
-void benchOne(int count, Report& report) {
+void benchBoltOf(int count, Report& report) {
   namespace fs = std::filesystem;
   auto scene = scenes::readScene(ESPALIER_SOURCE_DIR "/scenes/library/lightning.yaml");
   if (!scene) throw sim::InputError(scenes::format(scene.problems()));
@@ -45,7 +45,7 @@ void benchOne(int count, Report& report) {
   std::map<std::string, double> stages_s(run.run.stages_s.begin(), run.run.stages_s.end());
   report.note(fmt::format("  {} attractors: {} nodes, {} triangles", count, colony.position.size(),
                           run.growth->plants[0].triangles.value_or(0)));
-  const auto add = [&](const char* what, double seconds) { report.add({kRow, what, seconds, "s"}); };
+  const auto add = [&](const char* what, double seconds) { report.add({kBoltRow, what, seconds, "s"}); };
   add("    the front, bare", front_s);
   add("    growth in its world, the front included", stages_s["growing"]);
   add("    light, and what bounces", stages_s["lighting"] + stages_s["bouncing light"]);
@@ -58,7 +58,7 @@ void benchOne(int count, Report& report) {
 
 void benchBolt(Report& report) {
   report.title("12. A bolt of lightning by its attractors: scene lightning, one run each");
-  for (const int count : {250, 1000, 4000, 16'000}) benchOne(count, report);
+  for (const int count : {250, 1000, 4000, 16'000}) benchBoltOf(count, report);
 }
 
 }  // namespace espalier::bench

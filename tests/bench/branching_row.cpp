@@ -19,9 +19,15 @@ namespace {
 
 constexpr const char* kBranchingRow = "12 what branches";
 
-/// The front alone, to the attractors of a scene's first plant from its seed; lengths that its rules leave
-/// out as the process takes them.
-rules::Colony colonized(const scenes::Scene& scene, const scenes::Site& site) {
+/// What the front of a scene's first plant is alone; lengths that its rules leave out as the process takes
+/// them.
+struct BareFront {
+  std::vector<sim::Vec3> attractors;
+  sim::Vec3 start{0.0};
+  rules::FrontRules rules;
+};
+
+BareFront bareFront(const scenes::Scene& scene, const scenes::Site& site) {
   const double voxel_m = site.world.frame().voxel_m;
   const scenes::PlantSpec& plant = scene.plants[0];
   const rules::Colonization& rules = plant.rules->colonization;
@@ -34,11 +40,10 @@ rules::Colony colonized(const scenes::Scene& scene, const scenes::Site& site) {
   const auto widths = [&](const std::optional<rules::Distance>& length, double otherwise) {
     return length ? rules::widths(*length, voxel_m) : otherwise;
   };
-  const sim::Vec3 start = sim::voxelFromWorld(site.world.frame(), plant.seeds[0].at_m);
-  return rules::colonize(attractors->at_vx, {&start, 1},
-                         {widths(rules.step, suitable.step), widths(rules.influence, suitable.influence),
-                          widths(rules.kill, suitable.kill)},
-                         scene.iterations);
+  return {attractors->at_vx,
+          sim::voxelFromWorld(site.world.frame(), plant.seeds[0].at_m),
+          {widths(rules.step, suitable.step), widths(rules.influence, suitable.influence),
+           widths(rules.kill, suitable.kill)}};
 }
 
 /// A scene of the library, all of its attractors so many.
@@ -49,8 +54,11 @@ void benchOne(const char* name, int count, Report& report) {
   for (scenes::AttractorsSpec& attractors : scene->attractors) attractors.strewing.count = count;
   scene->film.reset();
   const scenes::Site site = scenes::makeSite(*scene);
+  const BareFront front = bareFront(*scene, site);
   rules::Colony colony;
-  const double front_s = medianSeconds([&] { colony = colonized(*scene, site); });
+  const double front_s = medianSeconds([&] {
+    colony = rules::colonize(front.attractors, {&front.start, 1}, front.rules, scene->iterations);
+  });
   scenes::RunOptions options;
   options.folder = fs::temp_directory_path() / fmt::format("espalier.bench.{}", ::getpid());
   const scenes::Report run = scenes::runScene(*scene, options, {.keep = false});

@@ -171,8 +171,9 @@ std::string wrongWith(const RuleSet& rules, const std::string& at) {
   }
   const auto within = [&](const char* key, const Distance& distance, double least, double most) {
     if (distance.number > 0.0 && distance.number >= least && distance.number <= most) return std::string();
-    return fmt::format("{} is {:.3g} voxel widths {}; expected {}, at most {}", key, distance.number, at,
-                       least > 0.0 ? fmt::format("at least {}", least) : "more than 0", most);
+    return fmt::format("{} is {:.3g} voxel widths {}; expected {}{}", key, distance.number, at,
+                       least > 0.0 ? fmt::format("at least {}", least) : "more than 0",
+                       most < kNoLimit ? fmt::format(", at most {}", most) : "");
   };
   std::string wrong = within("bias.twist.radius", rules.bias.twist_radius, 0.0, kFarthestTwist);
   // Of sets that no reader has checked too: senses are asked for by their names.

@@ -315,7 +315,12 @@ TEST(Stem, ItsGirthIsForModelsAlone) {
   EXPECT_DOUBLE_EQ(rough.hurst + rough.over_vx + rough.detail_vx, 0.4 + 10.0 + 0.25);
   EXPECT_DOUBLE_EQ(rough.amplitude_vx, 0.5);
   girth.stem.rough->detail = {4e-4, true};  // a hundredth of a voxel width
-  EXPECT_THROW(makeProcess(shared(girth), 0.04), sim::InputError);
+  try {
+    makeProcess(shared(girth), 0.04);
+    FAIL();
+  } catch (const sim::InputError& error) {
+    EXPECT_TRUE(std::string(error.what()).ends_with("expected at least 0.02")) << error.what();
+  }
 }
 
 }  // namespace

@@ -12,7 +12,6 @@
 #include "render/model/radii.h"
 #include "sim/base/parallel.h"
 #include "sim/base/stop.h"
-#include "sim/tile/tiling.h"
 
 namespace espalier::render {
 namespace {
@@ -56,12 +55,6 @@ struct Plan {
   std::vector<Stretch> stretches;
   std::vector<Ends> ends;
 };
-
-bool enters(Vec3 from, Vec3 to, const KeptFree& blocked) {
-  std::vector<sim::Voxel> voxels;
-  sim::tileSegment(from, to, voxels);
-  return std::any_of(voxels.begin(), voxels.end(), [&](sim::Voxel v) { return blocked(v); });
-}
 
 /// A unit vector, turned about another by an angle, radians; square to it.
 Vec3 turned(Vec3 v, Vec3 about, double angle) {
@@ -238,7 +231,7 @@ std::vector<Reshaped> waysOn(const Stretch& stretch, const Turned& turned) {
   return ways;
 }
 
-bool enters(Vec3 start, const std::vector<Reshaped>& ways, const KeptFree& blocked) {
+bool anyEnters(Vec3 start, const std::vector<Reshaped>& ways, const KeptFree& blocked) {
   for (const Reshaped& way : ways) {
     for (const Vec3 place : way.through) {
       if (enters(start, place, blocked)) return true;
@@ -263,7 +256,7 @@ sim::Plant withMurrayForks(const sim::Plant& grown, const KeptFree& blocked) {
     const Stretch& stretch = plan.stretches[i];
     for (const Attempt& attempt : kAttempts) {
       std::vector<Reshaped> turned = waysOn(stretch, Turned(stretch, plan.ends[i], attempt));
-      if (enters(stretch.points.front(), turned, blocked)) continue;
+      if (anyEnters(stretch.points.front(), turned, blocked)) continue;
       for (std::size_t k = 0; k < turned.size(); ++k)
         ways[static_cast<std::size_t>(stretch.nodes[k])] = std::move(turned[k]);
       return;

@@ -6,19 +6,12 @@
 #include "render/form/forks.h"
 #include "render/form/stretch.h"
 #include "render/model/radii.h"
-#include "sim/tile/tiling.h"
 
 namespace espalier::render {
 
 using sim::NodeId;
 
 namespace {
-
-bool isFree(sim::Vec3 from, sim::Vec3 to, const KeptFree& blocked) {
-  std::vector<sim::Voxel> voxels;
-  sim::tileSegment(from, to, voxels);
-  return std::none_of(voxels.begin(), voxels.end(), [&](sim::Voxel v) { return blocked(v); });
-}
 
 /// Adds points to the ways of a limb's nodes, at rising arcs, for other limbs to leave from.
 void leaveFrom(const Stretch& limb, const std::vector<NodeId>& leaving, double apart, const sim::Skeleton& s,
@@ -30,7 +23,7 @@ void leaveFrom(const Stretch& limb, const std::vector<NodeId>& leaving, double a
                                               limb.arcs.begin());
     const auto node = static_cast<std::size_t>(leaving[k]);
     const sim::Vec3 place = limb.at(arc);
-    if (!isFree(place, s.position_vx[node], blocked)) continue;
+    if (enters(place, s.position_vx[node], blocked)) continue;
     Reshaped& way = ways[static_cast<std::size_t>(limb.nodes[end - 1])];
     const double share = (arc - limb.arcs[end - 1]) / (limb.arcs[end] - limb.arcs[end - 1]);
     ways[node].start = Reshaped::Start{limb.nodes[end - 1], way.through.size() - 1};

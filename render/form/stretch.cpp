@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "sim/tile/tiling.h"
+
 namespace espalier::render {
 
 using sim::NodeId;
@@ -39,6 +41,12 @@ std::vector<Stretch> stretchesOf(const sim::Skeleton& skeleton) {
     stretch.nodes.push_back(static_cast<NodeId>(n));
   }
   return stretches;
+}
+
+bool enters(Vec3 from_vx, Vec3 to_vx, const KeptFree& blocked) {
+  std::vector<sim::Voxel> voxels;
+  sim::tileSegment(from_vx, to_vx, voxels);
+  return std::any_of(voxels.begin(), voxels.end(), [&](sim::Voxel v) { return blocked(v); });
 }
 
 std::vector<Reshaped> asGrown(const sim::Skeleton& skeleton) {

@@ -1,6 +1,7 @@
 #pragma once
 #include <vector>
 
+#include "render/form/formed.h"
 #include "render/form/reshaped.h"
 #include "sim/grow/plant.h"
 
@@ -20,6 +21,9 @@ struct Stretch {
 
 /// All of a skeleton's, by the order of their first nodes.
 std::vector<Stretch> stretchesOf(const sim::Skeleton& skeleton);
+
+/// Whether a straight piece enters what is blocked.
+bool enters(sim::Vec3 from_vx, sim::Vec3 to_vx, const KeptFree& blocked);
 
 /// Every segment as it grew.
 std::vector<Reshaped> asGrown(const sim::Skeleton& skeleton);

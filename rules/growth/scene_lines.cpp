@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "rules/growth/rule_book.h"
+#include "rules/growth/nearest_among.h"
 
 namespace espalier::rules {
 namespace {
@@ -17,15 +17,6 @@ sim::Vec3 nearestOn(const LineEnds& line, sim::Vec3 at_vx) {
 }
 
 }  // namespace
-
-bool asksForLines(const RuleSet& rules) {
-  bool asks = false;
-  forEachSet(rules, [&](const RuleSet& set, const std::string&) {
-    asks = asks || std::any_of(set.senses.begin(), set.senses.end(),
-                               [](const SenseSpec& sense) { return sense.of == kOfLines; });
-  });
-  return asks;
-}
 
 sim::Columns columnsOf(std::span<const LineEnds> lines_vx) {
   sim::Columns columns;
@@ -50,16 +41,7 @@ LinesNear::LinesNear(const sim::Commons& commons, sim::Vec3 about_vx, double rea
 }
 
 std::optional<sim::Vec3> LinesNear::nearest(sim::Vec3 at_vx, double within_vx) const {
-  std::optional<sim::Vec3> nearest;
-  double least = within_vx;
-  for (const LineEnds& line : lines_) {
-    const sim::Vec3 on = nearestOn(line, at_vx);
-    const double far = glm::distance(on, at_vx);
-    if (far >= least) continue;
-    least = far;
-    nearest = on;
-  }
-  return nearest;
+  return nearestAmong(lines_, at_vx, within_vx, nearestOn);
 }
 
 }  // namespace espalier::rules

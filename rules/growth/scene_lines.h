@@ -13,9 +13,6 @@ namespace espalier::rules {
 
 inline constexpr const char* kSceneLines = "lines";  ///< in sim::Commons
 
-/// Whether a rule set, or one that it leads to, asks for them.
-bool asksForLines(const RuleSet& rules);
-
 /// From their ends, voxel space.
 using LineEnds = std::pair<sim::Vec3, sim::Vec3>;
 sim::Columns columnsOf(std::span<const LineEnds> lines_vx);

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "rules/growth/rule_book.h"
+#include "rules/growth/nearest_among.h"
 #include "sim/sense/scene_surface.h"
 
 namespace espalier::rules {
@@ -18,15 +18,6 @@ bool comesNear(const TriangleCorners& corners, sim::Vec3 about_vx, double reach_
 }
 
 }  // namespace
-
-bool asksForSurfaces(const RuleSet& rules) {
-  bool asks = false;
-  forEachSet(rules, [&](const RuleSet& set, const std::string&) {
-    asks = asks || std::any_of(set.senses.begin(), set.senses.end(),
-                               [](const SenseSpec& sense) { return sense.of == kOfSurfaces; });
-  });
-  return asks;
-}
 
 sim::Columns columnsOf(std::span<const TriangleCorners> triangles_vx) {
   sim::Columns columns;
@@ -50,16 +41,9 @@ SurfacesNear::SurfacesNear(const sim::Commons& commons, sim::Vec3 about_vx, doub
 }
 
 std::optional<sim::Vec3> SurfacesNear::nearest(sim::Vec3 at_vx, double within_vx) const {
-  std::optional<sim::Vec3> nearest;
-  double least = within_vx;
-  for (const TriangleCorners& corners : triangles_) {
-    const sim::Vec3 on = sim::nearestOn(corners, at_vx);
-    const double far = glm::distance(on, at_vx);
-    if (far >= least) continue;
-    least = far;
-    nearest = on;
-  }
-  return nearest;
+  return nearestAmong(triangles_, at_vx, within_vx, [](const TriangleCorners& corners, sim::Vec3 at) {
+    return sim::nearestOn(corners, at);
+  });
 }
 
 }  // namespace espalier::rules

@@ -13,9 +13,6 @@ namespace espalier::rules {
 
 inline constexpr const char* kSceneSurfaces = "surfaces";  ///< in sim::Commons
 
-/// Whether a rule set, or one that it leads to, asks for them.
-bool asksForSurfaces(const RuleSet& rules);
-
 /// By its corners, voxel space.
 using TriangleCorners = std::array<sim::Vec3, 3>;
 sim::Columns columnsOf(std::span<const TriangleCorners> triangles_vx);

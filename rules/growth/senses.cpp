@@ -4,6 +4,7 @@
 #include <iterator>
 
 #include "rules/growth/apices.h"
+#include "rules/growth/rule_book.h"
 #include "rules/growth/scene_lines.h"
 #include "rules/growth/scene_surfaces.h"
 #include "sim/grow/plant.h"
@@ -115,6 +116,15 @@ Exposure exposureOf(const sim::Light& light) {
 Vigour vigourOf(const Exposure& seen, const RuleSet& rules) {
   const double exposure = blended(rules.light, seen);
   return {exposure, vigourAt(rules, exposure)};
+}
+
+bool hasSenseOf(const RuleSet& rules, std::string_view of) {
+  bool has = false;
+  forEachSet(rules, [&](const RuleSet& set, const std::string&) {
+    has = has || std::any_of(set.senses.begin(), set.senses.end(),
+                             [&](const SenseSpec& sense) { return sense.of == of; });
+  });
+  return has;
 }
 
 sim::Whose whoseOf(const sim::SiteView& view, const SenseSpec& sense) {

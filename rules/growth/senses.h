@@ -1,6 +1,7 @@
 #pragma once
 #include <array>
 #include <optional>
+#include <string_view>
 #include <vector>
 
 #include "rules/language/rule_set.h"
@@ -51,6 +52,9 @@ Exposure exposureOf(const sim::Light& light);
 /// What one rule set makes of the light. To be asked before all else, which is dearer: many sites end by it.
 Vigour vigourOf(const Exposure& seen, const RuleSet& rules);
 Surroundings lookAround(const sim::SiteView& view, const sim::Site& site);
+/// Whether a rule set, or one that it leads to, has a sense of this (SenseSpec::of).
+bool hasSenseOf(const RuleSet& rules, std::string_view of);
+
 /// Whose voxels a sense asks for.
 sim::Whose whoseOf(const sim::SiteView& view, const SenseSpec& sense);
 /// What a sense of the distance or nearness reads in a place where this is the nearest.

@@ -16,6 +16,7 @@
 #include "rules/growth/rule_book.h"
 #include "rules/growth/scene_lines.h"
 #include "rules/growth/scene_surfaces.h"
+#include "rules/growth/senses.h"
 #include "rules/growth/shared_guide.h"
 #include "scenes/lights.h"
 #include "scenes/prepare/in_scene.h"
@@ -234,8 +235,9 @@ void requireSensed(const PlantSpec& spec, const Scene& scene, const Site& site, 
         problemAt(spec.rules_place, scene.file,
                   fmt::format("senses are of: {}, and the scene has none; expected {}", what, expected)));
   };
-  require(rules::asksForLines(*spec.rules), !linesOf(site).empty(), rules::kOfLines, "a mesh with lines");
-  require(rules::asksForSurfaces(*spec.rules), !surfacesOf(site).empty(), rules::kOfSurfaces,
+  require(rules::hasSenseOf(*spec.rules, rules::kOfLines), !linesOf(site).empty(), rules::kOfLines,
+          "a mesh with lines");
+  require(rules::hasSenseOf(*spec.rules, rules::kOfSurfaces), !surfacesOf(site).empty(), rules::kOfSurfaces,
           "a mesh with faces");
 }
 
@@ -300,10 +302,10 @@ sim::GrowthSettings growthSettings(const Scene& scene, const Site& site,
                   [](const PlantSpec& plant) { return rules::asksForApices(*plant.rules); }))
     settings.commons[rules::kApices] = rules::columnsOf(apicesOf(site.world));
   if (std::any_of(scene.plants.begin(), scene.plants.end(),
-                  [](const PlantSpec& plant) { return rules::asksForLines(*plant.rules); }))
+                  [](const PlantSpec& plant) { return rules::hasSenseOf(*plant.rules, rules::kOfLines); }))
     settings.commons[rules::kSceneLines] = rules::columnsOf(linesOf(site));
   if (std::any_of(scene.plants.begin(), scene.plants.end(),
-                  [](const PlantSpec& plant) { return rules::asksForSurfaces(*plant.rules); }))
+                  [](const PlantSpec& plant) { return rules::hasSenseOf(*plant.rules, rules::kOfSurfaces); }))
     settings.commons[rules::kSceneSurfaces] = rules::columnsOf(surfacesOf(site));
   for (std::size_t i = 0; i < scene.fields.size(); ++i) {
     const rules::Guide guide = guideOf(scene.fields[i], site.fields.at(i), site.world.frame());

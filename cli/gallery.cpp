@@ -17,7 +17,7 @@
 #include "cli/job_options.h"
 #include "cli/progress.h"
 #include "cli/say.h"
-#include "scenes/job/gallery.h"
+#include "scenes/gallery/gallery.h"
 #include "sim/base/error.h"
 #include "sim/base/parallel.h"
 
@@ -52,18 +52,22 @@ fs::path libraryFolder() {
 
 /// The help's list of what there is.
 std::string figuresText() {
-  std::string text = "Figures:\n";
-  for (const scenes::GalleryFigure& figure : scenes::galleryFigures())
-    text += fmt::format("  {}  {}\n", figure.name, figure.title);
+  std::string text;
+  for (const scenes::GalleryDocument& document : scenes::galleryDocuments()) {
+    text += fmt::format("\n{}: {} ({})\n", document.name, document.title, document.by);
+    for (const scenes::GalleryFigure& figure : document.figures)
+      text += fmt::format("  {}  {}\n", figure.name, figure.title);
+  }
   return text;
 }
 
 int gallery(const GalleryArguments& arguments) {
   const JobOptions& job = arguments.job;
   const Interrupt interrupt;
-  const std::vector<scenes::GalleryFigure> figures = scenes::figuresCalled(arguments.names);
+  const std::vector<scenes::GalleryDocument> documents = scenes::figuresCalled(arguments.names);
   const std::vector<scenes::Scene> scenes =
-      scenes::scenesOf(figures, arguments.library.empty() ? libraryFolder() : fs::path(arguments.library));
+      scenes::scenesOf(scenes::figuresOf(documents),
+                       arguments.library.empty() ? libraryFolder() : fs::path(arguments.library));
   scenes::RunOptions run;
   run.folder = job.folder.empty() ? "out/gallery" : job.folder;
   run.stop = interrupt.token();
@@ -84,7 +88,7 @@ int gallery(const GalleryArguments& arguments) {
       scene_file = scene.file.string();
       if (!silent) progress.warning(fmt::format("{}/{} {}", number, scenes.size(), scene.name));
     };
-    sim::onThreads(job.threads, [&] { made = scenes::makeGallery(figures, scenes, run, on_scene); });
+    sim::onThreads(job.threads, [&] { made = scenes::makeGallery(documents, scenes, run, on_scene); });
   }
   if (job.json) {
     printJson(scenes::toJson(made));
@@ -97,13 +101,15 @@ int gallery(const GalleryArguments& arguments) {
 }  // namespace
 
 void addGallery(CLI::App& app, int& exit_status) {
-  auto* const command = app.add_subcommand("gallery",
-                                           "Grow the figures of Greene's \"Voxel Space Automata\" from the "
-                                           "library's scenes, with a contact sheet and a page "
-                                           "that sets each beside the paper's description");
+  auto* const command =
+      app.add_subcommand("gallery",
+                         "Grow the figures of Greene's \"Voxel Space Automata\" and of four "
+                         "other documents from the library's scenes, with a contact sheet "
+                         "and a page that sets each beside what its document says");
   const auto arguments = std::make_shared<GalleryArguments>();
   arguments->job.scene = "the gallery";
-  command->add_option("name", arguments->names, "Figures, as below; without any, all of them");
+  command->add_option("name", arguments->names,
+                      "Figures, or documents with all of theirs, as below; without any, all of them");
   addRunOptions(*command, arguments->job, "out/gallery");
   command->add_option("--library", arguments->library,
                       "Folder of the library's scenes (default: the one that came with the program)");

@@ -111,7 +111,7 @@ beside() {  # beside INTO HEIGHT PICTURE...: side by side on white, each so high
   oiiotool "$into" --cut $((at - 10))x$height+0+0 -o "$into"
   rm $work/part.png
 }
-$program gallery -o $work/gallery --quiet
+$program gallery -o $work/gallery --json >$work/gallery.json
 mkdir -p docs/gallery
 beside $work/figure_3_parts.png 640 $work/gallery/figure_3a/column_layers.png $work/gallery/figure_3/figure_3{b,c,d}.png
 beside $work/figure_7_parts.png 640 $work/gallery/tendril/{sky_tables,vines}.png
@@ -124,7 +124,23 @@ small $work/gallery/courtyard/contact_sheet.png ../gallery/figure_6 840
 small $work/figure_7_parts.png ../gallery/figure_7 860 128
 small $work/gallery/clusters/vines.png ../gallery/figure_8 640
 small $work/gallery/gable/gable.png ../gallery/figure_9 840
-small $work/gallery/gallery.png ../gallery/gallery 900
+small $work/gallery/gallery.png ../gallery/gallery 1100
+# The other documents' figures, those of several pictures side by side.
+while read -r name pictures; do
+  set -- $(printf "$work/gallery/%s " $pictures)
+  if [ $# = 1 ]; then
+    small "$1" ../gallery/$name 640 128
+  else
+    beside $work/parts.png 420 "$@"
+    small $work/parts.png ../gallery/$name 900 128
+  fi
+done < <(python3 - $work/gallery.json <<'END'
+import json, sys
+for figure in json.load(open(sys.argv[1]))["figures"]:
+    if figure["document"] != "greene_1989":
+        print(figure["name"], *figure["pictures"])
+END
+)
 
 grow scenes/library/w_dome.yaml
 small $work/w_dome/steps.png colonization_steps 1600

@@ -1,4 +1,4 @@
-// `espalier gallery` as a user runs it. What the page says and shows: tests/scenes/job/gallery_test.cpp.
+// `espalier gallery` as a user runs it. What the page says and shows: tests/scenes/gallery/gallery_test.cpp.
 #include <gtest/gtest.h>
 
 #include <CLI/App.hpp>

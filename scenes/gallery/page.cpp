@@ -1,4 +1,4 @@
-#include "scenes/job/gallery_page.h"
+#include "scenes/gallery/page.h"
 
 #include <fmt/format.h>
 
@@ -26,6 +26,8 @@ header p, footer p { max-width: 46rem; color: var(--quiet); }
 nav { margin: 1.2rem 0 0; padding: .7rem 0; border-top: 1px solid var(--rule); border-bottom: 1px solid var(--rule); }
 nav a { display: inline-block; padding: .15rem .9rem .15rem 0; white-space: nowrap; }
 a { color: inherit; text-decoration-color: var(--accent); text-underline-offset: .15em; }
+.document { margin: 3.5rem 0 0; }
+.document p { max-width: 46rem; color: var(--quiet); }
 section { background: var(--paper); border: 1px solid var(--rule); border-radius: 6px; margin: 1.75rem 0;
   padding: 1.4rem 1.5rem; }
 .sides { display: grid; grid-template-columns: minmax(0, 1.35fr) minmax(0, 1fr); gap: 1.75rem; align-items: start; }
@@ -90,14 +92,6 @@ std::string escaped(std::string_view text) {
   return out;
 }
 
-/// "figure_5" as "Figure 5".
-std::string spoken(std::string_view name) {
-  std::string text(name);
-  for (char& c : text) c = c == '_' ? ' ' : c;
-  if (!text.empty() && text.front() == 'f') text.front() = 'F';
-  return text;
-}
-
 std::string pictureHtml(const ShownFigure::Picture& picture, const std::string& of) {
   const std::string letter = picture.letter.empty() ? "" : "<b>" + escaped(picture.letter) + "</b> ";
   const std::string alt = of + (picture.letter.empty() ? "" : " " + picture.letter) + ": " + picture.caption;
@@ -115,24 +109,24 @@ std::string listHtml(std::string_view title, std::span<const std::string_view> i
 }
 
 std::string numbersHtml(std::span<const ShownFigure::Number> numbers) {
-  std::string html = "<table>\n<thead><tr><th></th><th>The paper</th><th>Here</th></tr></thead>\n<tbody>\n";
+  std::string html = "<table>\n<thead><tr><th></th><th>There</th><th>Here</th></tr></thead>\n<tbody>\n";
   for (const ShownFigure::Number& number : numbers)
     html += fmt::format("<tr><th scope=\"row\">{}</th><td>{}</td><td>{}</td></tr>\n", escaped(number.what),
                         escaped(number.paper), escaped(number.ours));
   return html + "</tbody>\n</table>\n";
 }
 
-std::string figureHtml(const ShownFigure& shown) {
+std::string figureHtml(const GalleryDocument& document, const ShownFigure& shown) {
   const GalleryFigure& figure = shown.figure;
-  const std::string name = spoken(figure.name);
+  const std::string name = spokenName(document, figure);
   std::string html = fmt::format("<section id=\"{}\">\n<h2><b>{}</b>{}</h2>\n<div class=\"sides\">\n",
                                  escaped(figure.name), escaped(name), escaped(figure.title));
   html += fmt::format("<div class=\"pictures{}\">\n", shown.pictures.size() > 2 ? " many" : "");
   for (const ShownFigure::Picture& picture : shown.pictures) html += pictureHtml(picture, name);
-  html += "</div>\n<div class=\"told\">\n<h3>The paper</h3>\n<p>" + escaped(figure.paper) + "</p>\n";
+  html += "</div>\n<div class=\"told\">\n<h3>What it shows</h3>\n<p>" + escaped(figure.paper) + "</p>\n";
   html += listHtml("What agrees", figure.agrees) + listHtml("What differs", figure.differs);
   html += "</div>\n</div>\n";
-  html += numbersHtml(shown.numbers);
+  if (!shown.numbers.empty()) html += numbersHtml(shown.numbers);
   if (!shown.rules_text.empty())
     html += fmt::format("<h3>The rule set {}</h3>\n<pre>{}</pre>\n", escaped(figure.rules),
                         escaped(shown.rules_text));
@@ -145,32 +139,37 @@ std::string figureHtml(const ShownFigure& shown) {
 
 }  // namespace
 
-std::string galleryPage(std::span<const ShownFigure> figures, const PageAbout& about) {
+std::string galleryPage(std::span<const ShownDocument> documents, const PageAbout& about) {
   std::string html = fmt::format(
       "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
       "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
-      "<title>The figures of Voxel Space Automata, grown again</title>\n<style>{}</style>\n</head>\n<body>\n"
-      "<header>\n<h1>The figures of <i>Voxel Space Automata</i>, grown again</h1>\n"
-      "<p>Ned Greene showed at SIGGRAPH 1989 how plants grow that sense a world of voxels. Here are the "
-      "figures of "
-      "his paper as {} grows them today, each beside what the paper says of it, in our words, with what "
-      "agrees, what "
-      "differs, and his numbers next to those of this run. It took {}.</p>\n"
-      "<p>All pictures on one sheet: <a href=\"{}\">{}</a></p>\n<nav>\n",
-      kStyle, escaped(about.software), escaped(about.took), escaped(about.sheet), escaped(about.sheet));
-  for (const ShownFigure& shown : figures)
-    html += fmt::format("<a href=\"#{}\">{}</a>\n", escaped(shown.figure.name),
-                        escaped(spoken(shown.figure.name)));
-  html += "</nav>\n</header>\n<main>\n";
-  for (const ShownFigure& shown : figures) html += figureHtml(shown);
+      "<title>{}</title>\n<style>{}</style>\n</head>\n<body>\n<header>\n<h1>{}</h1>\n"
+      "<p>Figures of the documents that Espalier grew from, as {} grows them today: each beside what its "
+      "document says of it, in our words, with what agrees, what differs, and the numbers of both. It took "
+      "{}.</p>\n<p>All pictures on one sheet: <a href=\"{}\">{}</a></p>\n",
+      kGalleryTitle, kStyle, kGalleryTitle, escaped(about.software), escaped(about.took),
+      escaped(about.sheet), escaped(about.sheet));
+  for (const auto& [document, figures] : documents) {
+    html +=
+        fmt::format("<nav><a href=\"#{}\"><i>{}</i></a>\n", escaped(document.name), escaped(document.title));
+    for (const ShownFigure& shown : figures)
+      html += fmt::format("<a href=\"#{}\">{}</a>\n", escaped(shown.figure.name),
+                          escaped(spokenName(document, shown.figure)));
+    html += "</nav>\n";
+  }
+  html += "</header>\n<main>\n";
+  for (const auto& [document, figures] : documents) {
+    html += fmt::format("<div class=\"document\" id=\"{}\"><h1>{}</h1>\n<p>{}. {}</p></div>\n",
+                        escaped(document.name), escaped(document.title), escaped(document.by),
+                        escaped(document.about));
+    for (const ShownFigure& shown : figures) html += figureHtml(document, shown);
+  }
   return html +
-         "</main>\n<footer>\n<p>&ldquo;Not told&rdquo;: the paper's text does not say it. Polygons are "
-         "triangles here, "
-         "of meshes and plants as they are drawn. Times are of whole runs: tiling, growing, light, models, "
-         "all of a "
-         "scene's pictures and files. Beside each picture lies what <code>espalier grow</code> writes: the "
-         "model, the "
-         "world, the report.</p>\n</footer>\n</body>\n</html>\n";
+         "</main>\n<footer>\n<p>&ldquo;Not told&rdquo;: the document's text does not say it. Polygons are "
+         "triangles here, of meshes and plants as they are drawn. Times are of whole runs: tiling, growing, "
+         "light, models, all of a scene's pictures and files. Beside each picture lies what "
+         "<code>espalier grow</code> writes: the model, the world, the report.</p>\n</footer>\n</body>\n"
+         "</html>\n";
 }
 
 }  // namespace espalier::scenes

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "scenes/job/gallery_figures.h"
+#include "scenes/gallery/figures.h"
 
 namespace espalier::scenes {
 
@@ -23,6 +23,14 @@ struct ShownFigure {
   std::string rules_text;  ///< the file of figure.rules
 };
 
+/// A document of which figures were grown.
+struct ShownDocument {
+  GalleryDocument document;
+  std::vector<ShownFigure> figures;
+};
+
+inline constexpr const char* kGalleryTitle = "The figures of five documents, grown again";
+
 /// What the page says of itself.
 struct PageAbout {
   std::string software;  ///< "Espalier 0.1.0"
@@ -30,9 +38,9 @@ struct PageAbout {
   std::string sheet;     ///< the contact sheet's file, from the page's folder
 };
 
-/// A page of HTML by itself, but for the pictures that it links to: each figure with what the paper shows,
-/// what agrees, what differs, and the numbers of both. Without scripts; for screens large and small, and
-/// paper.
-std::string galleryPage(std::span<const ShownFigure> figures, const PageAbout& about);
+/// A page of HTML by itself, but for the pictures that it links to: each figure with what its document
+/// shows, what agrees, what differs, and the numbers of both. Without scripts; for screens large and small,
+/// and paper.
+std::string galleryPage(std::span<const ShownDocument> documents, const PageAbout& about);
 
 }  // namespace espalier::scenes

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "scenes/job/gallery_page.h"
+#include "scenes/gallery/page.h"
 #include "scenes/job/report.h"
 #include "scenes/job/run.h"
 #include "scenes/scene.h"
@@ -15,7 +15,7 @@ inline constexpr const char *kGalleryPage = "index.html", *kGallerySheet = "gall
 
 /// What a gallery says of itself.
 struct Gallery {
-  std::vector<ShownFigure> figures;
+  std::vector<ShownDocument> documents;
   std::vector<Report> runs;  ///< of each scene
   std::vector<std::string>
       files;  ///< of the gallery itself, beside what each run wrote into a folder of its own
@@ -27,11 +27,11 @@ struct Gallery {
 /// that is wrong with them.
 std::vector<Scene> scenesOf(std::span<const GalleryFigure> figures, const std::filesystem::path& library);
 
-/// Grows figures: each of their scenes, as runScene does, into a folder of the scene file's name in
-/// options.folder, and then a contact sheet and a page there. `scenes`: as scenesOf has them, all of the
-/// figures' own. `on_scene` hears of each before it begins, with its number from 1. Throws as runScene does;
-/// what was written of scenes before stays, and the page comes last.
-Gallery makeGallery(std::span<const GalleryFigure> figures, const std::vector<Scene>& scenes,
+/// Grows the figures of documents: each of their scenes, as runScene does, into a folder of the scene file's
+/// name in options.folder, and then a contact sheet and a page there. `scenes`: as scenesOf has them, all of
+/// the figures' own; films are left out. `on_scene` hears of each before it begins, with its number from 1.
+/// Throws as runScene does; what was written of scenes before stays, and the page comes last.
+Gallery makeGallery(const std::vector<GalleryDocument>& documents, const std::vector<Scene>& scenes,
                     const RunOptions& options,
                     const std::function<void(std::size_t number, const Scene& scene)>& on_scene = {});
 

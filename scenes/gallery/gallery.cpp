@@ -1,4 +1,4 @@
-#include "scenes/job/gallery.h"
+#include "scenes/gallery/gallery.h"
 
 #include <fmt/format.h>
 
@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "render/image/contact_sheet.h"
+#include "render/image/cut_out.h"
 #include "render/image/image_io.h"
 #include "scenes/clean_text.h"
 #include "scenes/read/read_scene.h"
@@ -89,13 +90,18 @@ render::Image pictureFrom(const fs::path& file) {
 }
 
 /// All pictures of the figures, by the numbers and letters that they have there.
-render::Image sheetOf(const std::vector<ShownFigure>& figures, const std::vector<render::Image>& reduced,
+render::Image sheetOf(const std::vector<ShownDocument>& documents, const std::vector<render::Image>& reduced,
                       const render::SheetLook& look) {
   std::vector<render::Captioned> captioned;
-  for (const ShownFigure& shown : figures) {
-    const std::string number(shown.figure.name.substr(shown.figure.name.find('_') + 1));
-    for (const ShownFigure::Picture& picture : shown.pictures)
-      captioned.push_back({&reduced[captioned.size()], number + picture.letter, picture.caption});
+  for (const auto& [document, figures] : documents) {
+    for (const ShownFigure& shown : figures) {
+      std::string label = spokenName(document, shown.figure);
+      if (const std::size_t space = label.rfind(' '); space != label.npos) label.erase(0, space + 1);
+      if (label.back() > '9') label += " ";
+      for (const ShownFigure::Picture& picture : shown.pictures)
+        captioned.push_back({&reduced[captioned.size()],
+                             fmt::format("{}{}{}", document.mark, label, picture.letter), picture.caption});
+    }
   }
   return render::contactSheet(captioned, look);
 }
@@ -121,7 +127,7 @@ std::vector<Scene> scenesOf(std::span<const GalleryFigure> figures, const fs::pa
   return scenes;
 }
 
-Gallery makeGallery(std::span<const GalleryFigure> figures, const std::vector<Scene>& scenes,
+Gallery makeGallery(const std::vector<GalleryDocument>& documents, const std::vector<Scene>& scenes,
                     const RunOptions& options,
                     const std::function<void(std::size_t, const Scene&)>& on_scene) {
   const auto began = Clock::now();
@@ -131,23 +137,25 @@ Gallery makeGallery(std::span<const GalleryFigure> figures, const std::vector<Sc
   for (const Scene& scene : scenes) output.protect(scene.read_paths);
   Gallery gallery;
   gallery.threads = sim::threadCount();
-  for (const Scene& scene : scenes) {
+  for (Scene scene : scenes) {
     sim::throwIfStopped();
     if (on_scene) on_scene(gallery.runs.size() + 1, scene);
     RunOptions run = options;
     run.folder = options.folder / stemOf(scene);
+    scene.film.reset();
     gallery.runs.push_back(runScene(scene, run, {.keep = false}));
   }
   if (options.on_stage) options.on_stage("contact sheet");
   render::SheetLook look;
   std::vector<render::Image> reduced;
-  for (const GalleryFigure& figure : figures) {
+  const auto shownOf = [&](const GalleryFigure& figure) {
     ShownFigure shown{figure, {}, {}, {}};
     if (!figure.rules.empty()) shown.rules_text = libraryRules(figure.rules)->text;
     for (const FigurePicture& of : figure.pictures) {
       sim::throwIfStopped();
       const fs::path file = fs::path(of.scene) / (std::string(of.image) + ".png");
-      const render::Image picture = pictureFrom(options.folder / file);
+      render::Image picture = pictureFrom(options.folder / file);
+      if (picture.channels == 4) picture = render::onPaper(picture);
       shown.pictures.push_back({file.generic_string(), picture.width, picture.height, std::string(of.letter),
                                 std::string(of.caption)});
       reduced.push_back(render::reducedForSheet(picture, look.picture_width_px));
@@ -155,13 +163,22 @@ Gallery makeGallery(std::span<const GalleryFigure> figures, const std::vector<Sc
     for (const FigureNumber& number : figure.numbers)
       shown.numbers.push_back({std::string(number.what), std::string(number.paper),
                                measuredText(number, figure, scenes, gallery.runs)});
-    gallery.figures.push_back(std::move(shown));
+    return shown;
+  };
+  for (const GalleryDocument& document : documents) {
+    gallery.documents.push_back({document, {}});
+    for (const GalleryFigure& figure : document.figures)
+      gallery.documents.back().figures.push_back(shownOf(figure));
   }
   const sim::Provenance& made_by = gallery.runs.front().made_by;
   look.columns = columnsFor(reduced.size());
-  look.title = "The figures of Voxel Space Automata, grown again";
-  look.note = "Ned Greene, SIGGRAPH 1989; " + made_by.software;
-  const render::Image sheet = sheetOf(gallery.figures, reduced, look);
+  look.title = kGalleryTitle;
+  for (const GalleryDocument& document : documents) {
+    const std::string mark = document.mark.empty() ? "" : fmt::format("{}: ", document.mark);
+    look.note += fmt::format("{}{}, {}\n", mark, document.title, document.by);
+  }
+  look.note += made_by.software;
+  const render::Image sheet = sheetOf(gallery.documents, reduced, look);
   gallery.total_s = std::chrono::duration<double>(Clock::now() - began).count();
   std::vector<OutputFile> files;
   files.push_back(fileOf(kGallerySheet, [&] {
@@ -169,7 +186,7 @@ Gallery makeGallery(std::span<const GalleryFigure> figures, const std::vector<Sc
   }));
   files.push_back(
       fileOf(kGalleryPage,
-             galleryPage(gallery.figures,
+             galleryPage(gallery.documents,
                          {made_by.software, tookText(gallery.total_s, gallery.threads), kGallerySheet})));
   output.write(files);
   for (const OutputFile& file : files) gallery.files.push_back(file.name);
@@ -179,16 +196,19 @@ Gallery makeGallery(std::span<const GalleryFigure> figures, const std::vector<Sc
 std::string toJson(const Gallery& gallery) {
   using Json = nlohmann::ordered_json;
   Json figures = Json::array();
-  for (const ShownFigure& shown : gallery.figures) {
-    Json pictures = Json::array(), numbers = Json::array();
-    for (const ShownFigure::Picture& picture : shown.pictures) pictures.push_back(picture.file);
-    for (const ShownFigure::Number& number : shown.numbers)
-      numbers.push_back({{"what", number.what}, {"paper", number.paper}, {"ours", number.ours}});
-    figures.push_back({{"name", shown.figure.name},
-                       {"title", shown.figure.title},
-                       {"scene", shown.figure.scene},
-                       {"pictures", pictures},
-                       {"numbers", numbers}});
+  for (const auto& [document, shown_figures] : gallery.documents) {
+    for (const ShownFigure& shown : shown_figures) {
+      Json pictures = Json::array(), numbers = Json::array();
+      for (const ShownFigure::Picture& picture : shown.pictures) pictures.push_back(picture.file);
+      for (const ShownFigure::Number& number : shown.numbers)
+        numbers.push_back({{"what", number.what}, {"paper", number.paper}, {"ours", number.ours}});
+      figures.push_back({{"name", shown.figure.name},
+                         {"document", document.name},
+                         {"title", shown.figure.title},
+                         {"scene", shown.figure.scene},
+                         {"pictures", pictures},
+                         {"numbers", numbers}});
+    }
   }
   Json runs = Json::array();
   for (const Report& report : gallery.runs) runs.push_back(Json::parse(toJson(report)));
@@ -202,10 +222,11 @@ std::string toJson(const Gallery& gallery) {
 std::string summary(const Gallery& gallery, const fs::path& folder) {
   std::uint64_t most = 0;
   for (const Report& report : gallery.runs) most = std::max(most, report.run.peak_memory_bytes);
-  std::string text =
-      fmt::format("{} from {} in {}, {:.0f} MB\n", sim::counted(gallery.figures.size(), "figure"),
-                  sim::counted(gallery.runs.size(), "scene"), tookText(gallery.total_s, gallery.threads),
-                  static_cast<double>(most) / 1e6);
+  std::size_t figures = 0;
+  for (const ShownDocument& shown : gallery.documents) figures += shown.figures.size();
+  std::string text = fmt::format("{} from {} in {}, {:.0f} MB\n", sim::counted(figures, "figure"),
+                                 sim::counted(gallery.runs.size(), "scene"),
+                                 tookText(gallery.total_s, gallery.threads), static_cast<double>(most) / 1e6);
   for (const Report& report : gallery.runs)
     text += fmt::format("  {}: {:.1f} s\n", report.scene, report.run.total_s);
   text += "wrote a folder for each scene, and\n";

@@ -1,4 +1,4 @@
-#include "scenes/job/gallery.h"
+#include "scenes/gallery/gallery.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -12,7 +12,7 @@
 #include <set>
 #include <string>
 
-#include "scenes/job/gallery_figures.h"
+#include "scenes/gallery/figures.h"
 #include "scenes/read/rule_library.h"
 #include "sim/base/error.h"
 #include "tests/support/scratch.h"
@@ -26,23 +26,36 @@ fs::path library() {
   return tests::sourceFolder() / "scenes/library";
 }
 
-TEST(GalleryFigures, AreThoseOfThePaper) {
-  const auto figures = galleryFigures();
-  ASSERT_EQ(figures.size(), 9u);
-  for (std::size_t i = 0; i < figures.size(); ++i) {
-    const GalleryFigure& figure = figures[i];
-    EXPECT_EQ(figure.name, "figure_" + std::to_string(i + 1));
-    EXPECT_FALSE(figure.title.empty() || figure.paper.empty()) << figure.name;
-    EXPECT_FALSE(figure.agrees.empty() || figure.differs.empty() || figure.numbers.empty()) << figure.name;
-    EXPECT_FALSE(figure.pictures.empty()) << figure.name;
-    for (const FigureNumber& number : figure.numbers)
-      EXPECT_EQ(number.ours.empty(), number.measured != Measured::said) << figure.name << ' ' << number.what;
-    EXPECT_TRUE(figure.rules.empty() || libraryRules(figure.rules)) << figure.rules;
+TEST(GalleryFigures, AreThoseOfTheDocuments) {
+  std::set<std::string_view> names;
+  for (const GalleryDocument& document : galleryDocuments()) {
+    EXPECT_FALSE(document.title.empty() || document.by.empty() || document.about.empty()) << document.name;
+    EXPECT_TRUE(names.insert(document.name).second);
+    for (const GalleryFigure& figure : document.figures) {
+      EXPECT_TRUE(names.insert(figure.name).second) << figure.name;
+      EXPECT_TRUE(figure.name.starts_with(document.name) || figure.name.starts_with("figure_"))
+          << figure.name;
+      EXPECT_FALSE(figure.title.empty() || figure.paper.empty()) << figure.name;
+      EXPECT_FALSE(figure.agrees.empty() || figure.differs.empty()) << figure.name;
+      EXPECT_FALSE(figure.pictures.empty()) << figure.name;
+      for (const FigureNumber& number : figure.numbers)
+        EXPECT_EQ(number.ours.empty(), number.measured != Measured::said)
+            << figure.name << ' ' << number.what;
+      EXPECT_TRUE(figure.rules.empty() || libraryRules(figure.rules)) << figure.rules;
+    }
   }
+  const auto numbered = [&](const std::string& of, int first, int last) {
+    for (int i = first; i <= last; ++i) EXPECT_TRUE(names.contains(of + std::to_string(i))) << of << i;
+  };
+  numbered("figure_", 1, 9);
+  numbered("tanaka_2022_", 2, 22);
+  numbered("tanaka_2020_", 4, 12);
+  for (const char* tree : {"tree_gen_simple", "tree_gen_fir", "tree_gen_cypress", "spline_tree_bare"})
+    EXPECT_TRUE(names.contains(tree)) << tree;
 }
 
 TEST(GalleryFigures, TheirPicturesAreImagesOfTheirScenes) {
-  const auto all = figuresCalled({});
+  const auto all = figuresOf(galleryDocuments());
   const std::vector<Scene> scenes = scenesOf(all, library());
   const std::vector<std::string> names = sceneNames(all);
   ASSERT_EQ(scenes.size(), names.size());
@@ -58,39 +71,58 @@ TEST(GalleryFigures, TheirPicturesAreImagesOfTheirScenes) {
   }
 }
 
-TEST(GalleryFigures, AreCalledInThePapersOrderEachOnce) {
-  const auto called = figuresCalled({"figure_7", "figure_2", "figure_7"});
+TEST(GalleryFigures, AreCalledInTheDocumentsOrderEachOnce) {
+  const auto called = figuresOf(figuresCalled({"figure_7", "figure_2", "figure_7"}));
   ASSERT_EQ(called.size(), 2u);
   EXPECT_EQ(called[0].name, "figure_2");
   EXPECT_EQ(called[1].name, "figure_7");
-  EXPECT_EQ(sceneNames(figuresCalled({"figure_5", "figure_6"})), (std::vector<std::string>{"courtyard"}))
+  const auto of = [](const std::vector<std::string>& names) {
+    return sceneNames(figuresOf(figuresCalled(names)));
+  };
+  EXPECT_EQ(of({"figure_5", "figure_6"}), (std::vector<std::string>{"courtyard"}))
       << "two figures of one run";
+  EXPECT_EQ(figuresOf(figuresCalled({"greene_1989"})).size(), 9u) << "a document with all of its figures";
+  const auto two = figuresCalled({"tanaka_2020_8", "figure_1"});
+  ASSERT_EQ(two.size(), 2u);
+  EXPECT_EQ(two[0].name, "greene_1989");
+  EXPECT_EQ(two[1].figures.size(), 1u);
   EXPECT_THROW(figuresCalled({"figure_1", "figure_10"}), sim::InputError);
 }
 
-/// The figures as docs/gallery.md has them below its mark; ESPALIER_UPDATE_DOCS=1 writes them anew.
+TEST(GalleryFigures, AreCalledByNumbersOrWords) {
+  std::set<std::string> spoken;
+  for (const GalleryDocument& document : galleryDocuments())
+    for (const GalleryFigure& figure : document.figures) spoken.insert(spokenName(document, figure));
+  for (const char* name : {"Figure 5", "Figure 20", "Fir", "Bare"})
+    EXPECT_TRUE(spoken.contains(name)) << name;
+}
+
+/// A document's figures as docs/gallery/DOCUMENT.md has them; ESPALIER_UPDATE_DOCS=1 writes them anew.
 TEST(GalleryFigures, StandInTheDocs) {
-  const std::string mark = "<!-- figures: made from that table by the test GalleryFigures -->\n";
-  std::string figures;
-  for (const GalleryFigure& figure : galleryFigures()) {
-    const std::string number(figure.name.substr(figure.name.find('_') + 1));
-    figures += fmt::format("\n## {}. {}\n\n![{}](gallery/{}.png)\n\n{}\n", number, figure.title, figure.title,
-                           figure.name, figure.paper);
-    for (const auto& [heading, items] :
-         {std::pair("What agrees", figure.agrees), {"What differs", figure.differs}}) {
-      figures += fmt::format("\n**{}**\n", heading);
-      for (const std::string_view item : items) figures += fmt::format("- {}\n", item);
+  const fs::path docs = tests::sourceFolder() / "docs";
+  for (const GalleryDocument& document : galleryDocuments()) {
+    std::string expected = fmt::format(
+        "# {}\n\n{}. {}\n\n`espalier gallery {}` makes these pictures ([the gallery](../gallery.md)).\n",
+        document.title, document.by, document.about, document.name);
+    for (const GalleryFigure& figure : document.figures) {
+      expected += fmt::format("\n## {}. {}\n\n![{}]({}.png)\n\n{}\n", spokenName(document, figure),
+                              figure.title, figure.title, figure.name, figure.paper);
+      for (const auto& [heading, items] :
+           {std::pair("What agrees", figure.agrees), {"What differs", figure.differs}}) {
+        expected += fmt::format("\n**{}**\n", heading);
+        for (const std::string_view item : items) expected += fmt::format("- {}\n", item);
+      }
+      EXPECT_TRUE(fs::exists(docs / "gallery" / (std::string(figure.name) + ".png"))) << figure.name;
     }
-    EXPECT_TRUE(fs::exists(tests::sourceFolder() / "docs/gallery" / (std::string(figure.name) + ".png")));
+    const fs::path path = docs / "gallery" / (std::string(document.name) + ".md");
+    if (std::getenv("ESPALIER_UPDATE_DOCS")) std::ofstream(path, std::ios::binary) << expected;
+    EXPECT_TRUE(tests::fileText(path) == expected)
+        << path
+        << " is not what the table says; run this test once with ESPALIER_UPDATE_DOCS=1 and commit it";
+    EXPECT_NE(tests::fileText(docs / "gallery.md").find("(gallery/" + std::string(document.name) + ".md)"),
+              std::string::npos)
+        << document.name;
   }
-  const fs::path path = tests::sourceFolder() / "docs/gallery.md";
-  const std::string page = tests::fileText(path);
-  const auto at = page.find(mark);
-  ASSERT_NE(at, std::string::npos);
-  const std::string expected = page.substr(0, at + mark.size()) + figures;
-  if (std::getenv("ESPALIER_UPDATE_DOCS")) std::ofstream(path, std::ios::binary) << expected;
-  EXPECT_TRUE(tests::fileText(path) == expected)
-      << "the page is not what the table says; run this test once with ESPALIER_UPDATE_DOCS=1 and commit it";
 }
 
 /// The library's scenes as small as they still are what they are: a few iterations, small pictures, and where
@@ -108,11 +140,11 @@ std::vector<Scene> small(std::vector<Scene> scenes) {
 class SmallGallery : public testing::Test {
  protected:
   Gallery make(const std::vector<std::string>& names) {
-    const auto figures = figuresCalled(names);
+    const auto documents = figuresCalled(names);
     RunOptions options;
     options.folder = scratch_.path("out");
     return makeGallery(
-        figures, small(scenesOf(figures, library())), options,
+        documents, small(scenesOf(figuresOf(documents), library())), options,
         [&](std::size_t number, const Scene& scene) { heard_.emplace_back(number, scene.name); });
   }
   std::string page() { return tests::fileText(scratch_.path("out") / kGalleryPage); }
@@ -132,8 +164,8 @@ class SmallGallery : public testing::Test {
 };
 
 TEST_F(SmallGallery, GrowsEveryFigureAndItsPageHasAllOfThem) {
-  const Gallery gallery = make({});
-  EXPECT_EQ(gallery.figures.size(), 9u);
+  const Gallery gallery = make({"greene_1989"});
+  EXPECT_EQ(gallery.documents.at(0).figures.size(), 9u);
   EXPECT_EQ(heard_.size(), 9u);
   EXPECT_EQ(heard_.front(), std::pair(std::size_t{1}, std::string("figure 1")));
   const std::set<std::string> files = linked();
@@ -143,7 +175,7 @@ TEST_F(SmallGallery, GrowsEveryFigureAndItsPageHasAllOfThem) {
     EXPECT_FALSE(fs::path(file).is_absolute()) << file;
   }
   const std::string html = page();
-  for (const GalleryFigure& figure : galleryFigures()) {
+  for (const GalleryFigure& figure : gallery.documents.at(0).document.figures) {
     const std::string id = "<section id=\"" + std::string(figure.name) + "\">";
     EXPECT_NE(html.find(id), std::string::npos) << figure.name;
   }
@@ -170,12 +202,12 @@ TEST_F(SmallGallery, OfSomeFiguresGrowsTheirScenesAlone) {
 }
 
 TEST_F(SmallGallery, StopsBetweenScenesAndWritesNoPage) {
-  const auto figures = figuresCalled({"figure_1", "figure_2"});
+  const auto documents = figuresCalled({"figure_1", "figure_2"});
   std::stop_source stop;
   RunOptions options;
   options.folder = scratch_.path("out");
   options.stop = stop.get_token();
-  EXPECT_THROW(makeGallery(figures, scenesOf(figures, library()), options,
+  EXPECT_THROW(makeGallery(documents, scenesOf(figuresOf(documents), library()), options,
                            [&](std::size_t number, const Scene&) {
                              if (number == 2) stop.request_stop();
                            }),
@@ -199,7 +231,10 @@ TEST(GalleryPage, SaysWhateverIsInItsTextsAsText) {
   shown.pictures.push_back({"a\"b.png", 3, 4, "A", "<b>"});
   shown.numbers.push_back({"<i>", "1 < 2", "2 > 1"});
   shown.rules_text = "a: <b> # & c\n";
-  const std::string html = galleryPage(std::span(&shown, 1), {"E <1>", "1 s & more", "sheet.png"});
+  const ShownDocument one{
+      {.name = "greene_1989", .title = "T <1>", .by = "b & b", .about = "a", .mark = "", .figures = {}},
+      {shown}};
+  const std::string html = galleryPage(std::span(&one, 1), {"E <1>", "1 s & more", "sheet.png"});
   for (const char* said : {"a &lt; b &amp; &quot;c&quot;", "&lt;script&gt;", "x &gt; y", "&amp;amp;",
                            "src=\"a&quot;b.png\"", "alt=\"Figure 5 A: &lt;b&gt;\"", "&lt;i&gt;", "1 &lt; 2",
                            "a: &lt;b&gt; # &amp; c", "E &lt;1&gt;", "1 s &amp; more", "<b>Figure 5</b>"})

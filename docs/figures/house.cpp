@@ -37,7 +37,7 @@ const std::map<std::string, Setting>& settings() {
         {0.890f, 0.920f, 0.950f},
         {0.27f, 0.42f, 0.60f}}},
       {"scenes",
-       {{{"job", "read", "yaml"},
+       {{{"gallery", "job", "read", "yaml"},
          {"job", "read", "import"},
          {"job", "accuracy", "prepare", "inspect", "import"},
          {"job", "foretell", "prepare"},

@@ -15,6 +15,7 @@ inline constexpr const char* kSceneSurfaces = "surfaces";  ///< in sim::Commons
 
 /// By its corners, voxel space.
 using TriangleCorners = std::array<sim::Vec3, 3>;
+/// In boxes of near ones, so that a site looks at few of many.
 sim::Columns columnsOf(std::span<const TriangleCorners> triangles_vx);
 
 /// Those near a place.
@@ -24,7 +25,7 @@ class SurfacesNear {
   SurfacesNear(const sim::Commons& commons, sim::Vec3 about_vx, double reach_vx);
 
   /// The point of them that is nearest, if it is nearer than `within_vx`; of triangles that are equally near
-  /// that of the first.
+  /// always the same one's.
   std::optional<sim::Vec3> nearest(sim::Vec3 at_vx, double within_vx) const;
 
  private:

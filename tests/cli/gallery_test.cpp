@@ -36,7 +36,7 @@ TEST(Gallery, AnUnknownFigureIsNamedBesideTheNearestAndNothingIsWritten) {
   const tests::Scratch scratch;
   const tests::Ran ran = espalier("gallery figure_1 figur_5 -o " + scratch.path("out").string());
   EXPECT_EQ(ran.status, 2);
-  EXPECT_TRUE(ran.output.starts_with("espalier: no figure is called 'figur_5'; expected one of figure_1, "))
+  EXPECT_TRUE(ran.output.starts_with("espalier: no figure is called 'figur_5'; expected one of figure_5, "))
       << ran.output;
   EXPECT_TRUE(ran.output.ends_with("; did you mean 'figure_5'?\n")) << ran.output;
   EXPECT_FALSE(fs::exists(scratch.path("out")));

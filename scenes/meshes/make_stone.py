@@ -13,11 +13,11 @@ import random
 import masonry
 from masonry import Model
 
-masonry.COLOURS.update({"granite": (158, 151, 141), "granite_warm": (168, 156, 139), "granite_dark": (136, 131, 125),
-                        "lichen": (166, 164, 130)})
+masonry.COLOURS.update({"granite": (150, 146, 140), "granite_warm": (157, 149, 138), "granite_dark": (138, 135, 131),
+                        "lichen": (160, 158, 134)})
 
 STEPS = 26  # into which each edge of an icosahedron is cut
-HALF = (1.28, 0.86, 1.02)
+HALF = (1.45, 1.0, 1.12)
 FLOOR = -0.12
 
 
@@ -69,17 +69,17 @@ class Noise:
 
 def boulder():
     chance = random.Random(20)
-    planes = [(unit([chance.gauss(0, 1) for _ in range(3)]), chance.uniform(0.66, 0.93)) for _ in range(22)]
-    planes.append((unit((0.12, 1.0, 0.1)), 0.74))  # a broad back
+    planes = [(unit([chance.gauss(0, 1) for _ in range(3)]), chance.uniform(0.62, 0.86)) for _ in range(26)]
+    planes.append((unit((0.1, 1.0, 0.25)), 0.72))  # a broad back
     coarse, fine, stains, growth = Noise(chance, 1.1), Noise(chance, 5.0), Noise(chance, 1.6), Noise(chance, 3.2)
     points, triangles = ball()
     placed = []
     for u in points:
         # A soft least of how far away the planes are in this direction; the ball itself is one of them.
         ways = [1.0] + [d / f for n, d in planes if (f := sum(a * b for a, b in zip(n, u))) > 0.05]
-        radius = -math.log(sum(math.exp(-26 * w) for w in ways)) / 26
+        radius = -math.log(sum(math.exp(-55 * w) for w in ways)) / 55
         p = tuple(radius * h * c for h, c in zip(HALF, u))
-        bump = 0.028 * coarse(p) + 0.008 * fine(p)
+        bump = 0.022 * coarse(p) + 0.009 * fine(p)
         p = [c + bump * d for c, d in zip(p, u)]
         p[1] = max(p[1] + 0.5, FLOOR)
         placed.append(tuple(p))

@@ -163,17 +163,22 @@ void LevelSet::cut(std::span<const NearSheets> near, std::span<const Sheet> shee
                    const std::function<Vec3(Vec3)>& straying) {
   const Grid::Ptr gap = emptyGrid();
   std::vector<Leaf*> leaves;
-  for (const NearSheets& block : near)
-    leaves.push_back(gap->tree().touchLeaf({block.origin.x, block.origin.y, block.origin.z}));
+  std::vector<std::size_t> blocks;
+  const auto matter = grids_->matter->getConstAccessor();
+  for (std::size_t i = 0; i < near.size(); ++i) {
+    const Coord origin(near[i].origin.x, near[i].origin.y, near[i].origin.z);
+    if (matter.probeConstLeaf(origin) == nullptr && matter.getValue(origin) > 0.0f) continue;  // in the open
+    leaves.push_back(gap->tree().touchLeaf(origin));
+    blocks.push_back(i);
+  }
   parallelFor(leaves.size(), [&](std::size_t begin, std::size_t end) {
+    StrayedBlock block;
     for (std::size_t i = begin; i < end; ++i) {
+      block.stray(near[blocks[i]].origin, straying);
+      block.measure(near[blocks[i]].sheets, sheets, half_kerf + kBand_vx);
       setLeaf(*leaves[i], [&](const Coord& at) {
-        Vec3 p(at.x(), at.y(), at.z());
-        if (straying) p += straying(p);
-        double least = half_kerf + kBand_vx;
-        for (const std::uint32_t sheet : near[i].sheets)
-          least = std::min(least, distanceTo(sheets[sheet], p));
-        return static_cast<float>(least - half_kerf);
+        return static_cast<float>(block.distance[static_cast<std::size_t>(Leaf::coordToOffset(at))] -
+                                  half_kerf);
       });
     }
   });

@@ -93,6 +93,44 @@ Vec3 Straying::operator()(Vec3 p) const {
   return sum;
 }
 
+void StrayedBlock::stray(Voxel origin, const std::function<Vec3(Vec3)>& straying) {
+  std::size_t i = 0;
+  for (int x = 0; x < kBlock; ++x) {
+    for (int y = 0; y < kBlock; ++y) {
+      for (int z = 0; z < kBlock; ++z, ++i) {
+        place[i] = Vec3(origin + Voxel(x, y, z));
+        if (straying) place[i] += straying(place[i]);
+      }
+    }
+  }
+}
+
+void StrayedBlock::measure(std::span<const std::uint32_t> some, std::span<const Sheet> sheets, double most) {
+  // Of most sheets that may be near to a block none of its voxels is: those need a look from its middle
+  // alone.
+  Vec3 low = place[0], high = place[0];
+  for (const Vec3& p : place) {
+    low = glm::min(low, p);
+    high = glm::max(high, p);
+  }
+  const Vec3 middle = 0.5 * (low + high);
+  const double around = 0.5 * glm::length(high - low);
+  std::vector<std::pair<double, std::uint32_t>> away;
+  double nearest = most;
+  for (const std::uint32_t sheet : some) {
+    away.emplace_back(distanceTo(sheets[sheet], middle), sheet);
+    nearest = std::min(nearest, away.back().first);
+  }
+  // With some air for roundings.
+  const double farthest = std::min(most + around, nearest + 2.0 * around) + 1e-6;
+  std::erase_if(away, [&](const auto& one) { return one.first > farthest; });
+  for (std::size_t i = 0; i < kVoxels; ++i) {
+    distance[i] = most;
+    for (const auto& [from_middle, sheet] : away)
+      distance[i] = std::min(distance[i], distanceTo(sheets[sheet], place[i]));
+  }
+}
+
 std::vector<NearSheets> blocksNear(std::span<const Sheet> sheets, double reach, Voxel low, Voxel high) {
   std::vector<std::vector<Voxel>> of_each(sheets.size());
   parallelForEach(sheets.size(), [&](std::size_t i) {

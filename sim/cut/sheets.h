@@ -1,5 +1,7 @@
 #pragma once
 // Internal to the wing: how far places are from sheets.
+#include <array>
+#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <optional>
@@ -47,5 +49,17 @@ struct NearSheets {
 
 /// The blocks between two voxels that places nearer than `reach` to a sheet lie in, in (x, y, z) order.
 std::vector<NearSheets> blocksNear(std::span<const Sheet> sheets, double reach, Voxel low, Voxel high);
+
+/// The voxels of a block, x by x, then y, then z: where each is looked for, and how far that is from sheets.
+struct StrayedBlock {
+  static constexpr std::size_t kVoxels = kBlock * kBlock * kBlock;
+  std::array<Vec3, kVoxels> place;
+  std::array<double, kVoxels> distance;
+
+  /// Without a function each is where it is.
+  void stray(Voxel origin, const std::function<Vec3(Vec3)>& straying);
+  /// The nearest of some sheets; what is farther than `most` is `most` away.
+  void measure(std::span<const std::uint32_t> some, std::span<const Sheet> sheets, double most);
+};
 
 }  // namespace espalier::sim

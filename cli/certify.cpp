@@ -10,6 +10,7 @@
 #include "cli/say.h"
 #include "scenes/accuracy/accuracy_study.h"
 #include "scenes/accuracy/certificate.h"
+#include "scenes/job/fed.h"
 #include "scenes/read/read_scene.h"
 
 namespace espalier::cli {
@@ -30,7 +31,10 @@ int certify(const CertifyArguments& arguments) {
     const auto scene = scenes::readScene(arguments.scene);
     if (!scene) return sayProblems(scene.problems());
     try {
-      const scenes::Site site = scenes::makeSiteForLight(*scene);
+      scenes::RunOptions options;
+      options.stop = interrupt.token();
+      const scenes::FedInPassing fed(*scene, options);
+      const scenes::Site site = scenes::makeSiteForLight(fed.scene());
       const scenes::Certificate certificate = scenes::certifyWithShapes(
           site, sim::lightOf(site.world, site.sky, {}, {.faces = false}), scene->seed);
       if (arguments.json) {

@@ -16,6 +16,7 @@
 #include "rules/language/rule_set.h"
 #include "scenes/film.h"
 #include "scenes/problem.h"
+#include "scenes/product.h"
 #include "sim/base/provenance.h"
 #include "sim/base/vec.h"
 #include "sim/cut/pieces.h"
@@ -52,6 +53,8 @@ struct Placement {
 struct SceneMesh {
   std::string name;  ///< defaults to the file's stem
   std::filesystem::path file;
+  std::filesystem::path from;  ///< or another scene, whose product it is
+  std::string product;         ///< empty: its only mesh
   std::string told;  ///< what reports call the file, without a path of the machine; empty: its last name
   RegionsFrom regions_from = RegionsFrom::group;  ///< which names of the file become regions
   std::optional<bool> solid;                      ///< fill the inside; unset: where the mesh is closed
@@ -199,7 +202,8 @@ struct PointTable {
 /// Trees that somebody else made, from a file, in place of growth. Placed as meshes are.
 struct SkeletonSpec {
   std::filesystem::path file;
-  std::string told;  ///< what reports call the file
+  std::filesystem::path from;  ///< or another scene, whose product they are
+  std::string told;            ///< what reports call the file
   Placement placement;
   Place place = {};  ///< where a scene file names it; without a path where none does
 };
@@ -342,6 +346,7 @@ struct Scene {
   std::filesystem::path file;                     ///< where it was read from
   std::vector<sim::InputFile> read_files;         ///< itself and its rule files, in the order of reading
   std::vector<std::filesystem::path> read_paths;  ///< where those are, and its meshes
+  std::vector<ProductAsk> asks;                   ///< for products of other scenes, its rule files' too
   std::vector<SceneMesh> meshes;
   WorldSpec world;
   SkySpec sky;

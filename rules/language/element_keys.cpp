@@ -217,9 +217,13 @@ std::shared_ptr<const Table> elementKeys() {
       .file("texture", &Element::texture,
             {.meaning = "Painted on the polygons, which it cuts out: a PNG file, or ovate, ivy, palmate, "
                         "needles, branch, blossom."})
+      .file("from", &Element::from,
+            {.meaning = "In place of a texture a scene, which is run first: one of its images is painted."})
+      .name("product", &Element::product,
+            {.meaning = "Which of that scene's images; without it, the only one."})
       .section("varies", &Element::varies, variationKeys(),
                {.meaning = "How far their colours differ: 0 not at all, 1 as leaves do."})
-      .oneOf({"polygons", "texture"})
+      .oneOf({"polygons", "texture", "from"})
       .shared();
 }
 

@@ -107,8 +107,12 @@ void checkElements(const RuleSet& rules, const Check::Given& given, const Check:
           "size is a length, and the corners of the polygons are lengths too; expected a factor here, or "
           "corners as plain numbers, multiples of the size");
     }
-    if (element.polygons.empty() && element.texture.empty())
+    if (element.polygons.empty() && element.texture.empty() && element.from.empty())
       complain(path, "an element without polygons; expected at least one, or a texture");
+    if (!element.texture.empty() && !element.from.empty())
+      complain(path + ".from", "a texture and from; expected one of them");
+    if (element.from.empty() && !element.product.empty())
+      complain(path + ".product", "product means nothing without from; expected from: SCENE.yaml beside it");
     if (element.phyllotaxis && given(path + ".per_segment"))
       complain(path + ".per_segment",
                "per_segment beside phyllotaxis, whose spacing says how many there are; expected one of them");

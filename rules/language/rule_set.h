@@ -287,6 +287,10 @@ struct Element {
   /// What is painted on the polygons, as it is written: a kind that the program draws, or a file.
   std::string texture;
   std::shared_ptr<const sim::Picture> picture;  ///< of a file; who reads it puts it here
+  std::string from;         ///< or a scene, as it is written, of which the picture is a product
+  std::string product;      ///< empty: its only picture
+  std::string from_here;    ///< where that scene lies; who reads it puts it here
+  bool own_colour = false;  ///< likewise: beside `from` it has a colour of its own
   /// The polygons are a body's lower side, and this is how far up it goes.
   Distance thick{0.0};
   bool body = false;     ///< the polygons are all of its sides: that was done (rules/growth/voxel_widths.h)

@@ -35,7 +35,8 @@ std::vector<SurfaceMap> mapsOf(const sim::World& world, const std::vector<sim::T
   sim::Sky weighted = sky;
   for (const sim::Weighting weighting : weightings) {
     weighted.weighting = weighting;
-    const auto values = sim::evened(sim::surfaceSky(sensors, open, weighted), sensors.surfaces, where, sky.standard_error);
+    const auto values =
+        sim::evened(sim::surfaceSky(sensors, open, weighted), sensors.surfaces, where, sky.standard_error);
     SurfaceMap& map = maps.emplace_back();
     for (const sim::TiledVoxel& t : surfaces) {
       if (!where.has(t.voxel)) continue;

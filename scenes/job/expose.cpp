@@ -9,6 +9,7 @@
 #include "render/image/image_io.h"
 #include "scenes/accuracy/certificate.h"
 #include "scenes/foretell/foretell.h"
+#include "scenes/job/fed.h"
 #include "scenes/job/run_light.h"
 #include "scenes/job/stages.h"
 #include "scenes/job/warnings.h"
@@ -105,6 +106,7 @@ void requireExposable(const Scene& scene, const Site& site, const RunOptions& op
 }
 
 Foretold foretellExpose(const Scene& scene, const RunOptions& options) {
+  if (!scene.asks.empty()) return foretellExpose(FedInPassing(scene, options).scene(), options);
   Report report;
   Stages stages(options, report);
   const PicturesWanted pictures = exposurePictures(scene, options);
@@ -119,6 +121,7 @@ Foretold foretellExpose(const Scene& scene, const RunOptions& options, const Sit
 }
 
 ExposeResult exposeScene(const Scene& scene, const RunOptions& options) {
+  if (!scene.asks.empty()) return exposeScene(fed(scene, options.folder, options), options);
   ExposeResult result;
   Report& report = result.report;
   Stages stages(options, report);

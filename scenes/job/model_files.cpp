@@ -9,11 +9,12 @@
 #include "render/files/gltf.h"
 #include "render/files/obj.h"
 #include "scenes/job/plant_models.h"
+#include "scenes/product.h"
 
 namespace espalier::scenes {
 namespace {
 
-constexpr const char *kGlbFile = "plant.glb", *kObjStem = "plant";
+constexpr const char* kObjStem = "plant";
 
 std::string levelFile(int level) {
   return fmt::format("plant_lod{}.glb", level);
@@ -39,7 +40,7 @@ render::PlantModels modelsFrom(const ModelSources& sources, int level, bool inst
 }
 
 std::vector<std::string> modelFileNames(const ModelsWanted& wanted) {
-  std::vector<std::string> names{kGlbFile};
+  std::vector<std::string> names{kPlantFile};
   for (int level = 1; level <= wanted.coarser; ++level) names.push_back(levelFile(level));
   if (wanted.obj) {
     for (const char* ending : {".obj", ".mtl"}) names.push_back(std::string(kObjStem) + ending);
@@ -51,7 +52,7 @@ std::vector<OutputFile> modelFiles(const ModelsWanted& wanted, const ModelSource
                                    std::function<void(std::size_t, const render::PlantModel&)> modelled) {
   std::vector<OutputFile> files;
   const bool instances = wanted.instances;
-  files.push_back({kGlbFile, [sources, instances, modelled = std::move(modelled)](std::ostream& out) {
+  files.push_back({kPlantFile, [sources, instances, modelled = std::move(modelled)](std::ostream& out) {
                      const auto heard = [&](const std::function<void(const render::PlantModel&)>& take) {
                        std::size_t number = 0;
                        modelsFrom(sources, 0, instances)([&](const render::PlantModel& model) {

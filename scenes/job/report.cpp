@@ -126,6 +126,8 @@ void describeWorld(Report& report, const Scene& scene, const Site& site) {
   report.scene = scene.name;
   report.made_by = {"Espalier " ESPALIER_VERSION, scene.seed, scene.read_files};
   report.made_by.inputs.insert(report.made_by.inputs.end(), site.mesh_files.begin(), site.mesh_files.end());
+  report.read_paths = scene.read_paths;
+  report.read_paths.insert(report.read_paths.end(), site.mesh_paths.begin(), site.mesh_paths.end());
   report.run.scene = scene.file.string();
   report.frame = site.world.frame();
   report.facings = site.facings;

@@ -111,6 +111,8 @@ struct Report {
   std::optional<Film> film;  ///< where one was drawn
   std::optional<Certificate> certificate;
 
+  std::vector<std::filesystem::path> read_paths;  ///< where lies what it was made from; not told
+
   std::vector<std::string> files;  ///< that were written, in the output folder
 
   struct Run {

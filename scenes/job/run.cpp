@@ -13,6 +13,7 @@
 #include "rules/growth/rule_book.h"
 #include "scenes/foretell/foretell.h"
 #include "scenes/job/diced_files.h"
+#include "scenes/job/fed.h"
 #include "scenes/job/film.h"
 #include "scenes/job/plant_models.h"
 #include "scenes/job/plant_reports.h"
@@ -43,7 +44,7 @@
 namespace espalier::scenes {
 namespace {
 
-constexpr const char *kSkeletonFile = "skeleton.json", *kWorldFile = "world.vdb";
+constexpr const char* kWorldFile = "world.vdb";
 
 /// For pictures of what has grown on a site. Borrows all but the textures.
 Finished finishedOn(const Scene& scene, const Site& site, const sim::BitVolume& bare, const Shown& shown,
@@ -162,6 +163,7 @@ bool drawsTextures(const Scene& scene) {
 }  // namespace
 
 Report runScene(const Scene& scene, const RunOptions& options, const Keeping& keeping) {
+  if (!scene.asks.empty()) return runScene(fed(scene, options.folder, options), options, keeping);
   if (options.pictures) requirePicturesFit(scene, picturesOf(scene));
   requireFilmFits(scene, options);
   std::vector<std::string> names = modelFileNames(options.models);
@@ -279,6 +281,7 @@ Report runScene(const Scene& scene, const RunOptions& options, const Keeping& ke
 
 Foretold foretellRun(const Scene& scene, const RunOptions& options,
                      const std::function<void(const Site& site)>& look) {
+  if (!scene.asks.empty()) return foretellRun(FedInPassing(scene, options).scene(), options, look);
   const PicturesWanted pictures = picturesAsked(scene, options);
   if (options.pictures) requirePicturesFit(scene, pictures);
   requireFilmFits(scene, options);
@@ -304,6 +307,7 @@ Foretold foretellRun(const Scene& scene, const RunOptions& options,
 }
 
 Report renderScene(Scene scene, const std::filesystem::path& from, const RunOptions& options) {
+  if (!scene.asks.empty()) scene = fed(scene, from, options);
   if (scene.images.empty() && !scene.film) {
     throw sim::InputError(
         fmt::format("{}: it has no images to draw; expected at least one, or a film", scene.file.string()));

@@ -8,6 +8,7 @@
 #include <system_error>
 
 #include "scenes/clean_text.h"
+#include "scenes/read/asked_scenes.h"
 #include "scenes/read/document.h"
 #include "scenes/read/read_table.h"
 #include "scenes/read/registry.h"
@@ -25,7 +26,9 @@ void fillNames(Scene& scene) {
   for (std::size_t i = 0; i < scene.meshes.size(); ++i) {
     SceneMesh& mesh = scene.meshes[i];
     if (!mesh.name.empty()) continue;
-    mesh.name = mesh.file.empty() ? fmt::format("lines_{}", i + 1) : mesh.file.stem().string();
+    mesh.name = !mesh.from.empty()  ? (mesh.product.empty() ? mesh.from.stem().string() : mesh.product)
+                : mesh.file.empty() ? fmt::format("lines_{}", i + 1)
+                                    : mesh.file.stem().string();
   }
   for (std::size_t i = 0; i < scene.plants.size(); ++i) {
     if (scene.plants[i].name.empty()) scene.plants[i].name = fmt::format("plant_{}", i + 1);
@@ -134,7 +137,30 @@ void findSkeletons(Scene& scene, const YamlNode& root, const rules::Check::Compl
   }
 }
 
-Scene sceneOf(const Document& document, const fs::path& path, Problems& problems) {
+/// The same for scenes whose products are asked for.
+void findAsked(Scene& scene, const YamlNode& root) {
+  const auto ask = [&](fs::path& from, std::string& told, const std::string& product, ProductKind kind,
+                       const std::string& key) {
+    if (from.empty()) return;
+    const bool from_root = from.is_absolute();
+    from = beside(root, from.string());
+    told = toldFrom(scene.file, from, from_root);
+    scene.asks.push_back({from, product, kind, placeOf({&root}, key)});
+  };
+  for (std::size_t i = 0; i < scene.meshes.size(); ++i) {
+    SceneMesh& mesh = scene.meshes[i];
+    ask(mesh.from, mesh.told, mesh.product, ProductKind::mesh, fmt::format("meshes[{}].from", i));
+  }
+  for (std::size_t i = 0; i < scene.plants.size(); ++i) {
+    auto& skeleton = scene.plants[i].skeleton;
+    if (skeleton)
+      ask(skeleton->from, skeleton->told, "", ProductKind::skeleton,
+          fmt::format("plants[{}].skeleton.from", i));
+  }
+}
+
+Scene sceneOf(const Document& document, const fs::path& path, AskedScenes& asked, Problems& problems) {
+  const AskedScenes::Open open(asked, path);
   const YamlNode& root = *document.root;
   static const auto paths = pathsOf(sceneTable());
   Scene scene;
@@ -179,26 +205,37 @@ Scene sceneOf(const Document& document, const fs::path& path, Problems& problems
   scene.warnings = loader.warnings().sorted();
   notePlaces(scene, root);
   runChecks(checks, &scene, {&root}, reading);
+  findAsked(scene, root);
+  scene.asks.insert(scene.asks.end(), loader.asks().begin(), loader.asks().end());
+  asked.require(scene.asks, problems);
   return scene;
 }
 
-Result<Scene> sceneOrProblems(const Document& document, const fs::path& path, Problems& problems) {
+Result<Scene> sceneOrProblems(const Document& document, const fs::path& path, AskedScenes& asked,
+                              Problems& problems) {
   if (!document.root) return problems.sorted();
-  auto scene = sceneOf(document, path, problems);
+  auto scene = sceneOf(document, path, asked, problems);
   if (!problems.empty()) return problems.sorted();
   return scene;
 }
 
+Result<Scene> readAsked(const fs::path& path, AskedScenes& asked) {
+  Problems problems;
+  return sceneOrProblems(readDocument(path, FileKind::scene, problems), path, asked, problems);
+}
+
 Result<RulesOrScene> rulesOrScene(const Document& document, const fs::path& path, Problems& problems) {
+  AskedScenes asked(readAsked);
   const auto kind = document.root ? headerOf(*document.root, problems) : std::nullopt;
   RulesOrScene read;
   if (kind == FileKind::scene) {
-    read.scene = sceneOf(document, path, problems);
+    read.scene = sceneOf(document, path, asked, problems);
     read.warnings = read.scene->warnings;
   }
   if (kind == FileKind::rules) {
     RuleLoader loader(problems);
     loader.file(path, document);
+    asked.require(loader.asks(), problems);
     read.warnings = loader.warnings().sorted();
   }
   if (!problems.empty()) return problems.sorted();
@@ -212,14 +249,15 @@ Place wholeFile(const fs::path& path) {
 }  // namespace
 
 Result<Scene> readScene(const fs::path& path) {
-  Problems problems;
-  return sceneOrProblems(readDocument(path, FileKind::scene, problems), path, problems);
+  AskedScenes asked(readAsked);
+  return readAsked(path, asked);
 }
 
 Result<Scene> readSceneText(const std::string& text, const fs::path& path) {
   Problems problems;
   const Document document = documentOf(text, path.string(), wholeFile(path), FileKind::scene, problems);
-  return sceneOrProblems(document, path, problems);
+  AskedScenes asked(readAsked);
+  return sceneOrProblems(document, path, asked, problems);
 }
 
 Result<RulesOrScene> readRulesOrScene(const fs::path& path) {

@@ -55,6 +55,11 @@ std::shared_ptr<const Table> meshKeys() {
   table
       .file("file", &SceneMesh::file,
             {.meaning = "The mesh: .obj, .gltf, .glb, .ply or .stl; or an .obj of lines and points alone."})
+      .file("from", &SceneMesh::from,
+            {.meaning = "Or another scene, which is run first: the mesh is a product of its."})
+      .name(
+          "product", &SceneMesh::product,
+          {.meaning = "Which of that scene's meshes; without it, the only one. The plants' is called plant."})
       .custom(
           "lines", Kind::lines,
           [](SceneMesh& mesh, const Datum& d) { mesh.lines_m = std::get<rules::Polygons>(d).corners; },
@@ -101,7 +106,7 @@ std::shared_ptr<const Table> meshKeys() {
            .limits = {0.0, 1.0},
            .meaning =
                "Instead of the file's own: how much it hides of what is behind it, in pictures and models."})
-      .oneOf({"file", "lines"})
+      .oneOf({"file", "lines", "from"})
       .shared();
 }
 
@@ -178,11 +183,13 @@ std::shared_ptr<const Table> seedKeys() {
 
 std::shared_ptr<const Table> skeletonKeys() {
   TableOf<SkeletonSpec> table;
-  table.file("file", &SkeletonSpec::file,
-             {.meaning = "Its trees: the skeleton.json of a run, nodes in JSON, or the lines of an .obj.",
-              .required = true});
+  table
+      .file("file", &SkeletonSpec::file,
+            {.meaning = "Its trees: the skeleton.json of a run, nodes in JSON, or the lines of an .obj."})
+      .file("from", &SkeletonSpec::from,
+            {.meaning = "Or another scene, which is run first: the trees are those that grow there."});
   addPlacement(table);
-  return table.shared();
+  return table.oneOf({"file", "from"}).shared();
 }
 
 std::shared_ptr<const Table> plantKeys() {

@@ -4,7 +4,6 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <cmath>
 #include <set>
 #include <system_error>
 
@@ -13,6 +12,7 @@
 #include "rules/language/registry.h"
 #include "scenes/import/picture_reader.h"
 #include "scenes/read/document.h"
+#include "scenes/read/painted.h"
 #include "scenes/read/read_table.h"
 #include "scenes/read/rule_library.h"
 #include "sim/base/error.h"
@@ -32,25 +32,6 @@ const YamlNode* lastGiven(const std::vector<const YamlNode*>& layers, std::strin
     if (const auto* entry = (*layer)->entry(key)) return &entry->value;
   }
   return nullptr;
-}
-
-/// Which share of an element's polygons a picture leaves of which `blade` is: it is stretched over their
-/// extent, of which polygons near its outline have cut a part away already.
-double opacityOf(const rules::Element& element, double blade) {
-  double area = 0.0;
-  sim::Vec3 low(INFINITY), high(-INFINITY);
-  for (const auto& polygon : element.polygons) {
-    sim::Vec3 twice(0.0);
-    for (std::size_t i = 0; i < polygon.size(); ++i) {
-      twice += glm::cross(polygon[i], polygon[(i + 1) % polygon.size()]);
-      low = glm::min(low, polygon[i]);
-      high = glm::max(high, polygon[i]);
-    }
-    area += 0.5 * glm::length(twice);
-  }
-  if (!(area > 0.0)) return 1.0;
-  const sim::Vec3 extent = high - low;
-  return std::min(1.0, blade * std::max(1.0, std::max(extent.x, extent.z) * extent.y / area));
 }
 
 std::string canonicalOf(const fs::path& path) {
@@ -196,25 +177,27 @@ void RuleLoader::addPictures(const Layers& layers, RuleSet& rules) {
   const auto* elements = lastGiven(layers, "elements");
   if (!elements || elements->items.size() != rules.elements.size()) return;
   for (std::size_t i = 0; i < rules.elements.size(); ++i) {
-    const auto* texture = elements->items[i].entry("texture");
-    if (texture && !rules.elements[i].texture.empty())
-      paint(rules.elements[i], texture->value, elements->items[i].entry("colour") != nullptr);
+    rules::Element& element = rules.elements[i];
+    const YamlNode& node = elements->items[i];
+    const bool own_colour = node.entry("colour") != nullptr;
+    if (const auto* texture = node.entry("texture"); texture && !element.texture.empty())
+      paintFromFile(element, texture->value, own_colour);
+    if (const auto* from = node.entry("from"); from && !element.from.empty()) {
+      element.from_here = beside(from->value, element.from).string();
+      element.own_colour = own_colour;
+      asks_.push_back({element.from_here, element.product, ProductKind::picture, from->value.place});
+    }
   }
 }
 
-void RuleLoader::paint(rules::Element& element, const YamlNode& texture, bool has_colour) {
+void RuleLoader::paintFromFile(rules::Element& element, const YamlNode& texture, bool own_colour) {
   const std::vector<std::string>& drawn = render::drawnKinds();
   if (std::find(drawn.begin(), drawn.end(), element.texture) != drawn.end()) {
     if (element.polygons.empty()) element.polygons = render::cardsOf(element.texture);
     element.opacity = opacityOf(element, render::bladeShareOf(element.texture));
     return;
   }
-  element.picture = picture(texture, element.texture, drawn);
-  if (!element.picture) return;
-  if (!has_colour) element.colour = meanColour(*element.picture);
-  if (element.polygons.empty())
-    element.polygons = render::cardsOf(element.picture->width, element.picture->height);
-  element.opacity = opacityOf(element, render::bladeShareOf(*element.picture));
+  if (auto read = picture(texture, element.texture, drawn)) paint(element, std::move(read), own_colour);
 }
 
 void RuleLoader::paintStem(rules::Stem& stem, const YamlNode& texture) {

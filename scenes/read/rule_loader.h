@@ -43,6 +43,8 @@ class RuleLoader {
   };
   /// Every file that could be read so far, and rule sets of the library, in the order of reading.
   const std::vector<ReadFile>& readFiles() const { return read_files_; }
+  /// Every product of a scene that is asked for so far.
+  const std::vector<ProductAsk>& asks() const { return asks_; }
   /// What was written so far and has no effect where it stands.
   const Problems& warnings() const { return warnings_; }
 
@@ -62,7 +64,7 @@ class RuleLoader {
   std::shared_ptr<const rules::RuleSet> build(const Layers& layers, rules::RuleSet rules);
   /// Finds what elements are painted with, and gives those without polygons cards that fit it.
   void addPictures(const Layers& layers, rules::RuleSet& rules);
-  void paint(rules::Element& element, const YamlNode& texture, bool has_colour);
+  void paintFromFile(rules::Element& element, const YamlNode& texture, bool own_colour);
   void paintStem(rules::Stem& stem, const YamlNode& texture);
   /// Of a file beside the one that asks; null, after a problem was reported, where it is none.
   std::shared_ptr<const sim::Picture> picture(const YamlNode& asker, const std::string& written,
@@ -83,6 +85,7 @@ class RuleLoader {
   std::vector<std::pair<std::string, std::string>> open_;  ///< files being read: canonical and shown paths
   std::vector<RegionMention> mentions_;
   std::vector<ReadFile> read_files_;
+  std::vector<ProductAsk> asks_;
   std::map<std::string, std::shared_ptr<const sim::Picture>> pictures_;  ///< by canonical path; null: no good
   Problems warnings_;
   std::set<std::tuple<const std::string*, int, int>>

@@ -118,11 +118,19 @@ void checkLines(const Scene& scene, const Given& given, const Complain& complain
     const auto wrong = [&](const char* key, const std::string& why) {
       complain(fmt::format("meshes[{}].{}", i, key), why);
     };
-    if (mesh.lines_m.empty() && mesh.file.empty())
-      complain(fmt::format("meshes[{}]", i),
-               "a mesh without a file; expected file: MESH.obj, or lines: [[[x, y, z], [x, y, z]], ...]");
+    if (mesh.lines_m.empty() && mesh.file.empty() && mesh.from.empty())
+      complain(
+          fmt::format("meshes[{}]", i),
+          "a mesh without a file; expected file: MESH.obj, from: SCENE.yaml, or lines: [[[x, y, z], [x, y, "
+          "z]], ...]");
+    if (mesh.from.empty() && says("product"))
+      wrong("product", "product means nothing without from; expected from: SCENE.yaml beside it");
+    if (!mesh.from.empty()) {
+      for (const char* const key : {"file", "optional"})
+        if (says(key)) wrong(key, fmt::format("{} means nothing beside from; expected one of them", key));
+    }
     if (!mesh.lines_m.empty()) {
-      for (const char* const key : {"file", "regions", "solid", "optional", "unit"})
+      for (const char* const key : {"file", "from", "regions", "solid", "optional", "unit"})
         if (says(key)) wrong(key, fmt::format("{} means nothing to lines; expected one of them", key));
       if (!mesh.tiled)
         wrong("tiled", "lines with tiled: false are no shape for attractors; expected it without");
@@ -141,6 +149,10 @@ void checkPlants(const Scene& scene, const Given& given, const Complain& complai
     const auto& plant = scene.plants[p];
     const std::string path = fmt::format("plants[{}]", p);
     if (plant.skeleton) {
+      if (plant.skeleton->file.empty() && plant.skeleton->from.empty())
+        complain(path + ".skeleton", "a skeleton without a file; expected file: FILE, or from: SCENE.yaml");
+      if (!plant.skeleton->file.empty() && !plant.skeleton->from.empty())
+        complain(path + ".skeleton.from", "file and from; expected one of them");
       for (const char* const key : {"seeds", "scatter", "points", "type"}) {
         if (given(path + "." + key))
           complain(path + "." + key,

@@ -20,7 +20,8 @@ void notePlant(PlantSpec& plant, const YamlNode& root, const std::string& path) 
   for (std::size_t i = 0; i < plant.seeds.size(); ++i)
     plant.seeds[i].place = at(fmt::format(".seeds[{}]", i));
   if (plant.scatter) plant.scatter->region_place = at(".scatter.region");
-  if (plant.skeleton) plant.skeleton->place = at(".skeleton.file");
+  if (plant.skeleton)
+    plant.skeleton->place = at(plant.skeleton->file.empty() ? ".skeleton.from" : ".skeleton.file");
 }
 
 }  // namespace

@@ -154,12 +154,17 @@ Settings settings(const Scene& scene) {
   const auto place = [&](std::filesystem::path& file) {
     if (!file.empty()) file = file.lexically_normal().lexically_proximate(folder).generic_string();
   };
-  for (auto& mesh : beside.meshes) place(mesh.file);
+  for (auto& mesh : beside.meshes) {
+    place(mesh.file);
+    place(mesh.from);
+  }
   forEachTable(beside, [&](PointTable& table, const std::string&) { place(table.file); });
   for (auto& field : beside.fields) place(field.file);
   place(beside.sky.background.file);
   for (auto& plant : beside.plants) {
-    if (plant.skeleton) place(plant.skeleton->file);
+    if (!plant.skeleton) continue;
+    place(plant.skeleton->file);
+    place(plant.skeleton->from);
   }
   return settings(sceneTable(), &beside);
 }

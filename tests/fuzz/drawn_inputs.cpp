@@ -164,4 +164,19 @@ std::string RandomFiles::writeSkeleton() {
   return name;
 }
 
+/// A scene about the middle that makes a mesh, a skeleton and a picture for others.
+std::string RandomFiles::writeMaker() {
+  const double voxel = std::clamp(world_.longest_m() / 12.0, 2e-5, 1e5);
+  const sim::Vec3 half(6.0 * voxel);
+  const auto corner = [](const sim::Vec3& at) { return ValueDrawer::point(at.x, at.y, at.z); };
+  std::ofstream(folder_ / "maker.yaml") << fmt::format(
+      "espalier: scene\nworld: {{voxel: {}, bounds: {{min: {}, max: {}}}}}\niterations: {}\n"
+      "plants: [{{rules: {{random_tree: {{length: 1.5, trials: {{min: 2, max: 9}}}}}}, seeds: [{}]}}]\n"
+      "image: {{width: 16, height: 16}}\ncameras: {{main: {{eye: {}, target: {}}}}}\nimages: [{{kind: graph, "
+      "name: view}}]\n",
+      voxel, corner(world_.middle_m - half), corner(world_.middle_m + half), numbers_.whole(1, 4),
+      corner(world_.middle_m), corner(world_.middle_m + 2.0 * half), corner(world_.middle_m));
+  return "maker.yaml";
+}
+
 }  // namespace espalier::fuzz

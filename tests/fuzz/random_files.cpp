@@ -171,6 +171,10 @@ void RandomFiles::knowSpecials() {
     const sim::Vec3 by = numbers_.uniform(-0.1, 0.1) * world_.extent_m();
     return ValueDrawer::point(by.x, by.y, by.z);
   });
+  const auto made = [this](double chance) { return numbers_.chance(chance) ? writeMaker() : std::string(); };
+  text("meshes[].from", [=] { return made(0.2); });
+  text("meshes[].product", [this] { return std::string(numbers_.chance(0.9) ? "plant" : "plants"); });
+  text("plants[].skeleton.from", [=] { return made(0.5); });
   text("fields.<name>.file", [this] { return writeVolume(); });
   text("fields.<name>.grid", [this] { return std::string(numbers_.chance(0.9) ? "up" : "down"); });
   text("attractors.<name>.spacing",
@@ -228,6 +232,8 @@ void RandomFiles::knowSpecials() {
   rule("stem.texture", [this] { return numbers_.chance(0.3) ? writePicture() : std::string("bark"); });
   rule("elements[].texture",
        [=, this] { return numbers_.chance(0.3) ? writePicture() : numbers_.pick(render::drawnKinds()); });
+  rule("elements[].from", [=] { return made(0.3); });
+  rule("elements[].product", [this] { return std::string(numbers_.chance(0.9) ? "view" : "seen"); });
   rule("colonization.fields", [=] { return std::string(colonizes ? "[main]" : "[main, other]"); });
   specials_["rules:espalier"] = [this](Drawn& drawn) {
     drawn.text = numbers_.chance(0.5) ? "rules" : "rules/1";

@@ -58,6 +58,7 @@ class RandomFiles {
   std::string writePicture();
   std::string writeSky();
   std::string writeSkeleton();
+  std::string writeMaker();
   void knowSpecials();
   Drawn table(const rules::Table& table, const std::string& path);
   bool value(const rules::Key& key, const std::string& path, Drawn& drawn);

@@ -31,6 +31,8 @@ const std::map<std::string, std::string> kWithoutEffect = {
     {"propagate", "one for all sets of a plant"},
     {"stem.colour", "a plant has one stem: that of the top rule set"},
     {"stem.texture", "the same"},
+    {"elements[].from", "who reads the rules finds the picture (tests/scenes/job/fed_test.cpp)"},
+    {"elements[].product", "the same"},
     {"stem.emits.colour", "the same"},
     {"stem.emits.strength", "the same"},
     {"stem.emits.order_share", "the same"},

@@ -13,6 +13,7 @@
 
 #include "render/image/image_io.h"
 #include "scenes/job/expose.h"
+#include "scenes/job/fed.h"
 #include "scenes/job/run.h"
 #include "scenes/read/read_scene.h"
 #include "scenes/read/read_table.h"
@@ -61,6 +62,11 @@ class EverySceneKey : public testing::TestWithParam<std::string> {
     scratch_.write("sticks.obj", "v 0 0.2 0.3\nv 0 0.7 0.3\nv 0.3 1 0.5\nl 1 2 3\n");
     scratch_.write("others.obj", "v 0 0.2 0.3\nv 0 0.8 0.3\nv 0.3 1 0.5\nl 1 2 3\n");
     scratch_.write("other.csv", "0,0.5,0.4\n0.1,0.6,0.4\n");
+    scratch_.write(
+        "made.yaml",
+        "espalier: scene\nmeshes: [{file: block.obj}]\nworld: {voxel: 10 cm, margin: 60 cm}\n"
+        "plants: [{rules: {random_tree: {trials: {min: 4, max: 20}}}, seeds: [[0.5, 0.75, 0.5]]}]\n"
+        "iterations: 3\n");
     scratch_.write("paint.mtl", "newmtl stone\nKd 0.5 0.5 0.5\nnewmtl brick\nKd 0.6 0.2 0.1\n");
     scratch_.write(
         "vine.yaml",
@@ -93,7 +99,7 @@ class EverySceneKey : public testing::TestWithParam<std::string> {
     }
     std::map<std::string, std::string> files;
     for (const auto& entry : std::filesystem::recursive_directory_iterator(folder)) {
-      if (entry.is_regular_file())
+      if (entry.is_regular_file() && !entry.path().string().starts_with((folder / kFedFolder).string()))
         files[std::filesystem::relative(entry.path(), folder).string()] = tests::fileText(entry.path());
     }
     auto report = nlohmann::json::parse(files.at("report.json"));

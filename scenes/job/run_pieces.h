@@ -1,8 +1,8 @@
 #pragma once
-#include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <vector>
 
+#include "scenes/job/pieces_shown.h"
 #include "scenes/job/report.h"
 #include "scenes/job/run.h"
 #include "scenes/job/stages.h"

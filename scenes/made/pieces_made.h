@@ -5,7 +5,6 @@
 #include "scenes/prepare/site.h"
 #include "scenes/problem.h"
 #include "scenes/scene.h"
-#include "scenes/show/shown_pieces.h"
 #include "sim/cut/pieces.h"
 #include "sim/grow/grow.h"
 
@@ -25,14 +24,5 @@ void requirePiecesSound(const Scene& scene, const Site& site);
 /// place: that a mesh stays in one piece, and that crumbs were left out. Throws PlacedError.
 std::vector<PiecesMade> makePieces(const Scene& scene, const Site& site, const sim::Growth& growth,
                                    std::vector<Problem>& warnings);
-
-/// Whether an image shows pieces.
-bool showsPieces(const ImageSpec& image);
-
-/// The pieces as the images show them: once for each distance. Throws PlacedError where a world of them does
-/// not fit into memory.
-std::vector<ShownPieces> shownPieces(const Scene& scene, const Site& site,
-                                     const std::vector<PiecesMade>& made,
-                                     const std::vector<ImageSpec>& images);
 
 }  // namespace espalier::scenes

@@ -1,7 +1,8 @@
+#include "scenes/job/pieces_shown.h"
+
 #include <algorithm>
 #include <cmath>
 
-#include "scenes/made/pieces_made.h"
 #include "scenes/prepare/in_scene.h"
 #include "sim/light/lighting.h"
 #include "sim/tile/build_world.h"

@@ -46,10 +46,10 @@ function(espalier_join target)
   endforeach()
 endfunction()
 
-# espalier_room(NAME SEES targets... USES targets... [APART sources...]): SEES is public, USES stays inside the room's
-# .cpp files; APART are sources that are not of its library.
+# espalier_room(NAME SEES targets... USES targets... [APART sources...] [ALONE sources...]): SEES is public, USES stays inside
+# the room's .cpp files; APART are sources that are not of its library, ALONE those that are never compiled with others.
 function(espalier_room name)
-  cmake_parse_arguments(ROOM "" "" "SEES;USES;APART" ${ARGN})
+  cmake_parse_arguments(ROOM "" "" "SEES;USES;APART;ALONE" ${ARGN})
   file(GLOB_RECURSE sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/*.cpp)
   list(TRANSFORM ROOM_APART PREPEND ${CMAKE_CURRENT_SOURCE_DIR}/)
   list(REMOVE_ITEM sources ${ROOM_APART})
@@ -60,5 +60,5 @@ function(espalier_room name)
     $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}> $<INSTALL_INTERFACE:include/espalier>)
   target_compile_features(espalier_${name} PUBLIC cxx_std_20)
   target_link_libraries(espalier_${name} PUBLIC ${ROOM_SEES} PRIVATE ${ROOM_USES} $<BUILD_INTERFACE:espalier_flags>)
-  espalier_join(espalier_${name})
+  espalier_join(espalier_${name} ALONE ${ROOM_ALONE})
 endfunction()

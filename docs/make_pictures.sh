@@ -179,6 +179,9 @@ small $work/broadleaf/vines.png broadleaf 760
 small $work/pachira/vines.png pachira 560
 small $work/animal_tree/vines.png animal_tree 760
 small $work/figure_18/vines.png figure_18 1100
+for scene in split_boulder ivy_in_cracks; do grow scenes/library/$scene.yaml; done
+small $work/split_boulder/steps.png split_boulder 1200
+small $work/ivy_in_cracks/vines.png ivy_in_cracks 1000
 for scene in venation veined_branch lobed_leaf; do grow scenes/library/$scene.yaml; done
 small $work/venation/vines.png venation 1000
 small $work/venation/closed_leaf.png closed_leaf 460

@@ -25,6 +25,8 @@ std::vector<Product> productsOf(const Scene& scene) {
     made.push_back({"plant", ProductKind::mesh, kPlantFile});
     made.push_back({"skeleton", ProductKind::skeleton, kSkeletonFile});
   }
+  for (const PiecesSpec& pieces : scene.pieces)
+    made.push_back({pieces.name, ProductKind::mesh, pieces.name + ".glb"});
   for (const ImageSpec& image : scene.images)
     made.push_back({image.name, ProductKind::picture, image.name + ".png"});
   return made;

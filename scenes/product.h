@@ -27,7 +27,7 @@ struct Product {
 inline constexpr const char *kPlantFile = "plant.glb", *kSkeletonFile = "skeleton.json";
 
 /// All that a scene makes: its plants with the meshes that they grew on as the mesh "plant", their skeletons
-/// as "skeleton", and its images by their names.
+/// as "skeleton", and its pieces and images by their names.
 std::vector<Product> productsOf(const Scene& scene);
 
 /// A scene's wish for another's product.

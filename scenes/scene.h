@@ -19,6 +19,7 @@
 #include "scenes/product.h"
 #include "sim/base/provenance.h"
 #include "sim/base/vec.h"
+#include "sim/cut/pieces.h"
 #include "sim/light/background.h"
 #include "sim/light/sky.h"
 #include "sim/light/sun.h"
@@ -298,10 +299,13 @@ struct ImageSpec {
   std::optional<int> iteration;  ///< points, graph: what stands after so many iterations; without: at the end
   std::vector<std::string> of;   ///< contact_sheet: names of the images on it, in order
   std::vector<std::string> show{"scene", "stems", "elements"};  ///< vines: what of it; kImageParts
+  double apart = 0.0;  ///< vines that show pieces: how far these are moved away from their middle, as a share
+                       ///< of how far they are from it
 };
 
 /// What images of vines may show.
-inline constexpr std::array<std::string_view, 4> kImageParts{"scene", "stems", "elements", "guides"};
+inline constexpr std::array<std::string_view, 5> kImageParts{"scene", "stems", "elements", "guides",
+                                                             "pieces"};
 
 /// A region that a rule file names, and where.
 struct RegionMention {
@@ -323,6 +327,20 @@ struct FieldSpec {
   Place file_place = {}, within_place = {};  ///< where a scene file names them
 };
 
+/// A mesh that is cut into pieces along what has grown.
+struct PiecesSpec {
+  std::string name;
+  std::string of;               ///< the mesh
+  std::vector<std::string> by;  ///< the plants whose limbs cut it
+  double kerf_m = 0.02;         ///< width of the gap
+  sim::Vec3 sweep_m{0.0};       ///< see sim::CutSettings
+  std::optional<double> voxel_m;
+  double least_share = 0.001;
+  std::optional<sim::CutRoughness> rough;
+  std::optional<sim::Colour> inside;  ///< linear RGB; without it, the colour of most of the mesh
+  Place place = {};                   ///< where a scene file has it; without a path where none does
+};
+
 struct Scene {
   std::string name = "unnamed";
   std::filesystem::path file;                     ///< where it was read from
@@ -339,6 +357,7 @@ struct Scene {
   std::vector<AttractorsSpec> attractors;
   std::vector<FieldSpec> fields;
   std::vector<PlantSpec> plants;
+  std::vector<PiecesSpec> pieces;
   std::vector<RegionMention> region_mentions;  ///< in the rules of its plants: each place once
   std::vector<Problem> warnings;               ///< what its files say without effect
   int iterations = 50;

@@ -25,7 +25,10 @@ struct Setting {
 const std::map<std::string, Setting>& settings() {
   static const std::map<std::string, Setting> all = {
       {"sim",
-       {{{"grow", "light", "sweep", "tile", "world", "base"}, {"grow", "sense", "tile"}, {"scatter", "tile"}},
+       {{{"grow", "light", "sweep", "tile", "world", "base"},
+         {"grow", "sense", "tile"},
+         {"scatter", "tile"},
+         {"cut", "tile"}},
         {0.945f, 0.925f, 0.880f},
         {0.56f, 0.47f, 0.30f}}},
       {"rules",
@@ -40,6 +43,7 @@ const std::map<std::string, Setting>& settings() {
        {{{"gallery", "job", "read", "yaml"},
          {"job", "read", "import"},
          {"job", "accuracy", "prepare", "inspect", "import"},
+         {"job", "made", "prepare"},
          {"job", "foretell", "prepare"},
          {"job", "foretell", "show", "write"}},
         {0.955f, 0.905f, 0.885f},

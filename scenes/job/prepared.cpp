@@ -2,6 +2,7 @@
 
 #include "scenes/job/film.h"
 #include "scenes/job/warnings.h"
+#include "scenes/made/pieces_made.h"
 #include "scenes/prepare/front_warnings.h"
 #include "scenes/prepare/shut_out.h"
 #include "scenes/prepare/unknown_regions.h"
@@ -22,6 +23,7 @@ Prepared prepare(const Scene& scene, const RunOptions& options, Report& report, 
     wrong.part([&] { requireLampsInTheOpen(scene, site); });
     wrong.part([&] { requireCubesSeen(scene, site.world.frame()); });
     wrong.part([&] { requireCutOutsSeen(scene, site.meshes); });
+    wrong.part([&] { requirePiecesSound(scene, site); });
     wrong.part([&] { requireFilmFitsIn(scene, options, site.world); });
     wrong.part([&] { attractors = attractorsOf(scene, site, &of_attractors); });
     wrong.end();

@@ -92,6 +92,21 @@ Json growth(const Report::Growth& growth, double voxel_m) {
   return json;
 }
 
+Json pieces(const Report::Pieces& cut) {
+  Json json = {{"name", cut.name},           {"of", cut.of},
+               {"kerf_m", cut.kerf_m},       {"voxel_m", cut.voxel_m},
+               {"solid_voxels", cut.voxels}, {"solid_m3", cut.solid_m3},
+               {"crumbs", cut.crumbs},       {"crumbs_m3", cut.crumbs_m3},
+               {"pieces", Json::array()}};
+  for (const Report::Pieces::Piece& one : cut.pieces) {
+    json["pieces"].push_back({{"name", one.name},
+                              {"triangles", one.triangles},
+                              {"volume_m3", one.volume_m3},
+                              {"middle_m", {one.middle_m.x, one.middle_m.y, one.middle_m.z}}});
+  }
+  return json;
+}
+
 /// The most memory that this process has held so far. Not what getrusage() calls so: that begins with what
 /// the process held that started this one.
 std::uint64_t peakMemoryBytes() {
@@ -157,6 +172,7 @@ std::string toJson(const Report& report) {
   json["world"]["turned"] = facings;
   json["light"] = lightJson(report.light);
   if (report.growth) json["growth"] = growth(*report.growth, report.frame.voxel_m);
+  for (const Report::Pieces& one : report.pieces) json["pieces"].push_back(pieces(one));
   if (report.exposure) {
     json["exposure"] = {{"surface_voxels", report.exposure->surfaces},
                         {"gap_voxels", report.exposure->gaps},

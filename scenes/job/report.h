@@ -79,6 +79,24 @@ struct Report {
   };
   std::optional<Growth> growth;  ///< where plants grew
 
+  /// Of a mesh that was cut along what grew.
+  struct Pieces {
+    struct Piece {
+      std::string name;
+      std::size_t triangles = 0;
+      double volume_m3 = 0.0;
+      sim::Vec3 middle_m{0.0};
+    };
+    std::string name, of;
+    double kerf_m = 0.0, voxel_m = 0.0;
+    std::size_t voxels = 0;  ///< of the solid
+    double solid_m3 = 0.0;
+    std::size_t crumbs = 0;
+    double crumbs_m3 = 0.0;
+    std::vector<Piece> pieces;
+  };
+  std::vector<Pieces> pieces;
+
   /// Surface voxels whose exposure was found, and those that have no place in front (Lighting::gaps).
   struct Exposure {
     std::size_t surfaces = 0, gaps = 0;

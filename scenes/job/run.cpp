@@ -19,6 +19,7 @@
 #include "scenes/job/plant_reports.h"
 #include "scenes/job/prepared.h"
 #include "scenes/job/run_light.h"
+#include "scenes/job/run_pieces.h"
 #include "scenes/job/saved_growth.h"
 #include "scenes/job/shown.h"
 #include "scenes/job/stages.h"
@@ -49,7 +50,8 @@ constexpr const char* kWorldFile = "world.vdb";
 Finished finishedOn(const Scene& scene, const Site& site, const sim::BitVolume& bare, const Shown& shown,
                     const sim::Lighting& light, const PictureLight& lit,
                     const std::optional<WorldOccupancy>& occupancy,
-                    const std::vector<render::PlantModel>& models, render::KnownPictures textures) {
+                    const std::vector<render::PlantModel>& models, render::KnownPictures textures,
+                    const RunPieces& pieces) {
   return {site.meshes,
           site.world,
           bare,
@@ -60,6 +62,7 @@ Finished finishedOn(const Scene& scene, const Site& site, const sim::BitVolume& 
           growthSettings(scene, site, {}).sky_table,
           lit,
           occupancy ? &*occupancy : nullptr,
+          &pieces.shown,
           &shown.grown()};
 }
 
@@ -166,6 +169,7 @@ Report runScene(const Scene& scene, const RunOptions& options, const Keeping& ke
   std::vector<std::string> names = modelFileNames(options.models);
   for (std::string& name : dicedFileNames(options.models)) names.push_back(std::move(name));
   names.insert(names.end(), {kSkeletonFile, kWorldFile, kReportFile});
+  for (std::string& name : piecesFileNames(scene)) names.push_back(std::move(name));
   if (keeping.keep || keeping.every > 0) names.emplace_back(kStateFile);
   if (options.pictures) {
     for (std::string& name : fileNames(scene.images)) names.push_back(std::move(name));
@@ -244,13 +248,16 @@ Report runScene(const Scene& scene, const RunOptions& options, const Keeping& ke
   }
   std::vector<std::string> late_warnings;
   if (!growth.cut_short.empty()) late_warnings.push_back(growth.cut_short);
+  const RunPieces pieces =
+      cutPieces(scene, site, growth, scene.images, options, report, stages, late_warnings);
+  addPiecesFiles(pieces, report.made_by, files);
   ReadTextures textures;
   if (options.pictures) {
     stages.run("drawing", [&] {
       textures = texturesFor(drawsVines(scene.images) || scene.film, scene, site.meshes, options, report);
       for (const Problem& unread : textures.unread) late_warnings.push_back(unread.text);
       const Finished finished =
-          finishedOn(scene, site, bare, shown, light, lit, occupancy, models, textures.pictures);
+          finishedOn(scene, site, bare, shown, light, lit, occupancy, models, textures.pictures, pieces);
       auto pictures =
           inScene(scene, [&] { return drawPictures(picturesOf(scene, report.made_by), finished); });
       for (OutputFile& file : pictures) files.push_back(std::move(file));
@@ -346,12 +353,14 @@ Report renderScene(Scene scene, const std::filesystem::path& from, const RunOpti
   const auto models =
       stages.run("modelling", [&] { return modelPlants(site.world.frame(), growth.plants, bare); });
   std::vector<std::string> late_warnings;
+  const RunPieces pieces =
+      cutPieces(scene, site, growth, scene.images, options, report, stages, late_warnings);
   ReadTextures textures;
   std::vector<OutputFile> files = stages.run("drawing", [&] {
     textures = texturesFor(drawsVines(scene.images) || scene.film, scene, site.meshes, options, report);
     for (const Problem& one : textures.unread) late_warnings.push_back(one.text);
     const Finished finished =
-        finishedOn(scene, site, bare, shown, light, lit, occupancy, models, textures.pictures);
+        finishedOn(scene, site, bare, shown, light, lit, occupancy, models, textures.pictures, pieces);
     return inScene(scene, [&] { return drawPictures(picturesOf(scene, report.made_by), finished); });
   });
   if (scene.film) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "scenes/job/run.h"
+#include "scenes/job/run_pieces.h"
 #include "scenes/job/seed_failure_words.h"
 #include "scenes/problem.h"
 #include "sim/base/counted.h"
@@ -97,7 +98,7 @@ std::string summary(const Report& report, const std::filesystem::path& folder) {
                      sim::counted(segments, "segment"), sim::counted(leaves, "leaf", "leaves"),
                      sim::counted(static_cast<std::uint64_t>(growth.iterations), "iteration")) +
          (growth.cut_short.empty() ? "" : "note: " + growth.cut_short + "\n") +
-         fates(growth, report.frame.voxel_m) + endOfSummary(report, folder);
+         fates(growth, report.frame.voxel_m) + piecesText(report.pieces) + endOfSummary(report, folder);
 }
 
 }  // namespace espalier::scenes

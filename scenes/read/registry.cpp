@@ -6,6 +6,7 @@
 #include "scenes/read/field_keys.h"
 #include "scenes/read/film_keys.h"
 #include "scenes/read/light_keys.h"
+#include "scenes/read/piece_keys.h"
 #include "scenes/read/units.h"
 #include "scenes/scene.h"
 #include "sim/tile/build_world.h"
@@ -311,7 +312,12 @@ std::shared_ptr<const Table> imageKeys() {
       .names("of", &ImageSpec::of,
              {.meaning = "Of a contact_sheet: the names of the images on it, in order."})
       .names("show", &ImageSpec::show,
-             {.meaning = "Of vines: what of scene, stems, elements and guides is shown."})
+             {.meaning = "Of vines: what of scene, stems, elements, guides and pieces is shown."})
+      .number("apart", &ImageSpec::apart,
+              {.unit = "share",
+               .limits = {0.0, 10.0},
+               .meaning = "Of vines that show pieces: each is moved away from their middle by this share of "
+                          "its distance."})
       .shared();
 }
 
@@ -356,6 +362,10 @@ Table makeTable() {
           {.meaning = "Guide fields that bend fronts, by names that rules use.", .most = kMostEntries})
       .list<PlantSpec>("plants", Kind::entries, &Scene::plants, plantKeys(),
                        {.meaning = "What grows.", .most = kMostEntries})
+      .list<PiecesSpec>("pieces", Kind::named, &Scene::pieces, pieceKeys(),
+                        {.meaning = "Meshes that are cut into pieces along what has grown, by names: each a "
+                                    "NAME.glb.",
+                         .most = kMostEntries})
       .whole("iterations", &Scene::iterations,
              {.unit = "iterations", .limits = {0.0, 100'000.0}, .meaning = "How long it grows."})
       .whole("seed", &Scene::seed,

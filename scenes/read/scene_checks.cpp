@@ -8,6 +8,7 @@
 #include "scenes/read/attractor_checks.h"
 #include "scenes/read/film_keys.h"
 #include "scenes/read/light_keys.h"
+#include "scenes/read/piece_keys.h"
 #include "scenes/read/registry.h"
 #include "scenes/scene.h"
 
@@ -236,6 +237,7 @@ void checkImages(const Scene& scene, const Given& given, const Complain& complai
     belongsTo("field", {ImageKind::field});
     belongsTo("plant", {ImageKind::threshold, ImageKind::sky_tables});
     belongsTo("show", {ImageKind::vines});
+    belongsTo("apart", {ImageKind::vines});
     for (const std::string& part : image.show) {
       if (std::find(kImageParts.begin(), kImageParts.end(), part) == kImageParts.end())
         complain(path + ".show", fmt::format("there is no {} to show; expected some of {}", inQuotes(part),
@@ -340,6 +342,7 @@ const std::vector<Check>& sceneChecks() {
       check({"meshes", "images"}, checkImageMeshes),
       check({"plants", "images"}, checkImagePlants),
       check({"fields", "images"}, checkImageFields),
+      check({"meshes", "plants", "pieces", "images"}, checkPieces),
       check({"images"}, checkSheets),
       check({"cameras", "images", "film", "iterations"}, checkFilm),
   };

@@ -11,6 +11,7 @@
 #include "scenes/scene.h"
 #include "scenes/show/bounced_light.h"
 #include "scenes/show/shown_field.h"
+#include "scenes/show/shown_pieces.h"
 #include "scenes/show/world_occupancy.h"
 #include "scenes/write/output_folder.h"
 #include "sim/base/provenance.h"
@@ -63,6 +64,7 @@ struct Finished {
   std::function<sim::SkyTable()> sky_table = {};  ///< as growth has it, for images of sky tables
   PictureLight lit = {};                          ///< beside `light`
   const WorldOccupancy* occupancy = nullptr;      ///< for images of volumes
+  const std::vector<ShownPieces>* pieces = nullptr;  ///< for images of vines that show them
   const sim::Growth* grown = nullptr;  ///< for images of points and graphs: what grew, if it is not `growth`
 };
 

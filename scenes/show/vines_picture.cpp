@@ -13,6 +13,14 @@ bool shows(const ImageSpec& image, const char* part) {
   return std::find(image.show.begin(), image.show.end(), part) != image.show.end();
 }
 
+/// As the image shows them; null where it does not.
+const ShownPieces* piecesFor(const ImageSpec& image, const Finished& finished) {
+  if (finished.pieces == nullptr || !shows(image, "pieces")) return nullptr;
+  for (const ShownPieces& pieces : *finished.pieces)
+    if (pieces.apart == image.apart) return &pieces;
+  return nullptr;
+}
+
 }  // namespace
 
 bool drawsVines(const std::vector<ImageSpec>& images) {
@@ -21,15 +29,20 @@ bool drawsVines(const std::vector<ImageSpec>& images) {
 }
 
 bool showsNoPlant(const ImageSpec& image) {
-  return image.kind == ImageKind::vines && !shows(image, "stems") && !shows(image, "elements");
+  return image.kind == ImageKind::vines && !shows(image, "stems") && !shows(image, "elements") &&
+         !shows(image, "pieces");
 }
 
 render::Image vinesPicture(const ImageSpec& image, const Finished& finished, const VinesLook& look,
                            const render::Camera& camera, glm::ivec2 size_px) {
   render::FinishedScene scene;
+  const ShownPieces* const pieces = piecesFor(image, finished);
   for (const auto& tiled : finished.meshes) {
+    if (pieces != nullptr && pieces->instead_of.contains(tiled.mesh.name)) continue;
     if (shows(image, tiled.guide ? "guides" : "scene")) scene.model.meshes.push_back(&tiled.mesh);
   }
+  if (pieces != nullptr)
+    for (const sim::Mesh& mesh : pieces->meshes) scene.model.meshes.push_back(&mesh);
   const bool stems = shows(image, "stems"), elements = shows(image, "elements");
   const bool all = stems && elements;
   const std::vector<render::PlantModel> parts =
@@ -41,6 +54,12 @@ render::Image vinesPicture(const ImageSpec& image, const Finished& finished, con
   scene.occupied = bare ? &finished.bare : &finished.world.occupied();
   scene.sky = (bare ? finished.light.bare_sky : finished.light.space_sky).get();
   if (!bare) scene.bounced = bouncedIn(finished.lit, scene.frame);
+  if (pieces != nullptr) {  // in a world of their own
+    scene.frame = pieces->frame;
+    scene.occupied = &pieces->occupied;
+    scene.sky = pieces->sky.get();
+    scene.bounced = {};
+  }
   scene.to_sun = look.to_sun;
   scene.daylight = look.daylight;
   render::Image picture = render::finishedPicture(scene, camera, size_px.x, size_px.y);

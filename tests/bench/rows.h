@@ -42,6 +42,9 @@ void benchBounced(Report& report);
 /// Bolts and vessels by the number of their attractors: world, front, light, model and pictures.
 void benchBranching(Report& report);
 
+/// A solid cut into pieces, by the number of its voxels.
+void benchPieces(Report& report);
+
 /// A sky of at least so many directions, of equal weight for equal parts.
 sim::DirectionSet skyOf(int directions);
 

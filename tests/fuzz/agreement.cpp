@@ -83,6 +83,7 @@ void agreeOnImages(Drawn& images, const std::vector<std::string>& plants,
                                     {"mesh", "narrow_band"},
                                     {"field", "field"},
                                     {"show", "vines"},
+                                    {"apart", "vines"},
                                     {"iteration", "graph"}}) {
       if (find(image.value, key) && numbers.chance(0.5)) find(image.value, "kind")->text = only;
     }
@@ -164,6 +165,17 @@ void agreeOnFields(Drawn& fields, const Meshes& meshes, tests::Numbers& numbers)
     if (!axis || axis->text != "grid") takeOut(one.value, {"file", "grid"});
     if (meshes.bodies.empty() && numbers.chance(0.9)) takeOut(one.value, {"within"});
     if (Drawn* within = find(one.value, "within")) within->text = meshes.pick(true, numbers);
+  }
+}
+
+/// They are cut from bodies, by plants, in voxels that show the kerf.
+void agreeOnPieces(Drawn& pieces, const Meshes& meshes, const std::vector<std::string>& plants,
+                   tests::Numbers& numbers) {
+  for (DrawnEntry& one : pieces.entries) {
+    takeOut(one.value, {"voxel"});
+    if (Drawn* of = find(one.value, "of")) of->text = meshes.pick(true, numbers);
+    if (Drawn* by = find(one.value, "by"); by && !plants.empty())
+      by->text = fmt::format("[{}]", numbers.pick(plants));
   }
 }
 
@@ -308,6 +320,8 @@ void makeAgree(Drawn& scene, tests::Numbers& numbers) {
     agreeOnAttractors(*attractors, meshes, numbers);
   if (Drawn* fields = find(scene, "fields"); fields && numbers.chance(kMostly))
     agreeOnFields(*fields, meshes, numbers);
+  if (Drawn* pieces = find(scene, "pieces"); pieces && numbers.chance(kMostly))
+    agreeOnPieces(*pieces, meshes, namesOf(find(scene, "plants"), ""), numbers);
   if (Drawn* images = find(scene, "images"); images && numbers.chance(kMostly))
     agreeOnImages(*images, namesOf(find(scene, "plants"), ""), namesOf(find(scene, "meshes"), ""),
                   keysOf(find(scene, "fields")), numbers);

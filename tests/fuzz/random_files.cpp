@@ -176,6 +176,13 @@ void RandomFiles::knowSpecials() {
   text("meshes[].product", [this] { return std::string(numbers_.chance(0.9) ? "plant" : "plants"); });
   text("plants[].skeleton.from", [=] { return made(0.5); });
   text("fields.<name>.file", [this] { return writeVolume(); });
+  // Voxels that a kerf is cut in are a share of it.
+  text("pieces.<name>.kerf",
+       [this] { return fmt::format("{}", numbers_.uniform(0.03, 0.3) * world_.longest_m()); });
+  text("pieces.<name>.rough.amplitude",
+       [this] { return fmt::format("{}", numbers_.uniform(0.0, 0.05) * world_.longest_m()); });
+  text("pieces.<name>.rough.over",
+       [this] { return fmt::format("{}", numbers_.uniform(0.1, 1.0) * world_.longest_m()); });
   text("fields.<name>.grid", [this] { return std::string(numbers_.chance(0.9) ? "up" : "down"); });
   text("attractors.<name>.spacing",
        [this] { return fmt::format("{}", world_.voxel_m * numbers_.whole(1, 9)); });

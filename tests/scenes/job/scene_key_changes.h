@@ -60,6 +60,29 @@ inline Change given(const std::string& from, const std::string& to) {
           {from, to}};
 }
 
+/// A block that a skeleton cuts in two, three parts to seven, beside another one.
+inline Change cut(const std::string& more, const std::string& from, const std::string& to,
+                  const std::string& output = "main.glb") {
+  const std::string sticks = "rules: vine.yaml, skeleton: {file: ";
+  return {
+      output,
+      {{kMeshes,
+        "meshes:\n  - {file: block.obj, name: shape, tiled: false, translate: [-0.45, 0.15, 0]}\n"
+        "  - {file: block.obj, name: other_shape, scale: 1.1, tiled: false, translate: [-0.5, 0.1, 0]}\n"},
+       {"seeds: [[-0.4, 0.25, 0.25], {at: [-0.7, 0.25, 0.25], key: one}]", "skeleton: {file: sticks.obj}"},
+       {"plants:\n", "plants:\n  - {name: moss, " + sticks + "others.obj}}\n"},
+       {"seed: 5",
+        "seed: 5\npieces: {main: {of: shape, by: [vine], kerf: 8 cm, sweep: [0, 0, 1]" + more + "}}"}},
+      {from, to}};
+}
+
+/// A picture of it.
+inline Change cutShown(const std::string& from, const std::string& to) {
+  Change change = cut("", from, to, "a.png");
+  change.before.push_back({kImage, "{kind: vines, name: a, show: [pieces, scene]}"});
+  return change;
+}
+
 /// A guide field.
 inline Change bent(const std::string& field, const std::string& from, const std::string& to) {
   return {"state_hash", {{"seed: 5", "seed: 5\nfields: {main: {" + field + "}}"}}, {from, to}};
@@ -263,6 +286,17 @@ inline const std::map<std::string, Change>& changes() {
        bent("points: [{at: [0, 1, 0], radius: 1 m, angle: 3}]", "angle: 3", "angle: 4")},
       {"fields.<name>.points[].strength",
        bent("points: [{at: [0, 1, 0], radius: 1 m, strength: 3}]", "strength: 3", "strength: 4")},
+      {"pieces.<name>.of", cut("", "of: shape", "of: other_shape")},
+      {"pieces.<name>.by", cut("", "by: [vine]", "by: [vine, moss]")},
+      {"pieces.<name>.kerf", cut("", "kerf: 8 cm", "kerf: 9 cm")},
+      {"pieces.<name>.sweep", cut("", "sweep: [0, 0, 1]", "sweep: [0.1, 0, 1]")},
+      {"pieces.<name>.voxel", cut(", voxel: 2 cm", "voxel: 2 cm", "voxel: 3 cm")},
+      {"pieces.<name>.least", cut(", least: 0.1", "least: 0.1", "least: 0.5")},
+      {"pieces.<name>.rough.amplitude",
+       cut(", rough: {amplitude: 1 cm, over: 20 cm}", "amplitude: 1 cm", "amplitude: 2 cm")},
+      {"pieces.<name>.rough.over",
+       cut(", rough: {amplitude: 1 cm, over: 20 cm}", "over: 20 cm", "over: 30 cm")},
+      {"pieces.<name>.inside", cut("", "kerf: 8 cm", "kerf: 8 cm, inside: \"#ff0000\"")},
       {"iterations", {"state_hash", {}, {"iterations: 6", "iterations: 4"}}},
       {"seed", {"state_hash", {}, {"seed: 5", "seed: 6"}}},
       {"image.width", {"a.png", {}, {"width: 40", "width: 44"}}},
@@ -302,6 +336,7 @@ inline const std::map<std::string, Change>& changes() {
       {"images[].iteration",
        {"a.png", {{kImage, "{kind: graph, name: a}"}}, {"kind: graph", "kind: graph, iteration: 2"}}},
       {"images[].of", {"a.png", {sheet}, {"of: [s]", "of: [t, s]"}}},
+      {"images[].apart", cutShown("show: [pieces, scene]", "show: [pieces, scene], apart: 0.5")},
       {"images[].show", {"a.png", {}, {"camera: main}", "camera: main, show: [scene, stems]}"}}},
       {"film.every", {"film_0001.png", {film}, {"every: 3", "every: 2"}}},
       {"film.camera", {"film_0000.png", {film}, {"every: 3", "every: 3, camera: other"}}},

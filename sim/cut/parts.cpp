@@ -1,0 +1,155 @@
+#include "sim/cut/parts.h"
+
+#include <algorithm>
+#include <map>
+#include <numeric>
+#include <tuple>
+
+#include "sim/base/parallel.h"
+#include "sim/base/stop.h"
+
+namespace espalier::sim {
+namespace {
+
+/// What hangs together, by numbers: each its least one.
+class Sets {
+ public:
+  explicit Sets(std::size_t count) : of_(count) { std::iota(of_.begin(), of_.end(), 0u); }
+  std::uint32_t of(std::uint32_t i) {
+    while (of_[i] != i) i = of_[i] = of_[of_[i]];
+    return i;
+  }
+  void join(std::uint32_t a, std::uint32_t b) {
+    const auto [low, high] = std::minmax({of(a), of(b)});
+    of_[high] = low;
+  }
+
+ private:
+  std::vector<std::uint32_t> of_;
+};
+
+/// Volume and middle by tetrahedra from its first point, so that far from the origin no digits are lost.
+void measure(ClosedPart& part) {
+  const Vec3 from = part.points.front();
+  double sum = 0.0;
+  Vec3 moment(0.0);
+  for (const auto& t : part.triangles) {
+    const Vec3 a = part.points[t[0]] - from, b = part.points[t[1]] - from, c = part.points[t[2]] - from;
+    const double six = glm::dot(a, glm::cross(b, c));
+    sum += six;
+    moment += six * (a + b + c);
+  }
+  part.volume = sum / 6.0;
+  part.middle = sum != 0.0 ? from + moment / (4.0 * sum) : from;
+}
+
+/// Whether a place lies inside, by crossings of the ray along +x. It lies on no plane of voxels' middles
+/// exactly, as corners of surfaces do not.
+bool holds(const ClosedPart& part, Vec3 p) {
+  bool inside = false;
+  for (const auto& t : part.triangles) {
+    const Vec3 a = part.points[t[0]] - p, b = part.points[t[1]] - p, c = part.points[t[2]] - p;
+    const auto side = [](const Vec3& from, const Vec3& to) { return from.y * to.z - from.z * to.y; };
+    const double ab = side(a, b), bc = side(b, c), ca = side(c, a);
+    if ((ab < 0.0 || bc < 0.0 || ca < 0.0) && (ab > 0.0 || bc > 0.0 || ca > 0.0)) continue;
+    const double area = ab + bc + ca;
+    if (area == 0.0) continue;
+    inside ^= (bc * a.x + ca * b.x + ab * c.x) / area > 0.0;
+  }
+  return inside;
+}
+
+void append(ClosedPart& part, const ClosedPart& cavity) {
+  const auto first = static_cast<std::uint32_t>(part.points.size());
+  part.points.insert(part.points.end(), cavity.points.begin(), cavity.points.end());
+  for (const auto& [a, b, c] : cavity.triangles) part.triangles.push_back({first + a, first + b, first + c});
+}
+
+std::vector<ClosedPart> shellsOf(const QuadSurface& surface) {
+  Sets sets(surface.points.size());
+  for (const auto& q : surface.quads)
+    for (int k = 1; k < 4; ++k) sets.join(q[0], q[static_cast<std::size_t>(k)]);
+  std::vector<std::uint32_t> shell(surface.points.size()), number(surface.points.size());
+  std::vector<ClosedPart> shells;
+  for (std::uint32_t i = 0; i < surface.points.size(); ++i) {
+    const std::uint32_t first = sets.of(i);  // the least of its own: it came before
+    if (first == i) {
+      shell[i] = static_cast<std::uint32_t>(shells.size());
+      shells.emplace_back();
+    }
+    shell[i] = shell[first];
+    number[i] = static_cast<std::uint32_t>(shells[shell[i]].points.size());
+    shells[shell[i]].points.push_back(surface.points[i]);
+  }
+  const auto length2 = [&](std::uint32_t a, std::uint32_t b) {
+    const Vec3 way = surface.points[a] - surface.points[b];
+    return glm::dot(way, way);
+  };
+  for (const auto& q : surface.quads) {
+    ClosedPart& part = shells[shell[q[0]]];
+    const std::size_t from = length2(q[0], q[2]) <= length2(q[1], q[3]) ? 0 : 1;
+    const auto at = [&](std::size_t k) { return number[q[(from + k) % 4]]; };
+    part.triangles.push_back({at(0), at(1), at(2)});
+    part.triangles.push_back({at(0), at(2), at(3)});
+  }
+  return shells;
+}
+
+}  // namespace
+
+std::vector<ClosedPart> partsOf(const QuadSurface& surface) {
+  std::vector<ClosedPart> shells = shellsOf(surface);
+  parallelForEach(shells.size(), [&](std::size_t i) { measure(shells[i]); });
+  std::stable_sort(shells.begin(), shells.end(), [](const ClosedPart& a, const ClosedPart& b) {
+    return std::tuple(-a.volume, a.middle.x, a.middle.y, a.middle.z) <
+           std::tuple(-b.volume, b.middle.x, b.middle.y, b.middle.z);
+  });
+  std::vector<ClosedPart> parts;
+  for (ClosedPart& shell : shells) {
+    throwIfStopped();
+    if (shell.volume > 0.0) {
+      parts.push_back(std::move(shell));
+      continue;
+    }
+    // A cavity: of the smallest that holds it.
+    for (std::size_t i = parts.size(); i-- > 0;) {
+      if (!holds(parts[i], shell.points.front())) continue;
+      append(parts[i], shell);
+      measure(parts[i]);
+      break;
+    }
+  }
+  return parts;
+}
+
+OpenEdges openEdgesOf(const Mesh& mesh) {
+  std::vector<std::uint32_t> order(mesh.vertices_m.size()), place(mesh.vertices_m.size());
+  std::iota(order.begin(), order.end(), 0u);
+  const auto key = [&](std::uint32_t i) {
+    const Vec3& p = mesh.vertices_m[i];
+    return std::tuple(p.x, p.y, p.z);
+  };
+  std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) { return key(a) < key(b); });
+  for (std::size_t i = 0; i < order.size(); ++i)
+    place[order[i]] = i > 0 && key(order[i - 1]) == key(order[i]) ? place[order[i - 1]] : order[i];
+  std::vector<std::array<std::uint32_t, 2>> edges;
+  edges.reserve(3 * mesh.triangles.size());
+  for (const auto& t : mesh.triangles) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      const auto [a, b] = std::minmax({place[t[k]], place[t[(k + 1) % 3]]});
+      if (a != b) edges.push_back({a, b});
+    }
+  }
+  std::sort(edges.begin(), edges.end());
+  OpenEdges open;
+  for (std::size_t i = 0; i < edges.size();) {
+    const std::size_t first = i;
+    while (i < edges.size() && edges[i] == edges[first]) ++i;
+    if ((i - first) % 2 == 0) continue;
+    if (open.count++ == 0)
+      open.at_m = 0.5 * (mesh.vertices_m[edges[first][0]] + mesh.vertices_m[edges[first][1]]);
+  }
+  return open;
+}
+
+}  // namespace espalier::sim

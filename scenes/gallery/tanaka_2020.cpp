@@ -102,6 +102,30 @@ GalleryDocument tanaka2020() {
            .differs =
                {"Limbs keep the length of a step; by the printed equation 16 the field would lengthen them."},
            .numbers = {}},
+
+          {.name = "tanaka_2020_12",
+           .title = "What can be modelled",
+           .scene = "split_boulder",
+           .pictures = {{"roots", "vines", "A", "A tree with its roots"},
+                        {"lightning", "vines", "B", "Lightning"},
+                        {"frost_pane", "vines", "C", "Frost"},
+                        {"vessels", "vines", "D", "Vessels"},
+                        {"split_boulder", "whole", "E", "A stone that cracked"},
+                        {"split_boulder", "exploded", "F", "Its pieces"},
+                        {"ivy_in_cracks", "vines", "G", "What grows in the cracks"}},
+           .rules = {},
+           .paper =
+               "Models of the report: a tree of trunk, branches and roots, lightning, frost, vessels, and a "
+               "body that is "
+               "divided along a graph: its points nearer to a node than a threshold are deleted (3.7.5).",
+           .agrees =
+               {"Each of them; the threshold is the kerf, a key.",
+                "A crack leaves several closed pieces, whose volumes add up to the stone's less the kerf's."},
+           .differs = {"A stone is cut as a level set and not by deleting points, and by a sheet that the "
+                       "tree is swept into.",
+                       "Vessels have Murray's angles, which the report could not yet give them.",
+                       "Ivy grows in the crack afterwards."},
+           .numbers = {{"Time", "not told", Measured::time}}},
       }};
 }
 

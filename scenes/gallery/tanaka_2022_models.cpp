@@ -134,6 +134,24 @@ std::vector<GalleryFigure> tanaka2022Models() {
        .agrees = {"The same angles; (b) begins at the bottom.", "The difference shows at a glance."},
        .differs = {"Bubbles lie on snow and are drawn as films that mirror."},
        .numbers = {{"Angles", "0, 120, 360, 720 degrees", Measured::said, "0, 120, 360, 720 degrees"}}},
+
+      {.name = "tanaka_2022_22",
+       .title = "Other objects",
+       .scene = "branch_shell",
+       .pictures = {{"coral", "vines", "A", "Coral"},
+                    {"branch_shell", "vines", "B", "A hollow sculpture of branches"},
+                    {"roads", "vines", "C", "Roads"},
+                    {"delta", "vines", "D", "A river's delta"},
+                    {"venation", "vines", "E", "Veins of leaves"}},
+       .rules = {},
+       .paper =
+           "Other objects by the same out-trees. The text names none of them here; in its survey it tells of "
+           "hollow "
+           "sculptures of branches along a model's surface (2.4) and of roads from attraction points (2.2).",
+       .agrees = {"Branches run along a body's surface and merge where they meet; several roots merge.",
+                  "Roads come from attractors that a map of people strews, and close into loops."},
+       .differs = {"Which objects theirs are we do not know: coral, delta and leaf are our choice."},
+       .numbers = {}},
   };
 }
 

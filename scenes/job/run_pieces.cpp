@@ -78,7 +78,11 @@ std::string piecesText(const std::vector<Report::Pieces>& pieces) {
       text +=
           fmt::format("{} {:.1f} %", i == 0 ? ", of" : ",", 100.0 * one.pieces[i].volume_m3 / one.solid_m3);
     if (one.pieces.size() > kTold) text += " ..";
-    text += " of its volume\n";
+    text += " of its volume";
+    if (one.crumbs > 0)
+      text += fmt::format("; {} of {:.2g} % left out", sim::counted(one.crumbs, "crumb"),
+                          100.0 * one.crumbs_m3 / one.solid_m3);
+    text += "\n";
   }
   return text;
 }

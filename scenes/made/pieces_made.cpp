@@ -71,27 +71,18 @@ void nameAfter(const std::string& name, sim::Pieces& cut) {
   }
 }
 
-/// What came of a cut that somebody should know; empty where it is what one wants.
-std::vector<std::string> remarksOn(const PiecesMade& made, std::size_t limbs) {
-  std::vector<std::string> remarks;
-  if (limbs == 0) {
-    remarks.push_back(
-        fmt::format("the plants that cut it grew no limb, so {} is in one piece; expected plants "
-                    "that grow",
-                    inQuotes(made.of)));
-  } else if (made.cut.pieces.size() == 1) {
-    remarks.push_back(
-        fmt::format("{} cut{} {}, and it stays in one piece: no gap goes all through it; expected a tree "
-                    "that reaches its "
-                    "rims, loops, or a longer sweep",
-                    sim::counted(limbs, "limb"), limbs == 1 ? "s" : "", inQuotes(made.of)));
-  }
-  if (made.cut.crumbs > 0)
-    remarks.push_back(fmt::format("{} of {:.2g} % of {} together {} left out; least: 0 keeps them",
-                                  sim::counted(made.cut.crumbs, "crumb"),
-                                  100.0 * made.cut.crumbs_m3 / made.cut.solid_m3, inQuotes(made.of),
-                                  made.cut.crumbs == 1 ? "was" : "were"));
-  return remarks;
+/// What came of a cut that nobody wanted; empty where it is well.
+std::string failureOf(const PiecesMade& made, std::size_t limbs) {
+  if (limbs == 0)
+    return fmt::format(
+        "the plants that cut it grew no limb, so {} is in one piece; expected plants that grow",
+        inQuotes(made.of));
+  if (made.cut.pieces.size() > 1) return "";
+  return fmt::format(
+      "{} cut{} {}, and it stays in one piece: no gap goes all through it; expected a tree that reaches its "
+      "rims, "
+      "loops, or a longer sweep",
+      sim::counted(limbs, "limb"), limbs == 1 ? "s" : "", inQuotes(made.of));
 }
 
 }  // namespace
@@ -118,8 +109,8 @@ std::vector<PiecesMade> makePieces(const Scene& scene, const Site& site, const s
       PiecesMade made{spec.name, spec.of, spec.kerf_m, settings.voxel_m,
                       sim::cutSolid(solid, limbs, settings)};
       nameAfter(spec.name, made.cut);
-      for (std::string& remark : remarksOn(made, limbs.size()))
-        warnings.push_back(problemAt(spec.place, scene.file, std::move(remark)));
+      if (std::string failure = failureOf(made, limbs.size()); !failure.empty())
+        warnings.push_back(problemAt(spec.place, scene.file, std::move(failure)));
       all.push_back(std::move(made));
     });
   }

@@ -21,7 +21,7 @@ struct PiecesMade {
 void requirePiecesSound(const Scene& scene, const Site& site);
 
 /// Cuts the scene's meshes as it asks for along what has grown on its site. `warnings` takes, each with its
-/// place: that a mesh stays in one piece, and that crumbs were left out. Throws PlacedError.
+/// place: that a mesh stays in one piece. Throws PlacedError.
 std::vector<PiecesMade> makePieces(const Scene& scene, const Site& site, const sim::Growth& growth,
                                    std::vector<Problem>& warnings);
 

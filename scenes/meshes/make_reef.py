@@ -57,6 +57,14 @@ def sea_floor():
             xs, zs = [-reach + step * (i + d) for d in (0, 1)], [-reach + step * (k + d) for d in (0, 1)]
             quad = [(xs[0], zs[0]), (xs[0], zs[1]), (xs[1], zs[1]), (xs[1], zs[0])]
             model.face("sea_floor", "reef_sand", [(a, height(a, b), b) for a, b in quad])
+    deep = -0.5  # closed below, so that it is solid
+    edge = [-reach + step * i for i in range(n + 1)]
+    rim = ([(x, reach) for x in edge] + [(reach, z) for z in edge[-2::-1]] + [(x, -reach) for x in edge[-2::-1]]
+           + [(-reach, z) for z in edge[1:-1]])
+    for (ax, az), (bx, bz) in zip(rim, rim[1:] + rim[:1]):
+        model.face("sea_floor", "reef_sand", [(ax, height(ax, az), az), (ax, deep, az), (bx, deep, bz),
+                                              (bx, height(bx, bz), bz)])
+    model.face("sea_floor", "reef_sand", [(x, deep, z) for x, z in reversed(rim)])
     return model
 
 

@@ -199,6 +199,12 @@ small $work/figure_3a/column_layers.png column_layers 640
 grow scenes/library/ruin.yaml
 small $work/ruin/vines.png ruin 780
 
+for scene in coral branch_shell roads delta; do
+  grow scenes/library/$scene.yaml
+  small $work/$scene/vines.png $scene 1000
+done
+small $work/roads/aslant.png roads_aslant 1000
+
 grow scenes/library/vessels.yaml
 small $work/vessels/vines.png vessels 540
 # The surroundings of the heart, with forks as they grew and turned.

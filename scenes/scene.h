@@ -240,16 +240,25 @@ inline std::string attractorsFor(const PlantSpec& plant) {
   return front.crown ? crownOf(plant.name) : front.attractors;
 }
 
+/// A picture that says how dense points lie, and where its corners are.
+struct PictureSpec {
+  std::filesystem::path file;
+  std::string told;  ///< what reports call it
+  sim::Vec3 top_left_m{0.0}, top_right_m{0.0}, bottom_left_m{0.0};
+  Place place = {};  ///< where a scene file names it
+};
+
 /// Points that plants grow towards, from exactly one source.
 struct AttractorsSpec {
   std::string name;
-  rules::EnvelopeSpec solid;        ///< either this
-  std::optional<sim::Vec3> at_m;    ///< its foot
-  std::string surface;              ///< or the name of a mesh that they lie on
-  std::string inside;               ///< or of one that they lie in
-  PointTable table;                 ///< or a file that lists them
-  rules::StrewingSpec strewing;     ///< spread and density: of a solid
-  std::optional<double> spacing_m;  ///< on a surface: the least between two
+  rules::EnvelopeSpec solid;           ///< either this
+  std::optional<sim::Vec3> at_m;       ///< its foot
+  std::string surface;                 ///< or the name of a mesh that they lie on
+  std::string inside;                  ///< or of one that they lie in
+  PointTable table;                    ///< or a file that lists them
+  std::optional<PictureSpec> picture;  ///< or one that they lie in, as dense as it is bright
+  rules::StrewingSpec strewing;        ///< spread and density: of a solid
+  std::optional<double> spacing_m;     ///< on a surface or a picture: the least between two
   int waves = 1;  ///< in which they come: each twice as dense as those before it, when nothing moves any more
   Place place = {};  ///< where a scene file has it
 };

@@ -113,13 +113,17 @@ class DracoMesh {
 }  // namespace
 
 tinygltf::Primitive compressed(GlbFile& file, const ModelMesh& mesh, const Needed& needed,
-                               const MeshPart& part, double least_m, std::int32_t last_birth) {
+                               const MeshPart& part, double least_m, std::int32_t last_birth,
+                               float tint_scale) {
   using Attribute = draco::GeometryAttribute;
   DracoMesh packed(part);
   const int places = packed.add("POSITION", Attribute::POSITION, part.of(mesh.positions_m));
   const int normals = packed.add("NORMAL", Attribute::NORMAL, part.of(mesh.normals));
   const std::vector<glm::vec2> chart = needed.uvs ? turnedUvs(part.of(mesh.uvs)) : std::vector<glm::vec2>();
   const int uvs = needed.uvs ? packed.add("TEXCOORD_0", Attribute::TEX_COORD, chart) : -1;
+  std::vector<sim::Colour> shades = mesh.tints.empty() ? mesh.tints : part.of(mesh.tints);
+  for (sim::Colour& shade : shades) shade /= tint_scale;
+  const int colours = shades.empty() ? -1 : packed.add("COLOR_0", Attribute::COLOR, shades);
   const int exposures = packed.add("_EXPOSURE", Attribute::GENERIC, part.of(mesh.exposures));
   const int ages = packed.add("_AGE", Attribute::GENERIC, part.of(mesh.youths));
   std::vector<float> born = part.of(mesh.youths);
@@ -135,7 +139,9 @@ tinygltf::Primitive compressed(GlbFile& file, const ModelMesh& mesh, const Neede
     const Cube<glm::vec2> square(chart);
     packed.quantize(encoder, uvs, bitsFor(square.side, 1.0 / kUvSteps), &square.low.x, square.side);
   }
+  constexpr sim::Colour kBlack(0.0f);
   constexpr float kZero = 0.0f, kOne = 1.0f, kMostOrder = 255.0f;  // whole numbers of these stay as they are
+  if (colours >= 0) packed.quantize(encoder, colours, kByteBits, &kBlack.r, kOne);
   packed.quantize(encoder, exposures, kByteBits, &kZero, kOne);
   packed.quantize(encoder, ages, kByteBits, &kZero, kOne);
   // Steps of a kBirthSteps'th, whatever the last is.

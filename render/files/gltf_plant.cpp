@@ -23,7 +23,7 @@ int GltfPlants::surfaceNode(const ModelMesh& mesh, const std::string& material, 
   std::vector<tinygltf::Primitive> primitives;
   forEachPart(mesh, needed, [&](const MeshPart& part) {
     if (packed_m > 0.0) {
-      primitives.push_back(compressed(file_, mesh, needed, part, packed_m, last_birth));
+      primitives.push_back(compressed(file_, mesh, needed, part, packed_m, last_birth, scale));
       return;
     }
     tinygltf::Primitive& primitive = primitives.emplace_back(shapeOf(file_, mesh, needed, part, kind));

@@ -77,7 +77,9 @@ Look barkLook(const Noise& noise, const Surface& stem, const SurfaceHit& hit, Ve
   } else {
     streak += 0.25f * noise(Vec3f(p_m.x * 180.0f, p_m.y * 40.0f, p_m.z * 180.0f));
   }
-  return {glm::mix(bark, shoot, 0.55f * youth * youth) * streak, Colour(0.0f), 0.15f};
+  const Colour aged = mesh.tints.empty() ? glm::mix(bark, shoot, 0.55f * youth * youth)
+                                         : glm::clamp(bark * atHit(mesh.tints, t, hit), 0.0f, 1.0f);
+  return {aged * streak, Colour(0.0f), 0.15f};
 }
 
 Look bodyLook(const Noise& noise, const Surface& body, const SurfaceHit& hit, Vec3f p_m, float pixel_m) {

@@ -40,6 +40,11 @@ struct Oiio {
   /// pixel is read: it must be twice as wide as high. On the calling thread alone, and for a process of its
   /// own: what it sets for OpenEXR stays set.
   Image (*read_panorama)(const std::string& path, int most_pixels, bool& display);
+  /// The first picture of such a file as one channel, rows from the top: the values that the file has,
+  /// whether linear or not; of colours their luminance by Rec. 709, and where it has alpha times that. Beyond
+  /// the data window of an EXR it is 0. Its size is judged before any pixel is read. As read_panorama
+  /// otherwise.
+  Image (*read_luminance)(const std::string& path, int most_pixels, int most_side);
   /// Nothing where the font is not installed.
   std::optional<TextBox> (*text_box)(const std::string& ascii, int size_px, const char* font);
   /// Draws white letters into a picture of one channel.

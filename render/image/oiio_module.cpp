@@ -54,6 +54,12 @@ std::string png(const Image& size, const std::uint8_t* pixels, const Metadata& t
   return encoded("png", spec, pixels, texts);
 }
 
+void requireSmall(int width, int height, int most_pixels, int most_side) {
+  if (width < 1 || height < 1 || width > most_side || height > most_side || width > most_pixels / height)
+    throw sim::InputError(fmt::format("it has {} x {} pixels; expected at most {} on a side and {} in all",
+                                      width, height, most_side, most_pixels));
+}
+
 /// `name`: as messages call it; `reader`: as OpenImageIO does.
 struct Format {
   const char *name, *reader;
@@ -77,10 +83,7 @@ Texels readAs(const Format& format, const std::string& bytes, int most_pixels, i
         fmt::format("the file is damaged or cut; expected a whole {} ({})", format.name, in->geterror()));
   };
   if (!in->open(fmt::format("memory.{}", format.reader), spec, wanted)) throw damaged();
-  if (spec.width < 1 || spec.height < 1 || spec.width > most_side || spec.height > most_side ||
-      spec.width > most_pixels / spec.height)
-    throw sim::InputError(fmt::format("it has {} x {} pixels; expected at most {} on a side and {} in all",
-                                      spec.width, spec.height, most_side, most_pixels));
+  requireSmall(spec.width, spec.height, most_pixels, most_side);
   const auto channels = static_cast<std::size_t>(spec.nchannels);
   if (channels < 1 || channels > 4)
     throw sim::InputError(fmt::format("it has {} channels; expected 1 to 4", channels));
@@ -125,6 +128,52 @@ Image readPanorama(const std::string& path, int most_pixels, bool& display) {
     throw sim::InputError(fmt::format("the file is damaged or cut ({})", in->geterror()));
   display = spec.format == OIIO::TypeDesc::UINT8 || spec.format == OIIO::TypeDesc::UINT16;
   return read;
+}
+
+/// Reads a channel into `to`, which holds as many pixels as the picture.
+void readChannel(OIIO::ImageInput& in, int channel, std::vector<float>& to) {
+  if (!in.read_image(0, 0, channel, channel + 1, OIIO::TypeDesc::FLOAT, to.data()))
+    throw sim::InputError(fmt::format("the file is damaged or cut ({})", in.geterror()));
+}
+
+Image readLuminance(const std::string& path, int most_pixels, int most_side) {
+  OIIO::attribute("exr_threads", -1);
+  OIIO::ImageSpec wanted;
+  wanted.attribute("oiio:UnassociatedAlpha", 1);
+  const std::unique_ptr<OIIO::ImageInput> in = OIIO::ImageInput::open(path, &wanted);
+  if (!in) throw sim::InputError(fmt::format("no picture that can be read ({})", OIIO::geterror()));
+  in->threads(1);
+  const OIIO::ImageSpec spec = in->spec();
+  requireSmall(spec.width, spec.height, most_pixels, most_side);
+  requireSmall(spec.full_width, spec.full_height, most_pixels, most_side);
+  if (spec.depth > 1 || spec.deep || spec.nchannels < 1)
+    throw sim::InputError("a picture with depth or without channels; expected a flat one");
+  const auto pixels = static_cast<std::size_t>(spec.width) * static_cast<std::size_t>(spec.height);
+  const bool colours = spec.nchannels >= 3 && spec.alpha_channel != 1 && spec.alpha_channel != 2;
+  std::vector<float> sum(pixels), channel(pixels);
+  readChannel(*in, 0, colours ? channel : sum);
+  if (colours) {
+    constexpr std::array kWeights{0.2126f, 0.7152f, 0.0722f};
+    for (int c = 0; c < 3; ++c) {
+      if (c > 0) readChannel(*in, c, channel);
+      for (std::size_t i = 0; i < pixels; ++i) sum[i] += kWeights[static_cast<std::size_t>(c)] * channel[i];
+    }
+  }
+  // Alpha that is associated has been multiplied with.
+  if (spec.alpha_channel > 0 && spec.get_int_attribute("oiio:UnassociatedAlpha") != 0) {
+    readChannel(*in, spec.alpha_channel, channel);
+    for (std::size_t i = 0; i < pixels; ++i) sum[i] *= channel[i];
+  }
+  Image whole(spec.full_width, spec.full_height, 1);
+  for (int y = 0; y < spec.height; ++y) {
+    for (int x = 0; x < spec.width; ++x) {
+      const int to_x = x + spec.x - spec.full_x, to_y = y + spec.y - spec.full_y;
+      if (to_x >= 0 && to_x < whole.width && to_y >= 0 && to_y < whole.height)
+        *whole.at(to_x, to_y) = sum[static_cast<std::size_t>(y) * static_cast<std::size_t>(spec.width) +
+                                    static_cast<std::size_t>(x)];
+    }
+  }
+  return whole;
 }
 
 std::string exr(const Image& measured, const std::vector<std::string>& channels, const Metadata& texts) {
@@ -194,8 +243,8 @@ std::vector<sim::Colour> colourMap(const std::string& name, int entries) {
 }  // namespace espalier::render
 
 extern "C" const espalier::render::Oiio espalierOiio;
-const espalier::render::Oiio espalierOiio{espalier::render::png,          espalier::render::exr,
-                                          espalier::render::readPng,      espalier::render::readJpeg,
-                                          espalier::render::readPanorama, espalier::render::textBox,
-                                          espalier::render::text,         espalier::render::paste,
-                                          espalier::render::resize,       espalier::render::colourMap};
+const espalier::render::Oiio espalierOiio{
+    espalier::render::png,      espalier::render::exr,          espalier::render::readPng,
+    espalier::render::readJpeg, espalier::render::readPanorama, espalier::render::readLuminance,
+    espalier::render::textBox,  espalier::render::text,         espalier::render::paste,
+    espalier::render::resize,   espalier::render::colourMap};

@@ -91,6 +91,15 @@ void appendStalk(ModelMesh& mesh, const sim::Plant& plant, const LeafFoot& foot,
   appendTube(mesh, line, kStalkSides, piece);
 }
 
+/// By what its colour is multiplied where a stem is as young: what grew last has the colour of shoots.
+std::vector<sim::Colour> shootTints(const ModelMesh& stems, sim::Colour shoots) {
+  const sim::Colour share = shoots / glm::max(stems.base_colour, sim::Colour(1e-3f));
+  std::vector<sim::Colour> tints;
+  tints.reserve(stems.youths.size());
+  for (const float youth : stems.youths) tints.push_back(glm::mix(sim::Colour(1.0f), share, youth * youth));
+  return tints;
+}
+
 void putAsInstances(PlantModel& model, const sim::Plant& plant, const LeafFeet& feet,
                     const sim::Frame& frame) {
   model.instances.push_back(stalksAsInstances(model.stalks, kStalkSides));
@@ -140,6 +149,7 @@ PlantModel modelPlant(const sim::Plant& plant, const sim::Frame& frame, const Mo
   model.stems.emits = plant.stem_emits;
   model.stems.emits_share = plant.stem_emits_share;
   model.stems.alpha = plant.stem_alpha;
+  if (plant.shoot_colour) model.stems.tints = shootTints(model.stems, *plant.shoot_colour);
   model.stems.picture = plant.bark.empty() ? plant.bark_picture : drawnBark(plant.stem_colour);
   sim::throwIfStopped();
 

@@ -141,6 +141,7 @@ sim::Plant seedlingOf(const RuleBook& book) {
   plant.shapes = book.shapes();
   plant.stem_colour = book.top().stem.colour;
   const Stem& stem = book.top().stem;
+  plant.shoot_colour = stem.shoots;
   if (stem.emits) {
     plant.stem_emits = stem.emits->light();
     plant.stem_emits_share = static_cast<float>(stem.emits->order_share);

@@ -168,7 +168,7 @@ void ColonizationProcess::begin(const sim::StandView& stand, sim::Columns& memor
   keep(own, memory);
 }
 
-/// Sends those of a planting's nodes that meet others of their plants. Such a site has a number of its own.
+/// Sends those of a planting's nodes that meet others of it. Such a site has a number of its own.
 void sendMeetings(FrontMemory& own, Front& front, const sim::StandView& stand) {
   const auto find = [&](std::int32_t number) -> const FrontNode* {
     const auto at = std::lower_bound(own.active.begin(), own.active.end(), number,
@@ -184,13 +184,17 @@ void sendMeetings(FrontMemory& own, Front& front, const sim::StandView& stand) {
       front.links.meetings.to.push_back(all.to[i]);
       continue;
     }
-    if (to == nullptr || to->plant != from->plant) continue;
+    if (to == nullptr) continue;
     number = i > 0 && all.from[i - 1] == all.from[i] ? number + 1 : 1;
-    const auto& places = stand.plants[static_cast<std::size_t>(from->plant)].skeleton.position_vx;
-    const sim::Vec3 end_vx = places[static_cast<std::size_t>(to->node)];
-    const sim::Vec3 way = end_vx - places[static_cast<std::size_t>(from->node)];
-    own.errands.push_back(
-        {*from, number, Gait::straight, false, glm::normalize(way), end_vx, kNobody, to->node});
+    const auto placeOf = [&](const FrontNode& node) {
+      return stand.plants[static_cast<std::size_t>(node.plant)]
+          .skeleton.position_vx[static_cast<std::size_t>(node.node)];
+    };
+    const sim::Vec3 end_vx = placeOf(*to), way = end_vx - placeOf(*from);
+    if (way == sim::Vec3(0.0)) continue;  // two seeds in one place
+    const bool same = to->plant == from->plant;
+    own.errands.push_back({*from, number, Gait::straight, false, glm::normalize(way), end_vx, kNobody,
+                           same ? to->node : sim::kNoNode, same ? kNobody : to->front});
   }
 }
 
@@ -339,7 +343,7 @@ void ColonizationProcess::settle(const sim::StandView& stand, std::span<const si
     if (verdict.node != sim::kNoNode) {
       const sim::Vec3 at = stand.plants[static_cast<std::size_t>(errand.from.plant)]
                                .skeleton.position_vx[static_cast<std::size_t>(verdict.node)];
-      if (errand.meets != sim::kNoNode) {
+      if (errand.isMeeting()) {
         joined.push_back({at, errand.from.front, true});
         continue;
       }
@@ -351,7 +355,7 @@ void ColonizationProcess::settle(const sim::StandView& stand, std::span<const si
       if (errand.trunk) own.trunks.push_back(fresh);
       if (!errand.trunk && at != errand.end_vx && !cameNearer(errand, at, front, rules.trunk()))
         aside.push_back({errand, fresh.front});
-    } else if (errand.meets != sim::kNoNode) {
+    } else if (errand.isMeeting()) {
       if (waitsForNext(verdict)) again.push_back(errand);
     } else if (waitsForNext(verdict)) {
       if (errand.trunk) own.trunks.push_back(errand.from);
@@ -363,7 +367,8 @@ void ColonizationProcess::settle(const sim::StandView& stand, std::span<const si
   join(front, joined, rules);
   for (const Errand& errand : again) {
     const auto to = std::find_if(own.active.begin(), own.active.end(), [&](const FrontNode& node) {
-      return node.plant == errand.from.plant && node.node == errand.meets;
+      return errand.meets_another != kNobody ? node.front == errand.meets_another
+                                             : node.plant == errand.from.plant && node.node == errand.meets;
     });
     if (to == own.active.end()) continue;
     front.links.meetings.from.push_back(errand.from.front);

@@ -221,28 +221,30 @@ void writeNodes(sim::Columns& columns, const std::string& what, const std::vecto
   write(columns, what + "_node", nodes, [](const FrontNode& n) { return n.node; });
 }
 
-constexpr std::int32_t kTrunk = 8, kMeets = 16;  // beside the gait
+constexpr std::int32_t kTrunk = 8, kMeets = 16, kMeetsAnother = 32;  // beside the gait
 constexpr const char* kWave = "front_wave";
 
-/// An errand's last number is the attractor that it goes for, or the node that it meets.
+/// An errand's last number is the attractor that it goes for, or of the node that it meets.
 std::int32_t howOf(const Errand& errand) {
   return static_cast<std::int32_t>(errand.gait) | (errand.trunk ? kTrunk : 0) |
-         (errand.meets != sim::kNoNode ? kMeets : 0);
+         (errand.meets != sim::kNoNode ? kMeets : 0) | (errand.meets_another != kNobody ? kMeetsAnother : 0);
 }
 std::int32_t goalNumberOf(const Errand& errand) {
+  if (errand.meets_another != kNobody) return errand.meets_another;
   return errand.meets != sim::kNoNode ? errand.meets : errand.attractor;
 }
 Errand unpackedErrand(const FrontNode& from, std::int32_t number, std::int32_t how, sim::Vec3 direction,
                       sim::Vec3 end_vx, std::int32_t goal) {
-  const bool meets = (how & kMeets) != 0;
+  const bool meets = (how & kMeets) != 0, another = (how & kMeetsAnother) != 0;
   return {from,
           static_cast<std::uint32_t>(number),
           static_cast<Gait>(how & (kTrunk - 1)),
           (how & kTrunk) != 0,
           direction,
           end_vx,
-          meets ? kNobody : goal,
-          meets ? goal : sim::kNoNode};
+          meets || another ? kNobody : goal,
+          meets ? goal : sim::kNoNode,
+          another ? goal : kNobody};
 }
 
 }  // namespace

@@ -58,10 +58,13 @@ struct Errand {
   std::uint32_t number = 0;  ///< which of the node's ways
   Gait gait = Gait::none;
   bool trunk = false;
-  sim::Vec3 direction{0.0};          ///< unit
-  sim::Vec3 end_vx{0.0};             ///< where it leads if nothing in its way bends it
-  std::int32_t attractor = kNobody;  ///< the number of the one that it goes for alone
-  sim::NodeId meets = sim::kNoNode;  ///< the node whose place it goes to, if it closes a loop
+  sim::Vec3 direction{0.0};              ///< unit
+  sim::Vec3 end_vx{0.0};                 ///< where it leads if nothing in its way bends it
+  std::int32_t attractor = kNobody;      ///< the number of the one that it goes for alone
+  sim::NodeId meets = sim::kNoNode;      ///< the node whose place it goes to, if it closes a loop
+  std::int32_t meets_another = kNobody;  ///< that node's number in the front, if it is another plant's
+
+  bool isMeeting() const { return meets != sim::kNoNode || meets_another != kNobody; }
 };
 
 /// A planting's own part.

@@ -1,6 +1,8 @@
 #include "rules/growth/front_step.h"
 
+#include <algorithm>
 #include <cmath>
+#include <span>
 
 #include "rules/growth/trial_judge.h"
 #include "sim/sense/proximity.h"
@@ -10,6 +12,14 @@ namespace espalier::rules {
 namespace {
 
 using sim::Outcome;
+
+/// Whether something stands in a way that is no plant.
+bool meetsTheScene(const sim::World& world, std::span<const sim::Voxel> passes) {
+  return std::any_of(passes.begin(), passes.end(), [&](sim::Voxel v) {
+    return sim::contains(world.frame().size, v) && world.occupied().at(v) &&
+           world.part(world.partAt(v)).plant == sim::kNoPlant;
+  });
+}
 
 /// A way alone, to the bit.
 std::optional<Candidate> oneWay(const sim::SiteView& view, const RuleSet& rules, const Surroundings& around,
@@ -40,7 +50,9 @@ std::optional<Candidate> frontStep(const sim::SiteView& view, const RuleSet& rul
                                    const Surroundings& around, const Senses& senses, const Errand& errand,
                                    const sim::RandomKey& key, unsigned set, sim::Proposal& proposal) {
   const Colonization& front = rules.colonization;
-  const sim::Passage passage = rules.require.clear ? sim::Passage::past_own : sim::Passage::through;
+  const bool another = errand.meets_another != kNobody;
+  const sim::Passage passage =
+      rules.require.clear && !another ? sim::Passage::past_own : sim::Passage::through;
   Ways ways;
   ways.numbers = sim::philoxInput(key, sim::Purpose::trial, set);
   ways.axis = sim::Vec3f(errand.direction);
@@ -49,7 +61,7 @@ std::optional<Candidate> frontStep(const sim::SiteView& view, const RuleSet& rul
   ways.narrowly = 0.0f;
   ways.narrow = 1;
   ways.widest = front.trials;
-  if (errand.gait == Gait::pulled && !front.onto && errand.meets == sim::kNoNode)
+  if (errand.gait == Gait::pulled && !front.onto && !errand.isMeeting())
     bendBy(rules, around, senses, view.world.frame().size, ways);
   // The first trial mostly is the last, and many at a time would cost more.
   sim::Vec3 end_vx = errand.end_vx;
@@ -58,8 +70,12 @@ std::optional<Candidate> frontStep(const sim::SiteView& view, const RuleSet& rul
     trialEnds(ways, 0, 1, bent);
     end_vx = sim::endOf(around.at_vx, bent, 0);
   }
-  if (auto first = oneWay(view, rules, around, end_vx, passage, proposal)) return first;
-  if (front.onto || errand.meets != sim::kNoNode) return std::nullopt;
+  if (auto first = oneWay(view, rules, around, end_vx, passage, proposal)) {
+    // What comes to another plant goes into its voxels, but through nothing else.
+    if (!another || !rules.require.clear || !meetsTheScene(view.world, first->passes)) return first;
+    return std::nullopt;
+  }
+  if (front.onto || errand.isMeeting()) return std::nullopt;
   return bestTrial(view, rules, around, ways, {1, 1, front.trials, passage}, proposal);
 }
 

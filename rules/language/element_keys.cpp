@@ -80,6 +80,10 @@ std::shared_ptr<const Table> stemKeys() {
   using By = sim::StemGirth::By;
   return TableOf<Stem>()
       .colour("colour", &Stem::colour, {.meaning = "Colour of the bark."})
+      .colour(
+          "shoots", &Stem::shoots,
+          {.meaning = "Colour of what grew last, which fades into that of the bark with age; without it a "
+                      "little green."})
       .section("emits", &Stem::emits, stemEmissionKeys(),
                {.meaning = "Light that it sends out, and with interreflection onto others too; a colour "
                            "stands for its own."},

@@ -312,6 +312,7 @@ struct Roughness {
 /// What a plant's stems are like: see sim::StemGirth and sim::StemForm.
 struct Stem {
   sim::Colour colour{0.16f, 0.10f, 0.05f};  ///< linear RGB
+  std::optional<sim::Colour> shoots;        ///< of what grew last, likewise; none: a little green
   Distance radius{0.08};                    ///< of a twig that does not fork
   sim::StemGirth::By by = sim::StemGirth::By::pipes;
   double exponent = 2.05;

@@ -30,6 +30,7 @@ bool startsWith(std::string_view path, std::initializer_list<std::string_view> k
 bool namesAFile(std::string_view path) {
   return (path.starts_with("meshes[") && (path.ends_with("].file") || path.ends_with("].optional"))) ||
          ((path.starts_with("attractors.") || path.starts_with("plants[")) && path.ends_with(".points")) ||
+         (path.starts_with("attractors.") && path.ends_with(".picture.file")) ||
          (path.starts_with("plants[") && path.ends_with(".skeleton.file")) ||
          (path.starts_with("fields.") && path.ends_with(".file")) || path == "sky.background.file";
 }
@@ -75,12 +76,11 @@ std::vector<std::string> told(const std::vector<std::string>& differences) {
   return lines;
 }
 
-constexpr std::array<std::string_view, 17> kLooks{
-    ".opacity",       ".stem.order_share", ".stem.emits.order_share",
-    ".rough.hurst",   ".rough.amplitude",  ".rough.over",
-    ".rough.detail",  ".stem.forks",       ".stem.by",
-    ".stem.exponent", ".stem.thickens",    ".stem.thickest",
-    ".stem.texture",  ".varies.chance",    ".varies.age",
+constexpr std::array<std::string_view, 18> kLooks{
+    ".stem.shoots",   ".opacity",         ".stem.order_share", ".stem.emits.order_share",
+    ".rough.hurst",   ".rough.amplitude", ".rough.over",       ".rough.detail",
+    ".stem.forks",    ".stem.by",         ".stem.exponent",    ".stem.thickens",
+    ".stem.thickest", ".stem.texture",    ".varies.chance",    ".varies.age",
     ".varies.light",  ".varies.height"};
 
 /// How thick stems are beyond their twigs is for models alone, and so are what is painted on them, how far
@@ -119,6 +119,14 @@ sim::Inputs inputsOf(const Scene& scene, const Site& site) {
     hash.add(points);
     inputs.emplace_back(path + ".contents", fmt::format("{:016x}", hash.digest()));
   });
+  for (std::size_t i = 0; i < scene.attractors.size(); ++i) {
+    if (!site.densities[i]) continue;
+    sim::Hasher hash;
+    hash.add(site.densities[i]->width);
+    hash.add(site.densities[i]->density);
+    inputs.emplace_back("attractors." + scene.attractors[i].name + ".picture.contents",
+                        fmt::format("{:016x}", hash.digest()));
+  }
   for (std::size_t i = 0; i < scene.plants.size(); ++i) {
     if (!scene.plants[i].skeleton) continue;
     sim::Hasher hash;

@@ -97,10 +97,11 @@ class Making {
   Making(const AttractorsSpec& spec, const Scene& scene, const Site& site, std::vector<Problem>* warnings)
       : spec_(spec), scene_(scene), site_(site), say_(spec.name, spec.place, scene, site.world, warnings) {}
 
-  NamedPoints make(const std::vector<sim::Vec3>& listed_m) const {
+  NamedPoints make(const std::vector<sim::Vec3>& listed_m,
+                   const std::optional<sim::DensityPicture>& density) const {
     sim::PointSet points;
     try {
-      points = strewn(listed_m);
+      points = density ? over(*density) : strewn(listed_m);
     } catch (const PlacedError&) {
       throw;
     } catch (const sim::InputError& error) {  // of a mesh, without its place
@@ -112,7 +113,7 @@ class Making {
  private:
   sim::PointSet strewn(const std::vector<sim::Vec3>& listed_m) const {
     if (!spec_.table.file.empty()) return {listed_m, std::vector<sim::Vec3>(listed_m.size(), sim::Vec3(0.0))};
-    const std::uint64_t stream = sim::streamOf(scene_.seed, "attractors " + spec_.name);
+    const std::uint64_t stream = streamHere();
     const sim::Strewing strewing = rules::strewingOf(spec_.strewing);
     if (!spec_.inside.empty()) return within(strewing.count, stream);
     if (spec_.surface.empty())
@@ -129,16 +130,36 @@ class Making {
   }
 
   sim::PointSet apart(std::uint64_t stream) const {
-    const auto most =
-        static_cast<std::size_t>(spec_.strewing.count.value_or(static_cast<int>(rules::kMostPoints)));
     sim::PointSet points =
-        sim::scatterApart(mesh(spec_.surface), most, *spec_.spacing_m, stream, spec_.waves);
-    if (spec_.strewing.count && points.at.size() < most) {
-      say_.warn(fmt::format("{} of {} points find room on '{}' with {} m between any two", points.at.size(),
-                            most, spec_.surface, *spec_.spacing_m));
-    }
+        sim::scatterApart(mesh(spec_.surface), most(), *spec_.spacing_m, stream, spec_.waves);
+    warnOfRoom(points.at.size(), fmt::format("on '{}'", spec_.surface));
     return points;
   }
+
+  sim::PointSet over(const sim::DensityPicture& density) const {
+    const std::uint64_t stream = streamHere();
+    const PictureSpec& laid = *spec_.picture;
+    const sim::PictureFrame frame{laid.top_left_m, laid.top_right_m - laid.top_left_m,
+                                  laid.bottom_left_m - laid.top_left_m};
+    if (!spec_.spacing_m)
+      return sim::scatterOver(density, frame, rules::strewingOf(spec_.strewing).count, stream);
+    sim::PointSet points =
+        sim::scatterOverApart(density, frame, most(), *spec_.spacing_m, stream, spec_.waves);
+    warnOfRoom(points.at.size(), "in the picture");
+    return points;
+  }
+
+  std::size_t most() const {
+    return static_cast<std::size_t>(spec_.strewing.count.value_or(static_cast<int>(rules::kMostPoints)));
+  }
+
+  void warnOfRoom(std::size_t points, const std::string& where) const {
+    if (spec_.strewing.count && points < most())
+      say_.warn(fmt::format("{} of {} points find room {} with {} m between any two", points, most(), where,
+                            *spec_.spacing_m));
+  }
+
+  std::uint64_t streamHere() const { return sim::streamOf(scene_.seed, "attractors " + spec_.name); }
 
   const sim::Mesh& mesh(const std::string& name) const { return meshNamed(site_, name); }
 
@@ -157,7 +178,7 @@ std::vector<NamedPoints> attractorsOf(const Scene& scene, const Site& site, std:
   for (std::size_t i = 0; i < scene.attractors.size(); ++i) {
     const AttractorsSpec& spec = scene.attractors[i];
     wrong.part(spec.place, [&] {
-      all.push_back(Making(spec, scene, site, warnings).make(site.listed_m.at(i)));
+      all.push_back(Making(spec, scene, site, warnings).make(site.listed_m.at(i), site.densities.at(i)));
       count += all.back().at_vx.size();
       Naming(spec.name, spec.place, scene, site.world, warnings).requireFew(static_cast<double>(count));
     });

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "scenes/clean_text.h"
+#include "scenes/import/density_reader.h"
 #include "scenes/import/line_shape.h"
 #include "scenes/import/mesh_import.h"
 #include "scenes/import/points_reader.h"
@@ -96,6 +97,14 @@ void addTable(const PointTable& table, SiteFiles& to) {
   addFile(table.file, table.told, std::move(read), to);
 }
 
+void addDensity(const AttractorsSpec& spec, SiteFiles& to) {
+  to.densities.emplace_back();
+  if (!spec.picture) return;
+  sim::InputFile read;
+  to.densities.back() = readDensity(spec.picture->file, read);
+  addFile(spec.picture->file, spec.picture->told, std::move(read), to);
+}
+
 void addSkeletons(const PlantSpec& plant, SiteFiles& to) {
   to.skeletons.emplace_back();
   if (!plant.skeleton) return;
@@ -123,6 +132,9 @@ void addTheRest(const Scene& scene, SiteFiles& to, Gathering& wrong) {
   forEachTable(scene, [&](const PointTable& table, const std::string&) {
     wrong.part(table.place, [&] { addTable(table, to); });
   });
+  for (const AttractorsSpec& spec : scene.attractors) {
+    wrong.part(spec.picture ? spec.picture->place : Place{}, [&] { addDensity(spec, to); });
+  }
   for (const PlantSpec& plant : scene.plants) {
     wrong.part(plant.skeleton ? plant.skeleton->place : Place{}, [&] { addSkeletons(plant, to); });
   }

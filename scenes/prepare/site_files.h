@@ -11,6 +11,7 @@
 #include "scenes/problem.h"
 #include "scenes/scene.h"
 #include "sim/light/background.h"
+#include "sim/scatter/picture_points.h"
 #include "sim/tile/build_world.h"
 
 namespace espalier::scenes {
@@ -32,9 +33,10 @@ struct SiteFiles {
   std::vector<sim::Mesh> shapes;       ///< placed likewise, but no part of the world: for attractors
   std::vector<std::vector<sim::Vec3>> listed_m;  ///< what tables of points list, as forEachTable has them
   std::vector<std::vector<FileTree>> skeletons;  ///< of each of the scene's plants, placed: in metres
-  std::vector<FieldVolume> fields;               ///< of each of the scene's fields
-  std::optional<sim::SkyPicture> sky_picture;    ///< of its sky's background
-  std::vector<FacingReport> facings;             ///< of meshes with triangles that were turned
+  std::vector<std::optional<sim::DensityPicture>> densities;  ///< of each of the scene's attractors
+  std::vector<FieldVolume> fields;                            ///< of each of the scene's fields
+  std::optional<sim::SkyPicture> sky_picture;                 ///< of its sky's background
+  std::vector<FacingReport> facings;                          ///< of meshes with triangles that were turned
   std::vector<sim::InputFile>
       mesh_files;  ///< what meshes, points, skeletons and volumes were read from, each once
   std::vector<std::filesystem::path> mesh_paths;  ///< where those are

@@ -19,6 +19,7 @@ std::vector<std::string> sourcesOf(const AttractorsSpec& spec) {
   if (!spec.surface.empty()) sources.emplace_back("surface");
   if (!spec.inside.empty()) sources.emplace_back("inside");
   if (!spec.table.file.empty()) sources.emplace_back("points");
+  if (spec.picture) sources.emplace_back("picture");
   return sources;
 }
 
@@ -35,11 +36,19 @@ void checkMeshName(const std::string& name, const std::string& path, const Scene
   if (!name.empty() && !wrong.empty()) complain(path, wrong);
 }
 
+void checkCorners(const PictureSpec& picture, const std::string& path, const Check::Complain& complain) {
+  const sim::Vec3 across = picture.top_right_m - picture.top_left_m,
+                  down = picture.bottom_left_m - picture.top_left_m;
+  const double longest = std::max(glm::length(across), glm::length(down));
+  if (!(glm::length(glm::cross(across, down)) > 1e-6 * longest * longest))
+    complain(path, "a picture without an area; expected three corners that do not lie on one line");
+}
+
 /// Complains of keys that the one source does not know.
 void checkMeaning(const AttractorsSpec& spec, const std::string& source, const std::string& path,
                   const Check::Given& given, const Check::Complain& complain) {
-  const bool surface = source == "surface", points = source == "points";
-  const bool solid = !surface && !points && source != "inside";
+  const bool surface = source == "surface", points = source == "points", picture = source == "picture";
+  const bool solid = !surface && !points && !picture && source != "inside";
   const auto needs = [&](const char* key, bool meant, const char* expected) {
     const std::string at = path + "." + key;
     if (meant || !given(at)) return;
@@ -49,9 +58,9 @@ void checkMeaning(const AttractorsSpec& spec, const std::string& source, const s
   needs("at", solid, "a solid");
   needs("spread", solid, "a solid");
   needs("density", solid, "a solid");
-  needs("spacing", surface, "a surface");
-  needs("waves", surface && spec.spacing_m, "a surface and a spacing");
-  needs("count", !points, "a solid or a mesh");
+  needs("spacing", surface || picture, "a surface or a picture");
+  needs("waves", (surface || picture) && spec.spacing_m, "a surface or a picture, and a spacing");
+  needs("count", !points, "a solid, a mesh or a picture");
   needs("type", points, "points");
   if (solid && !spec.at_m)
     complain(path,
@@ -68,7 +77,7 @@ void checkAttractors(const Scene& scene, const Check::Given& given, const Check:
       complain(
           path,
           "attractors from nowhere; expected a solid such as dome: {radius: 6 m}, surface: MESH, inside: "
-          "MESH or points: FILE");
+          "MESH, points: FILE or picture: {file: FILE, ...}");
       continue;
     }
     if (sources.size() > 1) {
@@ -78,6 +87,7 @@ void checkAttractors(const Scene& scene, const Check::Given& given, const Check:
     }
     checkMeshName(spec.surface, path + ".surface", scene, complain);
     checkMeshName(spec.inside, path + ".inside", scene, complain);
+    if (spec.picture) checkCorners(*spec.picture, path + ".picture", complain);
     checkMeaning(spec, sources.front(), path, given, complain);
     rules::checkEnvelope(spec.solid, path, complain);
     rules::checkStrewing(spec.strewing, path, complain);

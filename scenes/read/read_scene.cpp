@@ -100,21 +100,30 @@ void findVolumes(Scene& scene, const YamlNode& root, const rules::Check::Complai
   }
 }
 
-/// The same for the sky's picture.
-void findSky(Scene& scene, const YamlNode& root, const rules::Check::Complain& complain) {
-  BackgroundSpec& background = scene.sky.background;
-  if (background.file.empty()) return;
-  const auto written = background.file.string();
-  background.file = beside(root, written);
-  background.told = toldFrom(scene.file, background.file, fs::path(written).is_absolute());
+/// The same for a picture under `key`.
+void findPicture(fs::path& file, std::string& told, const std::string& key, const Scene& scene,
+                 const YamlNode& root, const rules::Check::Complain& complain) {
+  if (file.empty()) return;
+  const auto written = file.string();
+  file = beside(root, written);
+  told = toldFrom(scene.file, file, fs::path(written).is_absolute());
   std::error_code error;
-  if (!endsIn(background.file, {".exr", ".hdr", ".png", ".jpg", ".jpeg"})) {
-    complain(
-        "sky.background.file",
-        fmt::format("{} is no picture that is known; expected .exr, .hdr, .png or .jpg", inQuotes(written)));
-  } else if (!fs::is_regular_file(background.file, error)) {
-    complain("sky.background.file",
-             fmt::format("there is no picture {}; expected one", background.file.string()));
+  if (!endsIn(file, {".exr", ".hdr", ".png", ".jpg", ".jpeg"})) {
+    complain(key, fmt::format("{} is no picture that is known; expected .exr, .hdr, .png or .jpg",
+                              inQuotes(written)));
+  } else if (!fs::is_regular_file(file, error)) {
+    complain(key, fmt::format("there is no picture {}; expected one", file.string()));
+  }
+}
+
+/// The same for the pictures of the sky and of attractors.
+void findPictures(Scene& scene, const YamlNode& root, const rules::Check::Complain& complain) {
+  BackgroundSpec& background = scene.sky.background;
+  findPicture(background.file, background.told, "sky.background.file", scene, root, complain);
+  for (AttractorsSpec& attractors : scene.attractors) {
+    if (attractors.picture)
+      findPicture(attractors.picture->file, attractors.picture->told,
+                  "attractors." + attractors.name + ".picture.file", scene, root, complain);
   }
 }
 
@@ -188,7 +197,7 @@ Scene sceneOf(const Document& document, const fs::path& path, AskedScenes& asked
   checks.push_back(
       {{}, [&](const void*, const auto&, const auto& complain) { findSkeletons(scene, root, complain); }});
   checks.push_back(
-      {{}, [&](const void*, const auto&, const auto& complain) { findSky(scene, root, complain); }});
+      {{}, [&](const void*, const auto&, const auto& complain) { findPictures(scene, root, complain); }});
   fillNames(scene);
   scene.region_mentions = loader.mentions();
   scene.read_files.push_back({cleanText(path.filename().string()), "scene", document.hash});

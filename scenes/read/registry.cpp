@@ -231,6 +231,22 @@ std::shared_ptr<const Table> plantKeys() {
       .shared();
 }
 
+std::shared_ptr<const Table> pictureKeys() {
+  const auto corner = [](const char* meaning) {
+    return About{.unit = kMetres, .limits = kCoordinate, .meaning = meaning, .required = true};
+  };
+  return TableOf<PictureSpec>()
+      .file("file", &PictureSpec::file,
+            {.meaning =
+                 "Its file: .png, .jpg, .exr or .hdr. What has half the value of another pixel is half as "
+                 "dense.",
+             .required = true})
+      .place("top_left", &PictureSpec::top_left_m, corner("Where its upper left corner lies."))
+      .place("top_right", &PictureSpec::top_right_m, corner("Where its upper right corner lies."))
+      .place("bottom_left", &PictureSpec::bottom_left_m, corner("Where its lower left corner lies."))
+      .shared();
+}
+
 std::shared_ptr<const Table> attractorKeys() {
   TableOf<AttractorsSpec> table;
   rules::addSolids(table, &AttractorsSpec::solid);
@@ -247,13 +263,17 @@ std::shared_ptr<const Table> attractorKeys() {
           "points", [](auto& a) -> auto& { return a.table.file; },
           {.meaning = "Or a table of points, .csv: x, y, z in metres on each line, and perhaps their type."})
       .whole("type", [](auto& a) -> auto& { return a.table.type; },
-             {.limits = kTypes, .meaning = "Those points of the table that are of this type alone."});
+             {.limits = kTypes, .meaning = "Those points of the table that are of this type alone."})
+      .section(
+          "picture", &AttractorsSpec::picture, pictureKeys(),
+          {.meaning = "Or a picture, laid in the scene by three corners: in it, the denser the brighter."});
   rules::addStrewing(table, &AttractorsSpec::strewing);
   return table
       .metres("spacing", &AttractorsSpec::spacing_m,
               {.unit = kMetres,
                .limits = kPositive,
-               .meaning = "Least between any two on a surface; without a count as many as find room."})
+               .meaning = "Least between any two on a surface, or in a picture where it is brightest; "
+                          "without a count as many as find room."})
       .whole("waves", &AttractorsSpec::waves,
              {.unit = "waves",
               .limits = {1.0, 12.0},

@@ -32,7 +32,10 @@ void notePlaces(Scene& scene, const YamlNode& root) {
     scene.meshes[i].place = at(fmt::format("meshes[{}]", i));
   if (root.entry("world")) scene.world.place = at(sizeKey(scene.world));
   if (root.entry("exposure")) scene.exposure.place = at("exposure.where");
-  for (AttractorsSpec& attractors : scene.attractors) attractors.place = at("attractors." + attractors.name);
+  for (AttractorsSpec& attractors : scene.attractors) {
+    attractors.place = at("attractors." + attractors.name);
+    if (attractors.picture) attractors.picture->place = at("attractors." + attractors.name + ".picture.file");
+  }
   for (FieldSpec& field : scene.fields) {
     field.file_place = at(fmt::format("fields.{}.file", field.name));
     field.within_place = at(fmt::format("fields.{}.within", field.name));

@@ -160,6 +160,9 @@ Settings settings(const Scene& scene) {
   }
   forEachTable(beside, [&](PointTable& table, const std::string&) { place(table.file); });
   for (auto& field : beside.fields) place(field.file);
+  for (auto& attractors : beside.attractors) {
+    if (attractors.picture) place(attractors.picture->file);
+  }
   place(beside.sky.background.file);
   for (auto& plant : beside.plants) {
     if (!plant.skeleton) continue;

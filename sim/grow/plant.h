@@ -3,6 +3,7 @@
 #include <functional>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -91,6 +92,7 @@ struct Plant {
   std::vector<ElementShape> shapes;
   std::vector<PlacedElement> elements;
   Colour stem_colour{0.16f, 0.10f, 0.05f};
+  std::optional<Colour> shoot_colour = {};  ///< of what grew last; none: greener than the rest
   std::string bark =
       {};  ///< what is painted on its stems, as on ElementShape: a kind of bark, or a picture that tiles
   std::shared_ptr<const Picture> bark_picture = nullptr;

@@ -150,9 +150,9 @@ void agreeOnAttractors(Drawn& attractors, const Meshes& meshes, tests::Numbers& 
     takeOut(one.value, sources);
     const bool on_mesh = kept == "surface" || kept == "inside";
     if (on_mesh) find(one.value, kept)->text = meshes.pick(kept == "inside", numbers);
-    if (on_mesh || kept == "points") takeOut(one.value, of_solids);
+    if (on_mesh || kept == "points" || kept == "picture") takeOut(one.value, of_solids);
     takeOut(one.value, {kept == "points" ? "count" : "type"});
-    if (kept != "surface") takeOut(one.value, {"spacing"});
+    if (kept != "surface" && kept != "picture") takeOut(one.value, {"spacing"});
     if (!find(one.value, "spacing")) takeOut(one.value, {"waves"});
   }
 }

@@ -158,6 +158,14 @@ void RandomFiles::knowSpecials() {
     special(of + "count", [this] { return fmt::format("{}", numbers_.whole(1, 300)); });
   }
   text("attractors.<name>.points", [this] { return writePoints("points.csv", 40, 0.5); });
+  text("attractors.<name>.picture.file", [this] { return writeSky(); });
+  const auto corner = [this](double x, double y, double z) {
+    const sim::Vec3 at = world_.middle_m + sim::Vec3(x, y, z) * world_.extent_m();
+    return ValueDrawer::point(at.x, at.y, at.z);
+  };
+  text("attractors.<name>.picture.top_left", [=] { return corner(-0.45, 0.3, -0.4); });
+  text("attractors.<name>.picture.top_right", [=] { return corner(0.45, 0.3, -0.4); });
+  text("attractors.<name>.picture.bottom_left", [=] { return corner(-0.45, 0.2, 0.4); });
   text("attractors.<name>.type", [this] { return fmt::format("{}", numbers_.whole(0, 2)); });
   // Seldom: such a start often stands in a mesh.
   text("plants[].points",

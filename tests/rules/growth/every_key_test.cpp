@@ -30,6 +30,7 @@ const std::map<std::string, std::string> kWithoutEffect = {
     {"base", "read with the file: growth sees what came of it"},
     {"propagate", "one for all sets of a plant"},
     {"stem.colour", "a plant has one stem: that of the top rule set"},
+    {"stem.shoots", "the same"},
     {"stem.texture", "the same"},
     {"elements[].from", "who reads the rules finds the picture (tests/scenes/job/fed_test.cpp)"},
     {"elements[].product", "the same"},

@@ -27,6 +27,10 @@ inline Edit realSun(const std::string& more) {
   return {kArc, "sun: {place: {latitude: 47, longitude: 8, utc_offset: 1}, step: 60, " + more + "}"};
 }
 
+inline constexpr const char* kLaid =
+    "picture: {file: east.png, top_left: [-0.6, 0.3, 0.2], top_right: [0.6, 0.3, 0.2], bottom_left: [-0.6, "
+    "0.3, 0.8]}, count: 20";
+
 inline constexpr const char* kMeshes = "meshes:\n";
 
 /// Attractors from a mesh or a file, beside two meshes that stand nowhere.
@@ -254,6 +258,10 @@ inline const std::map<std::string, Change>& changes() {
       {"attractors.<name>.surface", strewn("surface: plot", "surface: plot", "surface: shape")},
       {"attractors.<name>.inside", hollow(strewn("inside: shape", "inside: shape", "inside: other_shape"))},
       {"attractors.<name>.points", strewn("points: listed.csv", "listed.csv", "other.csv")},
+      {"attractors.<name>.picture.file", strewn(kLaid, "east.png", "west.png")},
+      {"attractors.<name>.picture.top_left", strewn(kLaid, "[-0.6, 0.3, 0.2]", "[-0.5, 0.3, 0.2]")},
+      {"attractors.<name>.picture.top_right", strewn(kLaid, "[0.6, 0.3, 0.2]", "[0.6, 0.4, 0.2]")},
+      {"attractors.<name>.picture.bottom_left", strewn(kLaid, "[-0.6, 0.3, 0.8]", "[-0.6, 0.3, 0.7]")},
       {"attractors.<name>.type", strewn("points: typed.csv, type: 1", "type: 1", "type: 2")},
       {"attractors.<name>.count", strewn("surface: plot, count: 20", "count: 20", "count: 30")},
       {"attractors.<name>.spread", crown("sphere: 30 cm, spread: volume", "volume", "height")},

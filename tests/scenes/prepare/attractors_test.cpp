@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 
 #include "scenes/prepare/plantings.h"
@@ -9,6 +10,7 @@
 #include "sim/base/error.h"
 #include "tests/support/meshes.h"
 #include "tests/support/messages.h"
+#include "tests/support/png_bytes.h"
 #include "tests/support/scratch.h"
 
 namespace espalier::scenes {
@@ -139,6 +141,48 @@ TEST_F(Attractors, InABallOfWhichOneTriangleIsMissingSaySoAndInAWholeOneDoNot) {
     EXPECT_TRUE(warnings_.empty()) << at << ": " << warnings_[0].text;
     made("{inside: open, count: 50}", "meshes: [{file: open.obj" + rest);
     EXPECT_EQ(warnings_.size(), 1u) << at;
+  }
+}
+
+/// A strip of four pixels, of which the third is black and the fourth half as bright as the others.
+constexpr const char* kStrip =
+    "file: strip.png, top_left: [-2, 3, -1], top_right: [2, 3, -1], bottom_left: [-2, 3, 1]";
+
+TEST_F(Attractors, InAPictureAreDenseWhereItIsBright) {
+  scratch_.write("strip.png", tests::pngBytes(4, 1, 8, 0, {200, 200, 0, 100}));
+  const std::string picture = std::string("{picture: {") + kStrip + "}, ";
+  const auto all = made(picture + "count: 5000}");
+  std::array<double, 4> counts{};
+  for (std::size_t i = 0; i < all[0].at_vx.size(); ++i) {
+    const sim::Vec3 p = metres(all[0].at_vx[i]);
+    EXPECT_NEAR(p.y, 3.0, 1e-9);
+    EXPECT_LE(std::abs(p.z), 1.0);
+    EXPECT_EQ(all[0].normal[i], sim::Vec3(0, 1, 0));
+    ++counts.at(static_cast<std::size_t>(p.x + 2.0));
+  }
+  EXPECT_NEAR(counts[0], 2000, 140);
+  EXPECT_NEAR(counts[1], 2000, 140);
+  EXPECT_EQ(counts[2], 0);
+  EXPECT_NEAR(counts[3], 1000, 110);
+  EXPECT_TRUE(warnings_.empty());
+  const auto apart = made(picture + "spacing: 20 cm, waves: 2}");
+  EXPECT_EQ(apart[0].wave.size(), apart[0].at_vx.size());
+  EXPECT_GT(apart[0].at_vx.size(), 60u);
+  made(picture + "spacing: 1 m, count: 100}");
+  ASSERT_EQ(warnings_.size(), 1u);
+  EXPECT_NE(warnings_[0].text.find(" of 100 points find room in the picture with 1 m between any two"),
+            std::string::npos)
+      << warnings_[0].text;
+  EXPECT_EQ(site_->mesh_files.back().kind, "density");
+}
+
+TEST_F(Attractors, InAPictureThatIsNoneSayWhere) {
+  const auto place = scratch_.path("scene.yaml").string() + ":5:25: " + scratch_.path("strip.png").string();
+  for (const std::string& bytes : {std::string("GIF89a"), tests::pngBytes(60'000, 60'000, 8, 0, {0}),
+                                   tests::pngBytes(4, 1, 8, 0, {0, 0, 0, 0})}) {
+    scratch_.write("strip.png", bytes);
+    const std::string said = tests::messageOf([&] { made(std::string("{picture: {") + kStrip + "}}"); });
+    EXPECT_TRUE(said.starts_with(place)) << said;
   }
 }
 

@@ -20,7 +20,7 @@ const std::vector<BadFile> kBadAttractors = {
     {"attractors from nowhere",
      "attractors:\n  crown: {count: 5}\n",
      {"4:3: attractors from nowhere; expected a solid such as dome: {radius: 6 m}, surface: MESH, inside: "
-      "MESH or points: FILE"}},
+      "MESH, points: FILE or picture: {file: FILE, ...}"}},
     {"attractors from two places",
      "attractors: {crown: {dome: 6, at: [0, 0, 0], surface: wall}}\n",
      {"3:55: attractors by dome and surface; expected one of them"}},
@@ -74,11 +74,39 @@ const std::vector<BadFile> kBadAttractors = {
      {"4:30: no mesh is called 'wall'; expected one of walls; did you mean 'walls'?"}},
     {"spacing in a solid",
      "attractors: {crown: {dome: 6, at: [0, 0, 0], spacing: 1}}\n",
-     {"3:55: spacing means nothing to attractors by dome; expected it with a surface"}},
+     {"3:55: spacing means nothing to attractors by dome; expected it with a surface or a picture"}},
     {"waves without a spacing",
      "meshes: [{file: walls.obj, optional: true}]\nattractors: {crown: {surface: walls, count: 9, waves: "
      "2}}\n",
-     {"4:55: waves means nothing to attractors by surface; expected it with a surface and a spacing"}},
+     {"4:55: waves means nothing to attractors by surface; expected it with a surface or a picture, and a "
+      "spacing"}},
+    {"a picture that is not there",
+     "attractors: {towns: {picture: {file: none.png, top_left: [0, 0, 0], top_right: [1, 0, 0], bottom_left: "
+     "[0, 0, 1]}}}\n",
+     {"3:38: there is no picture none.png; expected one"}},
+    {"a picture of another kind",
+     "attractors: {towns: {picture: {file: towns.gif, top_left: [0, 0, 0], top_right: [1, 0, 0], "
+     "bottom_left: [0, 0, 1]}}}\n",
+     {"3:38: 'towns.gif' is no picture that is known; expected .exr, .hdr, .png or .jpg"}},
+    {"a picture of two corners",
+     "attractors: {towns: {picture: {file: none.png, top_left: [0, 0, 0], top_right: [1, 0, 0]}}}\n",
+     {"3:31: the key 'bottom_left' is missing here; expected a place"}},
+    {"a picture over a line",
+     "attractors: {towns: {picture: {file: none.png, top_left: [0, 0, 0], top_right: [1, 0, 0], bottom_left: "
+     "[2, 0, 0]}}}\n",
+     {"3:22: a picture without an area; expected three corners that do not lie on one line",
+      "3:38: there is no picture none.png; expected one"}},
+    {"a spread in a picture, beside a mesh",
+     "attractors: {towns: {surface: walls, picture: {file: none.png, top_left: [0, 0, 0], top_right: [1, 0, "
+     "0], bottom_left: [0, 0, 1]}}}\n",
+     {"3:38: attractors by surface and picture; expected one of them",
+      "3:54: there is no picture none.png; expected one"}},
+    {"waves in a picture without a spacing",
+     "attractors: {towns: {waves: 2, picture: {file: none.png, top_left: [0, 0, 0], top_right: [1, 0, 0], "
+     "bottom_left: [0, 0, 1]}}}\n",
+     {"3:29: waves means nothing to attractors by picture; expected it with a surface or a picture, and a "
+      "spacing",
+      "3:48: there is no picture none.png; expected one"}},
     {"a density on a mesh",
      "meshes: [{file: walls.obj, optional: true}]\nattractors: {crown: {inside: walls, density: [[0, 1]]}}\n",
      {"4:37: density means nothing to attractors by inside; expected it with a solid"}},
@@ -91,7 +119,8 @@ const std::vector<BadFile> kBadAttractors = {
     {"a table of points that is not there",
      "attractors: {crown: {points: none.csv, count: 3}}\n",
      {"3:30: there is no table of points none.csv; expected one",
-      "3:47: count means nothing to attractors by points; expected it with a solid or a mesh"}},
+      "3:47: count means nothing to attractors by points; expected it with a solid, a mesh or a "
+      "picture"}},
     {"an axis by no grid",
      "fields: {whorl: {axis: grid}}\n",
      {"3:10: an axis by a grid of no file; expected file: VOLUME.vdb"}},

@@ -195,6 +195,11 @@ class Feeding {
     for (SceneMesh& mesh : scene.meshes) {
       if (!mesh.from.empty()) mesh.file = taken(mesh.from, mesh.told, ProductKind::mesh, mesh.product);
     }
+    for (AttractorsSpec& attractors : scene.attractors) {
+      if (attractors.picture && !attractors.picture->from.empty())
+        attractors.picture->file = taken(attractors.picture->from, attractors.picture->told,
+                                         ProductKind::picture, attractors.picture->product);
+    }
     for (PlantSpec& plant : scene.plants) {
       if (plant.skeleton && !plant.skeleton->from.empty())
         plant.skeleton->file = taken(plant.skeleton->from, plant.skeleton->told, ProductKind::skeleton, "");

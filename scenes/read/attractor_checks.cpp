@@ -36,6 +36,15 @@ void checkMeshName(const std::string& name, const std::string& path, const Scene
   if (!name.empty() && !wrong.empty()) complain(path, wrong);
 }
 
+void checkSource(const PictureSpec& picture, const std::string& path, const Check::Complain& complain) {
+  if (picture.file.empty() && picture.from.empty())
+    complain(path, "a picture without a file; expected file: FILE, or from: SCENE.yaml");
+  if (!picture.file.empty() && !picture.from.empty())
+    complain(path + ".from", "file and from; expected one of them");
+  if (picture.from.empty() && !picture.product.empty())
+    complain(path + ".product", "product means nothing without from; expected from: SCENE.yaml beside it");
+}
+
 void checkCorners(const PictureSpec& picture, const std::string& path, const Check::Complain& complain) {
   const sim::Vec3 across = picture.top_right_m - picture.top_left_m,
                   down = picture.bottom_left_m - picture.top_left_m;
@@ -87,7 +96,10 @@ void checkAttractors(const Scene& scene, const Check::Given& given, const Check:
     }
     checkMeshName(spec.surface, path + ".surface", scene, complain);
     checkMeshName(spec.inside, path + ".inside", scene, complain);
-    if (spec.picture) checkCorners(*spec.picture, path + ".picture", complain);
+    if (spec.picture) {
+      checkSource(*spec.picture, path + ".picture", complain);
+      checkCorners(*spec.picture, path + ".picture", complain);
+    }
     checkMeaning(spec, sources.front(), path, given, complain);
     rules::checkEnvelope(spec.solid, path, complain);
     rules::checkStrewing(spec.strewing, path, complain);

@@ -160,6 +160,11 @@ void findAsked(Scene& scene, const YamlNode& root) {
     SceneMesh& mesh = scene.meshes[i];
     ask(mesh.from, mesh.told, mesh.product, ProductKind::mesh, fmt::format("meshes[{}].from", i));
   }
+  for (AttractorsSpec& attractors : scene.attractors) {
+    if (attractors.picture)
+      ask(attractors.picture->from, attractors.picture->told, attractors.picture->product,
+          ProductKind::picture, fmt::format("attractors.{}.picture.from", attractors.name));
+  }
   for (std::size_t i = 0; i < scene.plants.size(); ++i) {
     auto& skeleton = scene.plants[i].skeleton;
     if (skeleton)

@@ -1,8 +1,8 @@
 #include "scenes/read/registry.h"
 
 #include "rules/language/emission_keys.h"
-#include "rules/language/envelope_keys.h"
 #include "rules/language/key_builder.h"
+#include "scenes/read/attractor_keys.h"
 #include "scenes/read/field_keys.h"
 #include "scenes/read/film_keys.h"
 #include "scenes/read/light_keys.h"
@@ -23,7 +23,6 @@ using rules::Table;
 using rules::TableOf;
 
 constexpr Limits kPositive{0.0, 1e6, true};
-constexpr Limits kTypes{0.0, 1e6};
 constexpr std::size_t kMostEntries = 1000;
 
 /// How what a file holds is placed.
@@ -224,61 +223,10 @@ std::shared_ptr<const Table> plantKeys() {
           {.meaning = "More seeds from a table of points, .csv: x, y, z in metres on each line, and perhaps "
                       "their type."})
       .whole("type", [](auto& p) -> auto& { return p.table.type; },
-             {.limits = kTypes, .meaning = "Those points of the table that are of this type alone."})
+             {.limits = kPointTypes, .meaning = "Those points of the table that are of this type alone."})
       .section("skeleton", &PlantSpec::skeleton, skeletonKeys(),
                {.meaning = "In place of seeds: trees that somebody else made, which the rules dress."},
                "file")
-      .shared();
-}
-
-std::shared_ptr<const Table> pictureKeys() {
-  const auto corner = [](const char* meaning) {
-    return About{.unit = kMetres, .limits = kCoordinate, .meaning = meaning, .required = true};
-  };
-  return TableOf<PictureSpec>()
-      .file("file", &PictureSpec::file,
-            {.meaning =
-                 "Its file: .png, .jpg, .exr or .hdr. What has half the value of another pixel is half as "
-                 "dense.",
-             .required = true})
-      .place("top_left", &PictureSpec::top_left_m, corner("Where its upper left corner lies."))
-      .place("top_right", &PictureSpec::top_right_m, corner("Where its upper right corner lies."))
-      .place("bottom_left", &PictureSpec::bottom_left_m, corner("Where its lower left corner lies."))
-      .shared();
-}
-
-std::shared_ptr<const Table> attractorKeys() {
-  TableOf<AttractorsSpec> table;
-  rules::addSolids(table, &AttractorsSpec::solid);
-  table
-      .place("at", &AttractorsSpec::at_m,
-             {.unit = kMetres,
-              .limits = kCoordinate,
-              .meaning = "The solid's foot, the lowest point of its axis: the middle of a box's floor."})
-      .text("surface", &AttractorsSpec::surface,
-            {.meaning = "Or the name of one of the meshes: on its surface, even by area.", .most = 100})
-      .text("inside", &AttractorsSpec::inside,
-            {.meaning = "Or the name of one of the meshes: in its inside, even by volume.", .most = 100})
-      .file(
-          "points", [](auto& a) -> auto& { return a.table.file; },
-          {.meaning = "Or a table of points, .csv: x, y, z in metres on each line, and perhaps their type."})
-      .whole("type", [](auto& a) -> auto& { return a.table.type; },
-             {.limits = kTypes, .meaning = "Those points of the table that are of this type alone."})
-      .section(
-          "picture", &AttractorsSpec::picture, pictureKeys(),
-          {.meaning = "Or a picture, laid in the scene by three corners: in it, the denser the brighter."});
-  rules::addStrewing(table, &AttractorsSpec::strewing);
-  return table
-      .metres("spacing", &AttractorsSpec::spacing_m,
-              {.unit = kMetres,
-               .limits = kPositive,
-               .meaning = "Least between any two on a surface, or in a picture where it is brightest; "
-                          "without a count as many as find room."})
-      .whole("waves", &AttractorsSpec::waves,
-             {.unit = "waves",
-              .limits = {1.0, 12.0},
-              .meaning = "They come in so many, from sparse to dense: each keeps half the spacing of the one "
-                         "before it."})
       .shared();
 }
 

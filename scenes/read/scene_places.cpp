@@ -34,7 +34,9 @@ void notePlaces(Scene& scene, const YamlNode& root) {
   if (root.entry("exposure")) scene.exposure.place = at("exposure.where");
   for (AttractorsSpec& attractors : scene.attractors) {
     attractors.place = at("attractors." + attractors.name);
-    if (attractors.picture) attractors.picture->place = at("attractors." + attractors.name + ".picture.file");
+    if (attractors.picture)
+      attractors.picture->place = at("attractors." + attractors.name +
+                                     (attractors.picture->file.empty() ? ".picture.from" : ".picture.file"));
   }
   for (FieldSpec& field : scene.fields) {
     field.file_place = at(fmt::format("fields.{}.file", field.name));

@@ -161,7 +161,9 @@ Settings settings(const Scene& scene) {
   forEachTable(beside, [&](PointTable& table, const std::string&) { place(table.file); });
   for (auto& field : beside.fields) place(field.file);
   for (auto& attractors : beside.attractors) {
-    if (attractors.picture) place(attractors.picture->file);
+    if (!attractors.picture) continue;
+    place(attractors.picture->file);
+    place(attractors.picture->from);
   }
   place(beside.sky.background.file);
   for (auto& plant : beside.plants) {

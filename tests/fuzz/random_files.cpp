@@ -163,6 +163,10 @@ void RandomFiles::knowSpecials() {
     const sim::Vec3 at = world_.middle_m + sim::Vec3(x, y, z) * world_.extent_m();
     return ValueDrawer::point(at.x, at.y, at.z);
   };
+  text("attractors.<name>.picture.from",
+       [this] { return numbers_.chance(0.3) ? writeMaker() : std::string(); });
+  text("attractors.<name>.picture.product",
+       [this] { return std::string(numbers_.chance(0.9) ? "view" : "seen"); });
   text("attractors.<name>.picture.top_left", [=] { return corner(-0.45, 0.3, -0.4); });
   text("attractors.<name>.picture.top_right", [=] { return corner(0.45, 0.3, -0.4); });
   text("attractors.<name>.picture.bottom_left", [=] { return corner(-0.45, 0.2, 0.4); });

@@ -66,7 +66,8 @@ class EverySceneKey : public testing::TestWithParam<std::string> {
         "made.yaml",
         "espalier: scene\nmeshes: [{file: block.obj}]\nworld: {voxel: 10 cm, margin: 60 cm}\n"
         "plants: [{rules: {random_tree: {trials: {min: 4, max: 20}}}, seeds: [[0.5, 0.75, 0.5]]}]\n"
-        "iterations: 3\n");
+        "iterations: 3\nimage: {width: 16, height: 16}\n"
+        "cameras: {main: {eye: [2, 2, 3], target: [0.5, 0.5, 0.5]}}\nimages: [{kind: graph, name: drawn}]\n");
     scratch_.write("paint.mtl", "newmtl stone\nKd 0.5 0.5 0.5\nnewmtl brick\nKd 0.6 0.2 0.1\n");
     scratch_.write(
         "vine.yaml",

@@ -90,7 +90,8 @@ const std::vector<BadFile> kBadAttractors = {
      {"3:38: 'towns.gif' is no picture that is known; expected .exr, .hdr, .png or .jpg"}},
     {"a picture of two corners",
      "attractors: {towns: {picture: {file: none.png, top_left: [0, 0, 0], top_right: [1, 0, 0]}}}\n",
-     {"3:31: the key 'bottom_left' is missing here; expected a place"}},
+     {"3:31: the key 'bottom_left' is missing here; expected a point",
+      "3:38: there is no picture none.png; expected one"}},
     {"a picture over a line",
      "attractors: {towns: {picture: {file: none.png, top_left: [0, 0, 0], top_right: [1, 0, 0], bottom_left: "
      "[2, 0, 0]}}}\n",

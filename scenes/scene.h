@@ -21,6 +21,7 @@
 #include "sim/light/background.h"
 #include "sim/light/sky.h"
 #include "sim/light/sun.h"
+#include "sim/relief/relief.h"
 
 /// A scene as plain structs: what was asked for, with nothing yet read but the rule files it names.
 /// Positions are in world metres, y up. scenes/read/registry.h describes every key.
@@ -291,13 +292,15 @@ struct ImageSpec {
   double at_m = 0.0;             ///< section, narrow_band: where the cut lies on that axis
   std::string mesh;              ///< narrow_band, cut_out: which of the meshes; empty: the first one
   std::string field;             ///< field: which of the fields; empty: the first one
+  std::string heights;           ///< vines that show heights: which of them; empty: the first ones
   std::optional<int> iteration;  ///< points, graph: what stands after so many iterations; without: at the end
   std::vector<std::string> of;   ///< contact_sheet: names of the images on it, in order
   std::vector<std::string> show{"scene", "stems", "elements"};  ///< vines: what of it; kImageParts
 };
 
 /// What images of vines may show.
-inline constexpr std::array<std::string_view, 4> kImageParts{"scene", "stems", "elements", "guides"};
+inline constexpr std::array<std::string_view, 5> kImageParts{"scene", "stems", "elements", "guides",
+                                                             "heights"};
 
 /// A region that a rule file names, and where.
 struct RegionMention {
@@ -319,6 +322,28 @@ struct FieldSpec {
   Place file_place = {}, within_place = {};  ///< where a scene file names them
 };
 
+/// A layer of the colours of heights: over all that were named before it, wherever all that it says holds.
+struct CoverSpec {
+  std::string name;
+  sim::Colour colour{0.5f};                ///< linear RGB
+  std::optional<double> above_m, below_m;  ///< heights
+  std::optional<double> steeper_deg, flatter_deg;
+  double soft_m = 0.0;    ///< over so much of height it comes and goes
+  bool on_lines = false;  ///< on the lines themselves, as wide as they are
+};
+
+/// Land that is made of what has grown, in plan.
+struct HeightsSpec {
+  std::string name;
+  std::string plants;              ///< of which planting
+  std::vector<glm::dvec2> over_m;  ///< x and z of two corners; none: the world's
+  double spacing_m = 0.0;          ///< between samples; 0: a thousandth of the longer side
+  sim::ReliefLaw law;
+  std::optional<int> iteration;  ///< of what stands after so many; without: at the end
+  std::vector<CoverSpec> cover;
+  Place place = {}, plants_place = {};  ///< where a scene file has it, and names its plants
+};
+
 struct Scene {
   std::string name = "unnamed";
   std::filesystem::path file;                     ///< where it was read from
@@ -334,6 +359,7 @@ struct Scene {
   std::vector<AttractorsSpec> attractors;
   std::vector<FieldSpec> fields;
   std::vector<PlantSpec> plants;
+  std::vector<HeightsSpec> heights;
   std::vector<RegionMention> region_mentions;  ///< in the rules of its plants: each place once
   std::vector<Problem> warnings;               ///< what its files say without effect
   int iterations = 50;

@@ -22,6 +22,7 @@
 #include "scenes/job/shown.h"
 #include "scenes/job/stages.h"
 #include "scenes/lights.h"
+#include "scenes/made/heights.h"
 #include "scenes/prepare/in_scene.h"
 #include "scenes/prepare/plantings.h"
 #include "scenes/prepare/site.h"
@@ -48,7 +49,8 @@ constexpr const char *kSkeletonFile = "skeleton.json", *kWorldFile = "world.vdb"
 Finished finishedOn(const Scene& scene, const Site& site, const sim::BitVolume& bare, const Shown& shown,
                     const sim::Lighting& light, const PictureLight& lit,
                     const std::optional<WorldOccupancy>& occupancy,
-                    const std::vector<render::PlantModel>& models, render::KnownPictures textures) {
+                    const std::vector<render::PlantModel>& models, render::KnownPictures textures,
+                    std::span<const MadeHeights> heights) {
   return {site.meshes,
           site.world,
           bare,
@@ -59,7 +61,8 @@ Finished finishedOn(const Scene& scene, const Site& site, const sim::BitVolume& 
           growthSettings(scene, site, {}).sky_table,
           lit,
           occupancy ? &*occupancy : nullptr,
-          &shown.grown()};
+          &shown.grown(),
+          heights};
 }
 
 /// What light and files take besides: of each voxel some bits, and two numbers where there are vines to draw;
@@ -164,6 +167,7 @@ Report runScene(const Scene& scene, const RunOptions& options, const Keeping& ke
   std::vector<std::string> names = modelFileNames(options.models);
   for (std::string& name : dicedFileNames(options.models)) names.push_back(std::move(name));
   names.insert(names.end(), {kSkeletonFile, kWorldFile, kReportFile});
+  for (std::string& name : heightFileNames(scene)) names.push_back(std::move(name));
   if (keeping.keep || keeping.every > 0) names.emplace_back(kStateFile);
   if (options.pictures) {
     for (std::string& name : fileNames(scene.images)) names.push_back(std::move(name));
@@ -217,6 +221,9 @@ Report runScene(const Scene& scene, const RunOptions& options, const Keeping& ke
   const GuideVolumes guides = inScene(scene, [&] { return guideVolumes(growth, usedFields(scene), world); });
   for (const render::VdbField& field : guides.fields)
     report.growth->fields.push_back({field.name, guides.near->count()});
+  const std::vector<MadeHeights> heights = stages.run("making", [&] {
+    return makeHeights(scene, shown.grown(), world.frame(), options.pictures ? &site.sky : nullptr);
+  });
   const ModelSources sources{site,           growth.plants, bare, models,
                              report.made_by, light,         lit,  shadowDirection(scene.sun)};
   std::vector<OutputFile> files =
@@ -226,6 +233,7 @@ Report runScene(const Scene& scene, const RunOptions& options, const Keeping& ke
       });
   for (OutputFile& file : inScene(scene, [&] { return dicedFiles(options.models, sources); }))
     files.push_back(std::move(file));
+  for (OutputFile& file : heightFiles(heights, report.made_by)) files.push_back(std::move(file));
   files.push_back({kSkeletonFile, [&](std::ostream& out) {
                      render::writeSkeletons(out, growth.plants, world.frame(), report.made_by);
                    }});
@@ -248,7 +256,7 @@ Report runScene(const Scene& scene, const RunOptions& options, const Keeping& ke
       textures = texturesFor(drawsVines(scene.images) || scene.film, scene, site.meshes, options, report);
       for (const Problem& unread : textures.unread) late_warnings.push_back(unread.text);
       const Finished finished =
-          finishedOn(scene, site, bare, shown, light, lit, occupancy, models, textures.pictures);
+          finishedOn(scene, site, bare, shown, light, lit, occupancy, models, textures.pictures, heights);
       auto pictures =
           inScene(scene, [&] { return drawPictures(picturesOf(scene, report.made_by), finished); });
       for (OutputFile& file : pictures) files.push_back(std::move(file));
@@ -341,13 +349,15 @@ Report renderScene(Scene scene, const std::filesystem::path& from, const RunOpti
   report.light = light.about;
   const auto models =
       stages.run("modelling", [&] { return modelPlants(site.world.frame(), growth.plants, bare); });
+  const std::vector<MadeHeights> heights =
+      stages.run("making", [&] { return makeHeights(scene, shown.grown(), site.world.frame(), &site.sky); });
   std::vector<std::string> late_warnings;
   ReadTextures textures;
   std::vector<OutputFile> files = stages.run("drawing", [&] {
     textures = texturesFor(drawsVines(scene.images) || scene.film, scene, site.meshes, options, report);
     for (const Problem& one : textures.unread) late_warnings.push_back(one.text);
     const Finished finished =
-        finishedOn(scene, site, bare, shown, light, lit, occupancy, models, textures.pictures);
+        finishedOn(scene, site, bare, shown, light, lit, occupancy, models, textures.pictures, heights);
     return inScene(scene, [&] { return drawPictures(picturesOf(scene, report.made_by), finished); });
   });
   if (scene.film) {

@@ -36,6 +36,10 @@ void notePlaces(Scene& scene, const YamlNode& root) {
     field.file_place = at(fmt::format("fields.{}.file", field.name));
     field.within_place = at(fmt::format("fields.{}.within", field.name));
   }
+  for (HeightsSpec& heights : scene.heights) {
+    heights.place = at("heights." + heights.name);
+    heights.plants_place = at(fmt::format("heights.{}.plants", heights.name));
+  }
   scene.sky.background.file_place = at("sky.background.file");
   for (std::size_t i = 0; i < scene.plants.size(); ++i)
     notePlant(scene.plants[i], root, fmt::format("plants[{}]", i));

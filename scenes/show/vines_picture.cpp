@@ -5,12 +5,29 @@
 #include "render/finish/finished_picture.h"
 #include "render/image/bloom.h"
 #include "scenes/show/model_parts.h"
+#include "sim/base/error.h"
 
 namespace espalier::scenes {
 namespace {
 
 bool shows(const ImageSpec& image, const char* part) {
   return std::find(image.show.begin(), image.show.end(), part) != image.show.end();
+}
+
+/// Heights of a name, or the first, in the light of their own world.
+void showHeights(render::FinishedScene& scene, std::span<const MadeHeights> all, const std::string& name) {
+  const auto one = std::find_if(all.begin(), all.end(),
+                                [&](const MadeHeights& made) { return name.empty() || made.name == name; });
+  if (one == all.end() || one->world == nullptr)
+    throw sim::InputError("an image shows heights that were not made; expected a run that grows them");
+  for (const sim::Mesh& mesh : one->meshes) {
+    scene.model.meshes.push_back(&mesh);
+    scene.pictures[mesh.materials[0].texture.get()] = one->picture;
+  }
+  scene.frame = one->world->frame();
+  scene.occupied = &one->world->occupied();
+  scene.sky = one->sky.get();
+  scene.bounced = {};
 }
 
 }  // namespace
@@ -21,7 +38,8 @@ bool drawsVines(const std::vector<ImageSpec>& images) {
 }
 
 bool showsNoPlant(const ImageSpec& image) {
-  return image.kind == ImageKind::vines && !shows(image, "stems") && !shows(image, "elements");
+  return image.kind == ImageKind::vines && !shows(image, "stems") && !shows(image, "elements") &&
+         !shows(image, "heights");
 }
 
 render::Image vinesPicture(const ImageSpec& image, const Finished& finished, const VinesLook& look,
@@ -41,6 +59,7 @@ render::Image vinesPicture(const ImageSpec& image, const Finished& finished, con
   scene.occupied = bare ? &finished.bare : &finished.world.occupied();
   scene.sky = (bare ? finished.light.bare_sky : finished.light.space_sky).get();
   if (!bare) scene.bounced = bouncedIn(finished.lit, scene.frame);
+  if (shows(image, "heights")) showHeights(scene, finished.heights, image.heights);
   scene.to_sun = look.to_sun;
   scene.daylight = look.daylight;
   render::Image picture = render::finishedPicture(scene, camera, size_px.x, size_px.y);

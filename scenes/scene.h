@@ -15,11 +15,11 @@
 #include "rules/language/rule_set.h"
 #include "scenes/film.h"
 #include "scenes/light_spec.h"
+#include "scenes/made_spec.h"
 #include "scenes/problem.h"
 #include "scenes/product.h"
 #include "sim/base/provenance.h"
 #include "sim/base/vec.h"
-#include "sim/cut/pieces.h"
 
 /// A scene as plain structs: what was asked for, with nothing yet read but the rule files it names.
 /// Positions are in world metres, y up. scenes/read/registry.h describes every key.
@@ -206,6 +206,7 @@ struct ImageSpec {
   double at_m = 0.0;             ///< section, narrow_band: where the cut lies on that axis
   std::string mesh;              ///< narrow_band, cut_out: which of the meshes; empty: the first one
   std::string field;             ///< field: which of the fields; empty: the first one
+  std::string heights;           ///< vines that show heights: which of them; empty: the first ones
   std::optional<int> iteration;  ///< points, graph: what stands after so many iterations; without: at the end
   std::vector<std::string> of;   ///< contact_sheet: names of the images on it, in order
   std::vector<std::string> show{"scene", "stems", "elements"};  ///< vines: what of it; kImageParts
@@ -214,8 +215,8 @@ struct ImageSpec {
 };
 
 /// What images of vines may show.
-inline constexpr std::array<std::string_view, 5> kImageParts{"scene", "stems", "elements", "guides",
-                                                             "pieces"};
+inline constexpr std::array<std::string_view, 6> kImageParts{"scene", "stems", "elements", "guides",
+                                                             "pieces", "heights"};
 
 /// A region that a rule file names, and where.
 struct RegionMention {
@@ -237,20 +238,6 @@ struct FieldSpec {
   Place file_place = {}, within_place = {};  ///< where a scene file names them
 };
 
-/// A mesh that is cut into pieces along what has grown.
-struct PiecesSpec {
-  std::string name;
-  std::string of;               ///< the mesh
-  std::vector<std::string> by;  ///< the plants whose limbs cut it
-  double kerf_m = 0.02;         ///< width of the gap
-  sim::Vec3 sweep_m{0.0};       ///< see sim::CutSettings
-  std::optional<double> voxel_m;
-  double least_share = 0.001;
-  std::optional<sim::CutRoughness> rough;
-  std::optional<sim::Colour> inside;  ///< linear RGB; without it, the colour of most of the mesh
-  Place place = {};                   ///< where a scene file has it; without a path where none does
-};
-
 struct Scene {
   std::string name = "unnamed";
   std::filesystem::path file;                     ///< where it was read from
@@ -268,6 +255,7 @@ struct Scene {
   std::vector<FieldSpec> fields;
   std::vector<PlantSpec> plants;
   std::vector<PiecesSpec> pieces;
+  std::vector<HeightsSpec> heights;
   std::vector<RegionMention> region_mentions;  ///< in the rules of its plants: each place once
   std::vector<Problem> warnings;               ///< what its files say without effect
   int iterations = 50;

@@ -24,6 +24,7 @@
 #include "scenes/job/shown.h"
 #include "scenes/job/stages.h"
 #include "scenes/lights.h"
+#include "scenes/made/heights.h"
 #include "scenes/prepare/in_scene.h"
 #include "scenes/prepare/plantings.h"
 #include "scenes/prepare/site.h"
@@ -51,7 +52,7 @@ Finished finishedOn(const Scene& scene, const Site& site, const sim::BitVolume& 
                     const sim::Lighting& light, const PictureLight& lit,
                     const std::optional<WorldOccupancy>& occupancy,
                     const std::vector<render::PlantModel>& models, render::KnownPictures textures,
-                    const RunPieces& pieces) {
+                    const RunPieces& pieces, std::span<const MadeHeights> heights) {
   return {site.meshes,
           site.world,
           bare,
@@ -63,7 +64,8 @@ Finished finishedOn(const Scene& scene, const Site& site, const sim::BitVolume& 
           lit,
           occupancy ? &*occupancy : nullptr,
           &pieces.shown,
-          &shown.grown()};
+          &shown.grown(),
+          heights};
 }
 
 /// What light and files take besides: of each voxel some bits, and two numbers where there are vines to draw;
@@ -170,6 +172,7 @@ Report runScene(const Scene& scene, const RunOptions& options, const Keeping& ke
   for (std::string& name : dicedFileNames(options.models)) names.push_back(std::move(name));
   names.insert(names.end(), {kSkeletonFile, kWorldFile, kReportFile});
   for (std::string& name : piecesFileNames(scene)) names.push_back(std::move(name));
+  for (std::string& name : heightFileNames(scene)) names.push_back(std::move(name));
   if (keeping.keep || keeping.every > 0) names.emplace_back(kStateFile);
   if (options.pictures) {
     for (std::string& name : fileNames(scene.images)) names.push_back(std::move(name));
@@ -223,6 +226,9 @@ Report runScene(const Scene& scene, const RunOptions& options, const Keeping& ke
   const GuideVolumes guides = inScene(scene, [&] { return guideVolumes(growth, usedFields(scene), world); });
   for (const render::VdbField& field : guides.fields)
     report.growth->fields.push_back({field.name, guides.near->count()});
+  const std::vector<MadeHeights> heights = stages.run("making", [&] {
+    return makeHeights(scene, shown.grown(), world.frame(), options.pictures ? &site.sky : nullptr);
+  });
   const ModelSources sources{site,           growth.plants, bare, models,
                              report.made_by, light,         lit,  shadowDirection(scene.sun)};
   std::vector<OutputFile> files =
@@ -232,6 +238,7 @@ Report runScene(const Scene& scene, const RunOptions& options, const Keeping& ke
       });
   for (OutputFile& file : inScene(scene, [&] { return dicedFiles(options.models, sources); }))
     files.push_back(std::move(file));
+  for (OutputFile& file : heightFiles(heights, report.made_by)) files.push_back(std::move(file));
   files.push_back({kSkeletonFile, [&](std::ostream& out) {
                      render::writeSkeletons(out, growth.plants, world.frame(), report.made_by);
                    }});
@@ -257,7 +264,8 @@ Report runScene(const Scene& scene, const RunOptions& options, const Keeping& ke
       textures = texturesFor(drawsVines(scene.images) || scene.film, scene, site.meshes, options, report);
       for (const Problem& unread : textures.unread) late_warnings.push_back(unread.text);
       const Finished finished =
-          finishedOn(scene, site, bare, shown, light, lit, occupancy, models, textures.pictures, pieces);
+          finishedOn(scene, site, bare, shown, light, lit, occupancy, models, textures.pictures, pieces,
+                     heights);
       auto pictures =
           inScene(scene, [&] { return drawPictures(picturesOf(scene, report.made_by), finished); });
       for (OutputFile& file : pictures) files.push_back(std::move(file));
@@ -352,6 +360,8 @@ Report renderScene(Scene scene, const std::filesystem::path& from, const RunOpti
   report.light = light.about;
   const auto models =
       stages.run("modelling", [&] { return modelPlants(site.world.frame(), growth.plants, bare); });
+  const std::vector<MadeHeights> heights =
+      stages.run("making", [&] { return makeHeights(scene, shown.grown(), site.world.frame(), &site.sky); });
   std::vector<std::string> late_warnings;
   const RunPieces pieces =
       cutPieces(scene, site, growth, scene.images, options, report, stages, late_warnings);
@@ -360,7 +370,8 @@ Report renderScene(Scene scene, const std::filesystem::path& from, const RunOpti
     textures = texturesFor(drawsVines(scene.images) || scene.film, scene, site.meshes, options, report);
     for (const Problem& one : textures.unread) late_warnings.push_back(one.text);
     const Finished finished =
-        finishedOn(scene, site, bare, shown, light, lit, occupancy, models, textures.pictures, pieces);
+        finishedOn(scene, site, bare, shown, light, lit, occupancy, models, textures.pictures, pieces,
+                     heights);
     return inScene(scene, [&] { return drawPictures(picturesOf(scene, report.made_by), finished); });
   });
   if (scene.film) {

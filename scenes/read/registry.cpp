@@ -5,6 +5,7 @@
 #include "scenes/read/attractor_keys.h"
 #include "scenes/read/field_keys.h"
 #include "scenes/read/film_keys.h"
+#include "scenes/read/heights_keys.h"
 #include "scenes/read/light_keys.h"
 #include "scenes/read/piece_keys.h"
 #include "scenes/read/units.h"
@@ -272,6 +273,8 @@ std::shared_ptr<const Table> imageKeys() {
             {.meaning = "Of a narrow_band or cut_out: which of the scene's meshes; without it, the first."})
       .text("field", &ImageSpec::field,
             {.meaning = "Of a field: which of the scene's fields; without it, the first."})
+      .text("heights", &ImageSpec::heights,
+            {.meaning = "Of vines that show heights: which of them; without it, the first."})
       .whole("iteration", &ImageSpec::iteration,
              {.unit = "iterations",
               .limits = {0.0, 100'000.0},
@@ -280,7 +283,7 @@ std::shared_ptr<const Table> imageKeys() {
       .names("of", &ImageSpec::of,
              {.meaning = "Of a contact_sheet: the names of the images on it, in order."})
       .names("show", &ImageSpec::show,
-             {.meaning = "Of vines: what of scene, stems, elements, guides and pieces is shown."})
+             {.meaning = "Of vines: what of scene, stems, elements, guides, pieces and heights is shown."})
       .number("apart", &ImageSpec::apart,
               {.unit = "share",
                .limits = {0.0, 10.0},
@@ -334,6 +337,9 @@ Table makeTable() {
                         {.meaning = "Meshes that are cut into pieces along what has grown, by names: each a "
                                     "NAME.glb.",
                          .most = kMostEntries})
+      .list<HeightsSpec>(
+          "heights", Kind::named, &Scene::heights, heightsKeys(),
+          {.meaning = "Land that is made of what has grown, in plan, by names.", .most = kMostEntries})
       .whole("iterations", &Scene::iterations,
              {.unit = "iterations", .limits = {0.0, 100'000.0}, .meaning = "How long it grows."})
       .whole("seed", &Scene::seed,

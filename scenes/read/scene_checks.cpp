@@ -7,6 +7,7 @@
 #include "scenes/problem.h"
 #include "scenes/read/attractor_checks.h"
 #include "scenes/read/film_keys.h"
+#include "scenes/read/heights_keys.h"
 #include "scenes/read/light_keys.h"
 #include "scenes/read/piece_keys.h"
 #include "scenes/read/registry.h"
@@ -238,6 +239,7 @@ void checkImages(const Scene& scene, const Given& given, const Complain& complai
     belongsTo("plant", {ImageKind::threshold, ImageKind::sky_tables});
     belongsTo("show", {ImageKind::vines});
     belongsTo("apart", {ImageKind::vines});
+    belongsTo("heights", {ImageKind::vines});
     for (const std::string& part : image.show) {
       if (std::find(kImageParts.begin(), kImageParts.end(), part) == kImageParts.end())
         complain(path + ".show", fmt::format("there is no {} to show; expected some of {}", inQuotes(part),
@@ -343,6 +345,8 @@ const std::vector<Check>& sceneChecks() {
       check({"plants", "images"}, checkImagePlants),
       check({"fields", "images"}, checkImageFields),
       check({"meshes", "plants", "pieces", "images"}, checkPieces),
+      check({"plants", "heights", "world.bounds"}, checkHeights),
+      check({"heights", "images"}, checkImageHeights),
       check({"images"}, checkSheets),
       check({"cameras", "images", "film", "iterations"}, checkFilm),
   };

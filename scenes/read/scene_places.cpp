@@ -43,6 +43,10 @@ void notePlaces(Scene& scene, const YamlNode& root) {
     field.within_place = at(fmt::format("fields.{}.within", field.name));
   }
   for (PiecesSpec& pieces : scene.pieces) pieces.place = at("pieces." + pieces.name);
+  for (HeightsSpec& heights : scene.heights) {
+    heights.place = at("heights." + heights.name);
+    heights.plants_place = at(fmt::format("heights.{}.plants", heights.name));
+  }
   scene.sky.background.file_place = at("sky.background.file");
   for (std::size_t i = 0; i < scene.plants.size(); ++i)
     notePlant(scene.plants[i], root, fmt::format("plants[{}]", i));

@@ -1,6 +1,7 @@
 #pragma once
 #include <functional>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -8,6 +9,7 @@
 #include "render/finish/ray_scene.h"
 #include "render/model/plant_model.h"
 #include "render/voxels/panels.h"
+#include "scenes/made/heights.h"
 #include "scenes/scene.h"
 #include "scenes/show/bounced_light.h"
 #include "scenes/show/shown_field.h"
@@ -66,6 +68,7 @@ struct Finished {
   const WorldOccupancy* occupancy = nullptr;      ///< for images of volumes
   const std::vector<ShownPieces>* pieces = nullptr;  ///< for images of vines that show them
   const sim::Growth* grown = nullptr;  ///< for images of points and graphs: what grew, if it is not `growth`
+  std::span<const MadeHeights> heights = {};  ///< for images of vines that show them
 };
 
 /// Whether it is one of the panels of render/voxels/panels.h.

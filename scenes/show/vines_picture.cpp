@@ -5,6 +5,7 @@
 #include "render/finish/finished_picture.h"
 #include "render/image/bloom.h"
 #include "scenes/show/model_parts.h"
+#include "sim/base/error.h"
 
 namespace espalier::scenes {
 namespace {
@@ -21,6 +22,22 @@ const ShownPieces* piecesFor(const ImageSpec& image, const Finished& finished) {
   return nullptr;
 }
 
+/// Heights of a name, or the first, in the light of their own world.
+void showHeights(render::FinishedScene& scene, std::span<const MadeHeights> all, const std::string& name) {
+  const auto one = std::find_if(all.begin(), all.end(),
+                                [&](const MadeHeights& made) { return name.empty() || made.name == name; });
+  if (one == all.end() || one->world == nullptr)
+    throw sim::InputError("an image shows heights that were not made; expected a run that grows them");
+  for (const sim::Mesh& mesh : one->meshes) {
+    scene.model.meshes.push_back(&mesh);
+    scene.pictures[mesh.materials[0].texture.get()] = one->picture;
+  }
+  scene.frame = one->world->frame();
+  scene.occupied = &one->world->occupied();
+  scene.sky = one->sky.get();
+  scene.bounced = {};
+}
+
 }  // namespace
 
 bool drawsVines(const std::vector<ImageSpec>& images) {
@@ -30,7 +47,7 @@ bool drawsVines(const std::vector<ImageSpec>& images) {
 
 bool showsNoPlant(const ImageSpec& image) {
   return image.kind == ImageKind::vines && !shows(image, "stems") && !shows(image, "elements") &&
-         !shows(image, "pieces");
+         !shows(image, "pieces") && !shows(image, "heights");
 }
 
 render::Image vinesPicture(const ImageSpec& image, const Finished& finished, const VinesLook& look,
@@ -60,6 +77,7 @@ render::Image vinesPicture(const ImageSpec& image, const Finished& finished, con
     scene.sky = pieces->sky.get();
     scene.bounced = {};
   }
+  if (shows(image, "heights")) showHeights(scene, finished.heights, image.heights);
   scene.to_sun = look.to_sun;
   scene.daylight = look.daylight;
   render::Image picture = render::finishedPicture(scene, camera, size_px.x, size_px.y);

@@ -39,6 +39,7 @@ enum class Purpose : std::uint8_t {
   spot = 8,
   attractor = 9,
   rough = 10,
+  relief = 11,
   custom = 128
 };
 

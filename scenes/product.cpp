@@ -27,6 +27,10 @@ std::vector<Product> productsOf(const Scene& scene) {
   }
   for (const PiecesSpec& pieces : scene.pieces)
     made.push_back({pieces.name, ProductKind::mesh, pieces.name + ".glb"});
+  for (const HeightsSpec& heights : scene.heights) {
+    made.push_back({heights.name, ProductKind::mesh, heights.name + ".glb"});
+    made.push_back({heights.name, ProductKind::picture, heights.name + ".exr"});
+  }
   for (const ImageSpec& image : scene.images)
     made.push_back({image.name, ProductKind::picture, image.name + ".png"});
   return made;

@@ -69,7 +69,8 @@ std::shared_ptr<const rules::Table> heightsKeys() {
       .outline("over", &HeightsSpec::over_m,
                {.unit = kMetres,
                 .limits = kCoordinate,
-                .meaning = "Two corners [x, z] of the land; without it, the world's."})
+                .meaning = "Two corners [x, z] of the land; without it, the world's.",
+                .most = 2})
       .metres("spacing", &HeightsSpec::spacing_m,
               {.unit = kMetres,
                .limits = kMore,
@@ -100,6 +101,11 @@ std::shared_ptr<const rules::Table> heightsKeys() {
           {.unit = kMetres,
            .limits = kLength,
            .meaning = "So far from a line land has risen by half of what slope alone makes: wide valleys."})
+      .metres(
+          "most", [](auto& h) -> auto& { return h.law.flank.most_m; },
+          {.unit = kMetres,
+           .limits = kMore,
+           .meaning = "So much it rises beside a line far from all: it levels off. Without it, it goes on."})
       .metres("width", [](auto& h) -> auto& { return h.law.width_m; },
               {.unit = kMetres,
                .limits = kLength,

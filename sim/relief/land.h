@@ -2,6 +2,7 @@
 #include <array>
 #include <cstdint>
 #include <glm/vec2.hpp>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -15,14 +16,18 @@ struct Course {
   double half_width_m = 0.0;  ///< as far to the side it is level; at least 0
 };
 
-/// How land rises beside a course: by slope x d^2 / (d + ease) at a distance of d beyond its half width, so
-/// gently at first and then by `slope`.
+/// How land rises beside a course: by r = slope x d^2 / (d + ease) at a distance of d beyond its half width,
+/// so gently at first and then by `slope`; or where there is a most by r / (1 + r / most), so that it levels
+/// off.
 struct Flank {
-  double slope = 0.6;   ///< metres a metre; more than 0
-  double ease_m = 0.0;  ///< at least 0
+  double slope = 0.6;                 ///< metres a metre; more than 0
+  double ease_m = 0.0;                ///< at least 0
+  std::optional<double> most_m = {};  ///< more than 0
 
   double rise(double distance_m) const {
-    return distance_m > 0.0 ? slope * distance_m * (distance_m / (distance_m + ease_m)) : 0.0;
+    if (!(distance_m > 0.0)) return 0.0;
+    const double rise_m = slope * distance_m * (distance_m / (distance_m + ease_m));
+    return most_m ? rise_m / (1.0 + rise_m / *most_m) : rise_m;
   }
 };
 

@@ -182,9 +182,40 @@ void LevelSet::cut(std::span<const NearSheets> near, std::span<const Sheet> shee
       });
     }
   });
-  openvdb::tools::signedFloodFill(gap->tree());
-  openvdb::tools::csgDifference(*grids_->matter, *gap);
+  // Blocks that lie in the gap as a whole are among them, so all beside them is outside of it. Nothing is
+  // pruned: where places stray far, signs may change between two voxels out of the band.
+  openvdb::tools::csgDifference(*grids_->matter, *gap, false);
   throwIfStopped();
+}
+
+void LevelSet::activateCrossings() {
+  std::vector<Leaf*> leaves;
+  grids_->matter->tree().getNodes(leaves);
+  std::vector<std::vector<Coord>> found(leaves.size());
+  parallelFor(leaves.size(), [&](std::size_t begin, std::size_t end) {
+    auto values = grids_->matter->getConstAccessor();
+    constexpr int kLast = static_cast<int>(Leaf::DIM) - 1;
+    for (std::size_t i = begin; i < end; ++i) {
+      for (auto at = leaves[i]->cbeginValueAll(); at; ++at) {
+        const Coord v = at.getCoord(), local = v - leaves[i]->origin();
+        const bool rim = local.x() == 0 || local.x() == kLast || local.y() == 0 || local.y() == kLast ||
+                         local.z() == 0 || local.z() == kLast;
+        if (at.isValueOn() && !rim) continue;
+        for (int k = 0; k < 6; ++k) {
+          Coord next = v;
+          next[k / 2] += k % 2 == 0 ? -1 : 1;
+          float value = 0.0f;
+          const bool on = values.probeValue(next, value);
+          if ((value < 0.0f) == (*at < 0.0f) || (on && at.isValueOn())) continue;
+          found[i].push_back(v);
+          found[i].push_back(next);
+        }
+      }
+    }
+  });
+  auto voxels = grids_->matter->getAccessor();
+  for (const std::vector<Coord>& of_leaf : found)
+    for (const Coord& v : of_leaf) voxels.setActiveState(v, true);
 }
 
 void LevelSet::separate() {
@@ -209,7 +240,9 @@ void LevelSet::separate() {
 }
 
 QuadSurface LevelSet::surface() {
+  activateCrossings();
   separate();
+  activateCrossings();  // what gave way has new ones
   std::vector<openvdb::Vec3s> points;
   std::vector<openvdb::Vec4I> quads;
   openvdb::tools::volumeToMesh(*grids_->matter, points, quads, 0.0);

@@ -1,5 +1,6 @@
 #include "sim/cut/level_set.h"
 
+#include <openvdb/math/Proximity.h>
 #include <openvdb/openvdb.h>
 #include <openvdb/tools/Composite.h>
 #include <openvdb/tools/MeshToVolume.h>
@@ -53,6 +54,40 @@ void setLeaf(Leaf& leaf, const std::function<float(const Coord&)>& distance) {
       leaf.setValueOff(i, kept);
     }
   }
+}
+
+/// OpenVDB's distances without signs are too large by up to a third of a voxel: which triangle is nearest is
+/// taken over from neighbours. Near the surface one looks at all that they have.
+constexpr float kNearBy = 1.8f;
+
+/// The triangles that are nearest to a voxel and to those around it, each once.
+std::vector<std::int32_t> around(openvdb::Int32Grid::ConstAccessor& nearest, const Coord& at) {
+  std::vector<std::int32_t> some;
+  for (int x = -1; x <= 1; ++x) {
+    for (int y = -1; y <= 1; ++y) {
+      for (int z = -1; z <= 1; ++z) {
+        const std::int32_t triangle = nearest.getValue(at.offsetBy(x, y, z));
+        if (triangle >= 0 && std::find(some.begin(), some.end(), triangle) == some.end())
+          some.push_back(triangle);
+      }
+    }
+  }
+  return some;
+}
+
+float nearestOf(const std::vector<std::int32_t>& some, const std::vector<openvdb::Vec3s>& points,
+                const std::vector<openvdb::Vec3I>& faces, const Coord& at) {
+  const openvdb::Vec3d p = at.asVec3d();
+  double least = kBand * kBand;
+  for (const std::int32_t triangle : some) {
+    const openvdb::Vec3I& face = faces[static_cast<std::size_t>(triangle)];
+    openvdb::Vec3d weights;
+    const openvdb::Vec3d on = openvdb::math::closestPointOnTriangleToPoint(
+        openvdb::Vec3d(points[face[0]]), openvdb::Vec3d(points[face[1]]), openvdb::Vec3d(points[face[2]]), p,
+        weights);
+    least = std::min(least, (on - p).lengthSqr());
+  }
+  return static_cast<float>(std::sqrt(least));
 }
 
 /// Whether one of the two of a voxel and another that lies askew touch by an edge or a corner alone, and it
@@ -112,14 +147,14 @@ LevelSet::LevelSet(std::span<const Vec3> corners, std::span<const std::array<std
   grids_->nearest = openvdb::Int32Grid::create(-1);
   Interrupter interrupter;
   Grid::Ptr distances;
-  // On one thread: which of two equally near triangles comes first would depend on their number.
+  // On one thread: which of two equally near triangles comes first would depend on their number. Without
+  // signs, as OpenVDB fills cavities and clears what is inside of overlapping bodies; the vote knows better.
   onThreads(1, [&] {
-    distances = openvdb::tools::meshToVolume<Grid>(interrupter.interrupter(), mesh,
-                                                   *openvdb::math::Transform::createLinearTransform(1.0),
-                                                   kBand, kBand, 0, grids_->nearest.get());
+    distances = openvdb::tools::meshToVolume<Grid>(
+        interrupter.interrupter(), mesh, *openvdb::math::Transform::createLinearTransform(1.0), kBand, kBand,
+        openvdb::tools::UNSIGNED_DISTANCE_FIELD, grids_->nearest.get());
   });
   throwIfStopped();
-  // OpenVDB fills cavities, and what is inside of overlapping bodies as it comes. The vote knows better.
   grids_->matter = emptyGrid();
   for (auto leaf = distances->tree().cbeginLeaf(); leaf; ++leaf)
     grids_->matter->tree().touchLeaf(leaf->origin());
@@ -127,11 +162,13 @@ LevelSet::LevelSet(std::span<const Vec3> corners, std::span<const std::array<std
   grids_->matter->tree().getNodes(leaves);
   parallelFor(leaves.size(), [&](std::size_t begin, std::size_t end) {
     auto values = distances->getConstAccessor();
+    auto nearest = grids_->nearest->getConstAccessor();
     for (std::size_t i = begin; i < end; ++i) {
       setLeaf(*leaves[i], [&](const Coord& at) {
         float d = kBand;
         if (!values.probeValue(at, d)) d = kBand;
-        return inside.at({at.x(), at.y(), at.z()}) ? -std::abs(d) : std::abs(d);
+        if (d < kNearBy) d = nearestOf(around(nearest, at), points, faces, at);
+        return inside.at({at.x(), at.y(), at.z()}) ? -d : d;
       });
     }
   });
@@ -182,9 +219,40 @@ void LevelSet::cut(std::span<const NearSheets> near, std::span<const Sheet> shee
       });
     }
   });
-  openvdb::tools::signedFloodFill(gap->tree());
-  openvdb::tools::csgDifference(*grids_->matter, *gap);
+  // Blocks that lie in the gap as a whole are among them, so all beside them is outside of it. Nothing is
+  // pruned: where places stray far, signs may change between two voxels out of the band.
+  openvdb::tools::csgDifference(*grids_->matter, *gap, false);
   throwIfStopped();
+}
+
+void LevelSet::activateCrossings() {
+  std::vector<Leaf*> leaves;
+  grids_->matter->tree().getNodes(leaves);
+  std::vector<std::vector<Coord>> found(leaves.size());
+  parallelFor(leaves.size(), [&](std::size_t begin, std::size_t end) {
+    auto values = grids_->matter->getConstAccessor();
+    constexpr int kLast = static_cast<int>(Leaf::DIM) - 1;
+    for (std::size_t i = begin; i < end; ++i) {
+      for (auto at = leaves[i]->cbeginValueAll(); at; ++at) {
+        const Coord v = at.getCoord(), local = v - leaves[i]->origin();
+        const bool rim = local.x() == 0 || local.x() == kLast || local.y() == 0 || local.y() == kLast ||
+                         local.z() == 0 || local.z() == kLast;
+        if (at.isValueOn() && !rim) continue;
+        for (int k = 0; k < 6; ++k) {
+          Coord next = v;
+          next[k / 2] += k % 2 == 0 ? -1 : 1;
+          float value = 0.0f;
+          const bool on = values.probeValue(next, value);
+          if ((value < 0.0f) == (*at < 0.0f) || (on && at.isValueOn())) continue;
+          found[i].push_back(v);
+          found[i].push_back(next);
+        }
+      }
+    }
+  });
+  auto voxels = grids_->matter->getAccessor();
+  for (const std::vector<Coord>& of_leaf : found)
+    for (const Coord& v : of_leaf) voxels.setActiveState(v, true);
 }
 
 void LevelSet::separate() {
@@ -209,7 +277,9 @@ void LevelSet::separate() {
 }
 
 QuadSurface LevelSet::surface() {
+  activateCrossings();
   separate();
+  activateCrossings();  // what gave way has new ones
   std::vector<openvdb::Vec3s> points;
   std::vector<openvdb::Vec4I> quads;
   openvdb::tools::volumeToMesh(*grids_->matter, points, quads, 0.0);

@@ -43,6 +43,9 @@ class LevelSet {
   static constexpr double kBand_vx = 3.0;
 
  private:
+  /// Both voxels between which the surface goes through are active, wherever that is.
+  void activateCrossings();
+  /// No two voxels of matter touch by an edge or a corner alone.
   void separate();
 
   struct Grids;

@@ -1,7 +1,7 @@
 #include "sim/cut/parts.h"
 
 #include <algorithm>
-#include <map>
+#include <cmath>
 #include <numeric>
 #include <tuple>
 
@@ -43,20 +43,17 @@ void measure(ClosedPart& part) {
   part.middle = sum != 0.0 ? from + moment / (4.0 * sum) : from;
 }
 
-/// Whether a place lies inside, by crossings of the ray along +x. It lies on no plane of voxels' middles
-/// exactly, as corners of surfaces do not.
+/// Whether a place lies inside: by the solid angle at which the surface is seen from there (Van Oosterom and
+/// Strackee, 1983). Rays would run through corners, as these lie in rows.
 bool holds(const ClosedPart& part, Vec3 p) {
-  bool inside = false;
+  double angle = 0.0;
   for (const auto& t : part.triangles) {
     const Vec3 a = part.points[t[0]] - p, b = part.points[t[1]] - p, c = part.points[t[2]] - p;
-    const auto side = [](const Vec3& from, const Vec3& to) { return from.y * to.z - from.z * to.y; };
-    const double ab = side(a, b), bc = side(b, c), ca = side(c, a);
-    if ((ab < 0.0 || bc < 0.0 || ca < 0.0) && (ab > 0.0 || bc > 0.0 || ca > 0.0)) continue;
-    const double area = ab + bc + ca;
-    if (area == 0.0) continue;
-    inside ^= (bc * a.x + ca * b.x + ab * c.x) / area > 0.0;
+    const double la = glm::length(a), lb = glm::length(b), lc = glm::length(c);
+    angle += 2.0 * std::atan2(glm::dot(a, glm::cross(b, c)),
+                              la * lb * lc + glm::dot(a, b) * lc + glm::dot(b, c) * la + glm::dot(c, a) * lb);
   }
-  return inside;
+  return std::abs(angle) > 2.0 * M_PI;
 }
 
 void append(ClosedPart& part, const ClosedPart& cavity) {

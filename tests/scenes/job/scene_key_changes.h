@@ -76,7 +76,8 @@ inline Change cut(const std::string& more, const std::string& from, const std::s
        {"seeds: [[-0.4, 0.25, 0.25], {at: [-0.7, 0.25, 0.25], key: one}]", "skeleton: {file: sticks.obj}"},
        {"plants:\n", "plants:\n  - {name: moss, " + sticks + "others.obj}}\n"},
        {"seed: 5",
-        "seed: 5\npieces: {main: {of: shape, by: [vine], kerf: 8 cm, sweep: [0, 0, 1]" + more + "}}"}},
+        "seed: 5\npieces: {main: {of: shape, by: [vine], kerf: 8 cm, sweep: [0, 0, 1], voxel: 2 cm" + more +
+            "}}"}},
       {from, to}};
 }
 
@@ -304,7 +305,7 @@ inline const std::map<std::string, Change>& changes() {
       {"pieces.<name>.by", cut("", "by: [vine]", "by: [vine, moss]")},
       {"pieces.<name>.kerf", cut("", "kerf: 8 cm", "kerf: 9 cm")},
       {"pieces.<name>.sweep", cut("", "sweep: [0, 0, 1]", "sweep: [0.1, 0, 1]")},
-      {"pieces.<name>.voxel", cut(", voxel: 2 cm", "voxel: 2 cm", "voxel: 3 cm")},
+      {"pieces.<name>.voxel", cut("", "voxel: 2 cm", "voxel: 3 cm")},
       {"pieces.<name>.least", cut(", least: 0.1", "least: 0.1", "least: 0.5")},
       {"pieces.<name>.rough.amplitude",
        cut(", rough: {amplitude: 1 cm, over: 20 cm}", "amplitude: 1 cm", "amplitude: 2 cm")},

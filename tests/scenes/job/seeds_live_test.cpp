@@ -88,6 +88,7 @@ const std::map<std::string, std::vector<std::pair<std::string, Place (*)()>>> kH
     {"courtyard_vine", {{"open ground", openGround}, {"a wall's foot", wallsFoot}, {"a ledge", ledge}}},
     {"ivy",
      {{"open ground", openGround}, {"a wall's foot", wallsFoot}, {"a ledge", ledge}, {"a column", column}}},
+    {"crevice_ivy", {{"open ground", openGround}, {"a wall's foot", wallsFoot}, {"a ledge", ledge}}},
     {"flat_walk", {{"a sheet", sheet}, {"open ground", openGround}}},
     {"column_climber_up", {{"a column", column}, {"open ground", openGround}}},
     {"column_climber_near", {{"a column", column}}},

@@ -30,7 +30,7 @@ sky: {directions: 24}
 plants:
   - {name: stick, skeleton: {file: stick.obj}, rules: {}}
 pieces:
-  parts: {of: block, by: [stick], kerf: 4 cm, sweep: [0, 0, -1]}
+  parts: {of: block, by: [stick], kerf: 4 cm, sweep: [0, 0, -1], voxel: 1 cm}
 iterations: 3
 image: {width: 48, height: 36}
 cameras:
@@ -111,7 +111,8 @@ TEST_F(PiecesInScenes, AreNodesOfAModelThatAnotherSceneReads) {
   }
   const auto json = nlohmann::json::parse(written("report.json"));
   EXPECT_EQ(json["pieces"][0]["pieces"][1]["name"], "parts_2");
-  EXPECT_EQ(run("espalier: scene\nmeshes: [{from: scene.yaml, product: parts}]\nworld: {voxel: 4 cm}\n"
+  scratch_.write("cut.yaml", kScene);
+  EXPECT_EQ(run("espalier: scene\nmeshes: [{from: cut.yaml, product: parts}]\nworld: {voxel: 4 cm}\n"
                 "plants: [{rules: {}, seeds: [[0.5, 0.6, 0.2]]}]\niterations: 0\n")
                 .warnings.size(),
             0u);
@@ -129,7 +130,7 @@ TEST_F(PiecesInScenes, AreTheSameOnAnyNumberOfThreadsAndChangeNoGrowth) {
   run(rough + "seed: 9\n");
   EXPECT_FALSE(models.contains(written("parts.glb")));
   std::string without =
-      edited(kScene, "pieces:\n  parts: {of: block, by: [stick], kerf: 4 cm, sweep: [0, 0, -1]}\n", "");
+      edited(kScene, "pieces:\n  parts: {of: block, by: [stick], kerf: 4 cm, sweep: [0, 0, -1], voxel: 1 cm}\n", "");
   without = without.substr(0, without.find("images:"));
   EXPECT_EQ(run(without).growth->state_hash, grown);
 }

@@ -233,7 +233,10 @@ TEST(CutSolid, TellsWhatCannotBeCut) {
       "least 0.08 m, or a voxel of at most 0.03 m");
   EXPECT_NE(why(block, across(0.0015)).find("expected a voxel of at least"), std::string::npos);
   EXPECT_NE(why(block, across(1e-5)).find("expected at most 15000"), std::string::npos);
-  EXPECT_NE(why(block, across(6.0)).find("nothing is left of it"), std::string::npos);
+  CutSettings wide = across(6.0);
+  wide.voxel_m = 0.1;
+  EXPECT_NE(why(block, wide).find("nothing is left of it"), std::string::npos);
+  EXPECT_NE(why(block, across(40.0)).find("holds nothing that voxels of 13.3 m show"), std::string::npos);
   Mesh none = block;
   none.triangles.clear();
   EXPECT_NE(why(none, across(0.06)).find("has no inside"), std::string::npos);

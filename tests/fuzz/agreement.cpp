@@ -179,6 +179,15 @@ void agreeOnPieces(Drawn& pieces, const Meshes& meshes, const std::vector<std::s
   }
 }
 
+/// They are made of plants, and mostly over all of the world.
+void agreeOnHeights(Drawn& heights, const std::vector<std::string>& plants, tests::Numbers& numbers) {
+  for (DrawnEntry& one : heights.entries) {
+    if (numbers.chance(0.8)) takeOut(one.value, {"over"});
+    if (numbers.chance(0.7)) takeOut(one.value, {"iteration"});
+    if (Drawn* of = find(one.value, "plants"); of && !plants.empty()) of->text = numbers.pick(plants);
+  }
+}
+
 /// Each is a file or lines, and guides fill nothing.
 void agreeOnMeshes(Drawn& meshes, tests::Numbers& numbers) {
   for (DrawnEntry& mesh : meshes.entries) {
@@ -322,6 +331,8 @@ void makeAgree(Drawn& scene, tests::Numbers& numbers) {
     agreeOnFields(*fields, meshes, numbers);
   if (Drawn* pieces = find(scene, "pieces"); pieces && numbers.chance(kMostly))
     agreeOnPieces(*pieces, meshes, namesOf(find(scene, "plants"), ""), numbers);
+  if (Drawn* heights = find(scene, "heights"); heights && numbers.chance(kMostly))
+    agreeOnHeights(*heights, namesOf(find(scene, "plants"), ""), numbers);
   if (Drawn* images = find(scene, "images"); images && numbers.chance(kMostly))
     agreeOnImages(*images, namesOf(find(scene, "plants"), ""), namesOf(find(scene, "meshes"), ""),
                   keysOf(find(scene, "fields")), numbers);

@@ -188,6 +188,17 @@ void RandomFiles::knowSpecials() {
   text("meshes[].product", [this] { return std::string(numbers_.chance(0.9) ? "plant" : "plants"); });
   text("plants[].skeleton.from", [=] { return made(0.5); });
   text("fields.<name>.file", [this] { return writeVolume(); });
+  text("heights.<name>.spacing",
+       [this] { return fmt::format("{}", world_.longest_m() / numbers_.whole(2, 60)); });
+  text("heights.<name>.over", [this] {
+    const sim::Vec3 half = numbers_.uniform(0.1, 0.6) * world_.extent_m();
+    return fmt::format("[[{}, {}], [{}, {}]]", world_.middle_m.x - half.x, world_.middle_m.z - half.z,
+                       world_.middle_m.x + half.x, world_.middle_m.z + half.z);
+  });
+  // Noise of fine waves over a large land takes long.
+  text("heights.<name>.noise.scale",
+       [this] { return fmt::format("{}", world_.longest_m() * numbers_.uniform(0.05, 1.0)); });
+  text("images[].heights", [this] { return std::string(numbers_.chance(0.8) ? "main" : "other"); });
   // Voxels that a kerf is cut in are a share of it.
   text("pieces.<name>.kerf",
        [this] { return fmt::format("{}", numbers_.uniform(0.03, 0.3) * world_.longest_m()); });
@@ -209,7 +220,8 @@ void RandomFiles::knowSpecials() {
   text("film.width", [this] { return fmt::format("{}", 2 * numbers_.whole(8, 24)); });
   text("film.height", [this] { return fmt::format("{}", 2 * numbers_.whole(8, 20)); });
   text("images[].show", [this] {
-    return std::string(numbers_.pick(std::array{"[scene, stems]", "[elements]", "[guides, scene]"}));
+    return std::string(
+        numbers_.pick(std::array{"[scene, stems]", "[elements]", "[guides, scene]", "[heights]"}));
   });
   text("images[].camera", [] { return std::string("main"); });
   specials_["scene:images[].of"] = [this](Drawn& drawn) {

@@ -1,97 +1,11 @@
 #pragma once
 #include <map>
 #include <string>
-#include <vector>
+
+#include "tests/scenes/job/scene_key_edits.h"
 
 /// What each key of scene files changes.
 namespace espalier::scenes {
-
-struct Edit {
-  std::string from, to;
-};
-
-/// A key, the output that changes with it, edits that make a scene in which it stands or could stand, and one
-/// more that sets it or gives it another value. Outputs are the files of a run, after "expose: " those of an
-/// exposure; "state_hash" of what grew; "error" where it is whether something comes out at all.
-struct Change {
-  std::string output;
-  std::vector<Edit> before;
-  Edit change;
-};
-
-inline constexpr const char* kArc = "sun: {tilt: 20, samples: 12}";
-inline constexpr const char* kBounds = "bounds: {min: [-1.1, -0.1, -1.1], max: [1.1, 1.3, 1.1]}";
-inline constexpr const char* kImage = "{kind: vines, name: a, camera: main}";
-
-inline Edit realSun(const std::string& more) {
-  return {kArc, "sun: {place: {latitude: 47, longitude: 8, utc_offset: 1}, step: 60, " + more + "}"};
-}
-
-inline constexpr const char* kLaid =
-    "picture: {file: east.png, top_left: [-0.6, 0.3, 0.2], top_right: [0.6, 0.3, 0.2], bottom_left: [-0.6, "
-    "0.3, 0.8]}, count: 20";
-
-inline constexpr const char* kMeshes = "meshes:\n";
-
-/// Attractors from a mesh or a file, beside two meshes that stand nowhere.
-inline Change strewn(const std::string& attractors, const std::string& from, const std::string& to) {
-  return {"state_hash",
-          {{kMeshes,
-            "meshes:\n  - {file: block.obj, name: shape, tiled: false}\n"
-            "  - {file: block.obj, name: other_shape, scale: 0.5, tiled: false}\n"},
-           {"seed: 5", "seed: 5\nattractors: {main: {" + attractors + "}}"}},
-          {from, to}};
-}
-
-/// The same where what is closed in the scene is left hollow: attractors lie in it.
-inline Change hollow(Change change) {
-  change.before.push_back({"name: plot, regions: group}", "name: plot, regions: group, solid: false}"});
-  return change;
-}
-
-/// Attractors in a solid.
-inline Change crown(const std::string& solid, const std::string& from, const std::string& to) {
-  return {"state_hash",
-          {{"seed: 5", "seed: 5\nattractors: {main: {" + solid + ", at: [0, 0.5, 0.4], count: 40}}"}},
-          {from, to}};
-}
-
-/// A skeleton that somebody else made.
-inline Change given(const std::string& from, const std::string& to) {
-  return {"state_hash",
-          {{"seeds: [[-0.4, 0.25, 0.25], {at: [-0.7, 0.25, 0.25], key: one}]",
-            "skeleton: {file: sticks.obj, scale: 0.5, rotate: [0, 0, 0], translate: [0, 0, 0]}"}},
-          {from, to}};
-}
-
-/// A block that a skeleton cuts in two, three parts to seven, beside another one.
-inline Change cut(const std::string& more, const std::string& from, const std::string& to,
-                  const std::string& output = "main.glb") {
-  const std::string sticks = "rules: vine.yaml, skeleton: {file: ";
-  return {
-      output,
-      {{kMeshes,
-        "meshes:\n  - {file: block.obj, name: shape, tiled: false, translate: [-0.45, 0.15, 0]}\n"
-        "  - {file: block.obj, name: other_shape, scale: 1.1, tiled: false, translate: [-0.5, 0.1, 0]}\n"},
-       {"seeds: [[-0.4, 0.25, 0.25], {at: [-0.7, 0.25, 0.25], key: one}]", "skeleton: {file: sticks.obj}"},
-       {"plants:\n", "plants:\n  - {name: moss, " + sticks + "others.obj}}\n"},
-       {"seed: 5",
-        "seed: 5\npieces: {main: {of: shape, by: [vine], kerf: 8 cm, sweep: [0, 0, 1], voxel: 2 cm" + more +
-            "}}"}},
-      {from, to}};
-}
-
-/// A picture of it.
-inline Change cutShown(const std::string& from, const std::string& to) {
-  Change change = cut("", from, to, "a.png");
-  change.before.push_back({kImage, "{kind: vines, name: a, show: [pieces, scene]}"});
-  return change;
-}
-
-/// A guide field.
-inline Change bent(const std::string& field, const std::string& from, const std::string& to) {
-  return {"state_hash", {{"seed: 5", "seed: 5\nfields: {main: {" + field + "}}"}}, {from, to}};
-}
 
 inline const std::map<std::string, Change>& changes() {
   const std::string sun = "expose: exposure.csv";
@@ -301,6 +215,32 @@ inline const std::map<std::string, Change>& changes() {
        bent("points: [{at: [0, 1, 0], radius: 1 m, angle: 3}]", "angle: 3", "angle: 4")},
       {"fields.<name>.points[].strength",
        bent("points: [{at: [0, 1, 0], radius: 1 m, strength: 3}]", "strength: 3", "strength: 4")},
+      {"heights.<name>.plants", land("", "plants: vine", "plants: moss")},
+      {"heights.<name>.over", land("", "spacing: 10 cm", "spacing: 10 cm, over: [[-1, -1], [1, 0.9]]")},
+      {"heights.<name>.spacing", land("", "spacing: 10 cm", "spacing: 12 cm")},
+      {"heights.<name>.falls", land("", "spacing: 10 cm", "spacing: 10 cm, falls: true")},
+      {"heights.<name>.base", land("", "spacing: 10 cm", "spacing: 10 cm, base: 1 m")},
+      {"heights.<name>.grade", land("", "spacing: 10 cm", "spacing: 10 cm, grade: 0.9")},
+      {"heights.<name>.concavity", land("", "spacing: 10 cm", "spacing: 10 cm, concavity: 0.9")},
+      {"heights.<name>.order_share", land("", "spacing: 10 cm", "spacing: 10 cm, order_share: 0.4")},
+      {"heights.<name>.slope", land("", "spacing: 10 cm", "spacing: 10 cm, slope: 0.3")},
+      {"heights.<name>.ease", land("", "spacing: 10 cm", "spacing: 10 cm, ease: 20 cm")},
+      {"heights.<name>.most", land("", "spacing: 10 cm", "spacing: 10 cm, most: 30 cm")},
+      {"heights.<name>.width", land("", "width: 2 cm", "width: 20 cm")},
+      {"heights.<name>.iteration", land("", "spacing: 10 cm", "spacing: 10 cm, iteration: 2")},
+      {"heights.<name>.noise.amplitude", land("", "amplitude: 4 cm", "amplitude: 6 cm")},
+      {"heights.<name>.noise.scale", land("", "scale: 50 cm", "scale: 60 cm")},
+      {"heights.<name>.noise.octaves", land("", "scale: 50 cm", "scale: 50 cm, octaves: 1")},
+      {"heights.<name>.cover.<name>.colour", covered("above: 10 cm", "#eeeeee", "#ee0000")},
+      {"heights.<name>.cover.<name>.above", covered("above: 10 cm", "above: 10 cm", "above: 20 cm")},
+      {"heights.<name>.cover.<name>.below", covered("above: 10 cm", "above: 10 cm", "below: 20 cm")},
+      {"heights.<name>.cover.<name>.steeper", covered("above: 10 cm", "above: 10 cm", "steeper: 30")},
+      {"heights.<name>.cover.<name>.flatter", covered("above: 10 cm", "above: 10 cm", "flatter: 30")},
+      {"heights.<name>.cover.<name>.soft",
+       covered("above: 10 cm", "above: 10 cm", "above: 10 cm, soft: 20 cm")},
+      {"heights.<name>.cover.<name>.on_lines",
+       covered("above: 0 cm", "above: 0 cm", "above: 0 cm, on_lines: true")},
+      {"images[].heights", shownLand("show: [heights]", "show: [heights], heights: other")},
       {"pieces.<name>.of", cut("", "of: shape", "of: other_shape")},
       {"pieces.<name>.by", cut("", "by: [vine]", "by: [vine, moss]")},
       {"pieces.<name>.kerf", cut("", "kerf: 8 cm", "kerf: 9 cm")},

@@ -83,6 +83,7 @@ inline std::vector<std::string> goodTexts(const rules::Key& key) {
     case Kind::pairs:
       return {fmt::format("[[0, {}], [0.5, {}], [1, {}]]", number, other, number)};
     case Kind::outline:
+      if (key.most == 2) return {fmt::format("[[0, {0}], [1, 0.5]]", number), "[[0, 1 cm], [1 mm, 2 m]]"};
       return {fmt::format("[[0, {0}], [1, {0}], [2, {0}], [3, {0}]]", number),
               "[[0, 1 cm], [1 mm, 2 mm], [0.5 m, 0.1 m], [1, 1]]"};
     case Kind::polygons:

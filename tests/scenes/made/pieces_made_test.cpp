@@ -183,7 +183,7 @@ TEST(PiecesOfTheLibrary, ComeApart) {
     scene.pieces[0].voxel_m = 0.03;
     scene.pieces[0].kerf_m = 0.07;
     if (change == 0) scene.seed = 7;
-    if (change == 1) *scene.world.voxel_m /= 0.7;
+    scene.world.voxel_m = change == 1 ? 0.05 / 0.7 : 0.05;
     if (change == 2) {
       scene.meshes[0].file = ESPALIER_SOURCE_DIR "/scenes/meshes/sphere.obj";
       scene.meshes[0].placement.translate_m.y = 0.5;

@@ -97,6 +97,37 @@ std::vector<GalleryFigure> tanaka2022Models() {
                    "The figure is modelled here, and simple."},
        .numbers = {{"Segments", "not told", Measured::segments}}},
 
+      {.name = "tanaka_2022_16",
+       .title = "Land after more and more iterations",
+       .scene = "figure_16",
+       .pictures = {{"figure_16", "figure_16", "", "After 20, 45 and 80 iterations, and at the end"}},
+       .rules = {},
+       .paper = "A comparison of numbers of iterations, beside the equation of sparse convolution noise. "
+                "Whether those of the "
+                "tree or of the noise are meant is not told.",
+       .agrees = {"The same land at four numbers of iterations, side by side."},
+       .differs = {"We compare the tree's: valleys reach farther back. Octaves of the noise are a key."},
+       .numbers = {}},
+
+      {.name = "tanaka_2022_17",
+       .title = "From a tree to a mountain",
+       .scene = "massif",
+       .pictures = {{"massif", "tree", "A", "The tree in plan"},
+                    {"massif", "plan", "B", "Its land from above"},
+                    {"massif", "land", "C", "The mountain"}},
+       .rules = {},
+       .paper = "A tree is swept to a mesh and painted; where the paint is, land rises or falls, and sparse "
+                "convolution noise "
+                "(equation 16) makes its fine erosion.",
+       .agrees = {"A tree becomes valleys, with ridges between them; the noise is the paper's, whose "
+                  "spectrum a test holds to "
+                  "its kernel's."},
+       .differs = {"No paint is in between: lines rise by what they drain, and land rises from the nearest "
+                   "of them, so that "
+                   "water runs down from everywhere.",
+                   "Noise leaves river beds alone."},
+       .numbers = {{"Segments", "not told", Measured::segments}, {"Time", "not told", Measured::time}}},
+
       {.name = "tanaka_2022_18",
        .title = "What a guide field makes of a tree",
        .scene = "figure_18",
@@ -134,6 +165,19 @@ std::vector<GalleryFigure> tanaka2022Models() {
        .agrees = {"The same angles; (b) begins at the bottom.", "The difference shows at a glance."},
        .differs = {"Bubbles lie on snow and are drawn as films that mirror."},
        .numbers = {{"Angles", "0, 120, 360, 720 degrees", Measured::said, "0, 120, 360, 720 degrees"}}},
+
+      {.name = "tanaka_2022_21",
+       .title = "Mountains and rivers",
+       .scene = "ridges",
+       .pictures = {{"massif", "land", "A", "Rivers between mountains"},
+                    {"ridges", "land", "B", "A mountain by its ridges"},
+                    {"mountain_forest", "vines", "C", "A wood on its slopes"}},
+       .rules = {},
+       .paper = "Examples of land by the method: shapes of mountains and rivers, which are trees in nature.",
+       .agrees =
+           {"Both: a tree of rivers with mountains between, and a tree of ridges with valleys between."},
+       .differs = {"A wood grows on ours, by the same method again."},
+       .numbers = {}},
 
       {.name = "tanaka_2022_22",
        .title = "Other objects",

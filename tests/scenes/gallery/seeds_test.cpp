@@ -95,6 +95,11 @@ Scene smaller(Scene scene) {
   scene.interreflection.reset();
   if (scene.name == "courtyard" || scene.name == "gable" || scene.name == "whorls")
     *scene.world.voxel_m *= 2.0;
+  for (HeightsSpec& heights : scene.heights) heights.spacing_m *= 6.0;
+  for (PiecesSpec& pieces : scene.pieces) {
+    pieces.kerf_m *= 2.0;
+    pieces.voxel_m = pieces.kerf_m / 3.0;
+  }
   // A picture and what is on its sheets, and no more.
   const auto sheet = [](const ImageSpec& image) { return image.kind == ImageKind::contact_sheet; };
   std::erase_if(scene.images, sheet);

@@ -182,6 +182,13 @@ small $work/figure_18/vines.png figure_18 1100
 for scene in split_boulder ivy_in_cracks; do grow scenes/library/$scene.yaml; done
 small $work/split_boulder/steps.png split_boulder 1200
 small $work/ivy_in_cracks/vines.png ivy_in_cracks 1000
+for scene in massif ridges figure_16 mountain_forest; do grow scenes/library/$scene.yaml; done
+small $work/massif/land.png massif 1000
+beside $work/parts.png 480 $work/massif/{tree,plan}.png
+small $work/parts.png massif_plan 1000
+small $work/ridges/land.png ridges 900
+small $work/figure_16/figure_16.png land_iterations 1200
+small $work/mountain_forest/vines.png mountain_forest 1000
 for scene in venation veined_branch lobed_leaf; do grow scenes/library/$scene.yaml; done
 small $work/venation/vines.png venation 1000
 small $work/venation/closed_leaf.png closed_leaf 460

@@ -45,6 +45,9 @@ void benchBranching(Report& report);
 /// A solid cut into pieces, by the number of its voxels.
 void benchPieces(Report& report);
 
+/// Land by the number of a tree's attractors: growth, heights, mesh and files.
+void benchHeights(Report& report);
+
 /// A sky of at least so many directions, of equal weight for equal parts.
 sim::DirectionSet skyOf(int directions);
 

@@ -18,8 +18,9 @@ namespace {
 namespace algo = OIIO::ImageBufAlgo;
 
 /// Pictures are drawn and read by loops of ours, and in children, in which no thread of a pool would be
-/// alive.
-[[maybe_unused]] const bool without_threads = OIIO::attribute("threads", 1);
+/// alive. OpenEXR has a pool of its own, for which a child would wait for ever once its parent has one.
+[[maybe_unused]] const bool without_threads =
+    OIIO::attribute("threads", 1) && OIIO::attribute("exr_threads", -1);
 
 /// Pixels are given in the type that the file keeps: OIIO would convert them by a pool of threads of its own,
 /// which costs more in waking and waiting than the conversion. Its writers may report success and keep what
@@ -110,7 +111,6 @@ Texels readJpeg(const std::string& bytes, int most_pixels, int most_side) {
 }
 
 Image readPanorama(const std::string& path, int most_pixels, bool& display) {
-  OIIO::attribute("exr_threads", -1);
   const std::unique_ptr<OIIO::ImageInput> in = OIIO::ImageInput::open(path);
   if (!in) throw sim::InputError(fmt::format("no picture that can be read ({})", OIIO::geterror()));
   in->threads(1);
@@ -137,7 +137,6 @@ void readChannel(OIIO::ImageInput& in, int channel, std::vector<float>& to) {
 }
 
 Image readLuminance(const std::string& path, int most_pixels, int most_side) {
-  OIIO::attribute("exr_threads", -1);
   OIIO::ImageSpec wanted;
   wanted.attribute("oiio:UnassociatedAlpha", 1);
   const std::unique_ptr<OIIO::ImageInput> in = OIIO::ImageInput::open(path, &wanted);

@@ -177,7 +177,7 @@ TEST_F(Attractors, InAPictureAreDenseWhereItIsBright) {
 }
 
 TEST_F(Attractors, InAPictureThatIsNoneSayWhere) {
-  const auto place = scratch_.path("scene.yaml").string() + ":5:25: " + scratch_.path("strip.png").string();
+  const auto place = scratch_.path("scene.yaml").string() + ":5:26: " + scratch_.path("strip.png").string();
   for (const std::string& bytes : {std::string("GIF89a"), tests::pngBytes(60'000, 60'000, 8, 0, {0}),
                                    tests::pngBytes(4, 1, 8, 0, {0, 0, 0, 0})}) {
     scratch_.write("strip.png", bytes);

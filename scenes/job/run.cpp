@@ -90,6 +90,14 @@ double laterAnElement(const std::vector<sim::Planting>& plantings) {
   return kBytesACorner * static_cast<double>(most);
 }
 
+/// `drawn`: there are pictures of them.
+std::vector<MadeHeights> heightsOf(const Scene& scene, const Site& site, const sim::Growth& growth,
+                                   bool drawn, Stages& stages) {
+  if (scene.heights.empty()) return {};
+  return stages.run(
+      "making", [&] { return makeHeights(scene, growth, site.world.frame(), drawn ? &site.sky : nullptr); });
+}
+
 PicturesWanted picturesAsked(const Scene& scene, const RunOptions& options) {
   return options.pictures ? picturesOf(scene) : PicturesWanted();
 }
@@ -226,9 +234,7 @@ Report runScene(const Scene& scene, const RunOptions& options, const Keeping& ke
   const GuideVolumes guides = inScene(scene, [&] { return guideVolumes(growth, usedFields(scene), world); });
   for (const render::VdbField& field : guides.fields)
     report.growth->fields.push_back({field.name, guides.near->count()});
-  const std::vector<MadeHeights> heights = stages.run("making", [&] {
-    return makeHeights(scene, shown.grown(), world.frame(), options.pictures ? &site.sky : nullptr);
-  });
+  const std::vector<MadeHeights> heights = heightsOf(scene, site, shown.grown(), options.pictures, stages);
   const ModelSources sources{site,           growth.plants, bare, models,
                              report.made_by, light,         lit,  shadowDirection(scene.sun)};
   std::vector<OutputFile> files =
@@ -263,9 +269,8 @@ Report runScene(const Scene& scene, const RunOptions& options, const Keeping& ke
     stages.run("drawing", [&] {
       textures = texturesFor(drawsVines(scene.images) || scene.film, scene, site.meshes, options, report);
       for (const Problem& unread : textures.unread) late_warnings.push_back(unread.text);
-      const Finished finished =
-          finishedOn(scene, site, bare, shown, light, lit, occupancy, models, textures.pictures, pieces,
-                     heights);
+      const Finished finished = finishedOn(scene, site, bare, shown, light, lit, occupancy, models,
+                                           textures.pictures, pieces, heights);
       auto pictures =
           inScene(scene, [&] { return drawPictures(picturesOf(scene, report.made_by), finished); });
       for (OutputFile& file : pictures) files.push_back(std::move(file));
@@ -360,8 +365,7 @@ Report renderScene(Scene scene, const std::filesystem::path& from, const RunOpti
   report.light = light.about;
   const auto models =
       stages.run("modelling", [&] { return modelPlants(site.world.frame(), growth.plants, bare); });
-  const std::vector<MadeHeights> heights =
-      stages.run("making", [&] { return makeHeights(scene, shown.grown(), site.world.frame(), &site.sky); });
+  const std::vector<MadeHeights> heights = heightsOf(scene, site, shown.grown(), true, stages);
   std::vector<std::string> late_warnings;
   const RunPieces pieces =
       cutPieces(scene, site, growth, scene.images, options, report, stages, late_warnings);
@@ -369,9 +373,8 @@ Report renderScene(Scene scene, const std::filesystem::path& from, const RunOpti
   std::vector<OutputFile> files = stages.run("drawing", [&] {
     textures = texturesFor(drawsVines(scene.images) || scene.film, scene, site.meshes, options, report);
     for (const Problem& one : textures.unread) late_warnings.push_back(one.text);
-    const Finished finished =
-        finishedOn(scene, site, bare, shown, light, lit, occupancy, models, textures.pictures, pieces,
-                     heights);
+    const Finished finished = finishedOn(scene, site, bare, shown, light, lit, occupancy, models,
+                                         textures.pictures, pieces, heights);
     return inScene(scene, [&] { return drawPictures(picturesOf(scene, report.made_by), finished); });
   });
   if (scene.film) {

@@ -3,12 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 
 #include "rules/language/key_builder.h"
 #include "scenes/problem.h"
 #include "scenes/read/units.h"
-#include "sim/base/counted.h"
 
 namespace espalier::scenes {
 namespace {
@@ -132,11 +130,10 @@ void checkHeights(const Scene& scene, const rules::Check::Given&, const rules::C
     const std::string path = "heights." + heights.name;
     if (const std::string wrong = notCalled("plant", heights.plants, names); !wrong.empty())
       complain(path + ".plants", wrong);
-    if (heights.over_m.empty()) {
-    } else if (heights.over_m.size() != 2) {
-      complain(path + ".over", fmt::format("land over {}; expected two, [[x, z], [x, z]]",
-                                           sim::counted(heights.over_m.size(), "corner")));
-    } else if (heights.over_m[0].x == heights.over_m[1].x || heights.over_m[0].y == heights.over_m[1].y) {
+    if (heights.over_m.size() == 1) {
+      complain(path + ".over", "land over one corner; expected two, [[x, z], [x, z]]");
+    } else if (heights.over_m.size() == 2 &&
+               (heights.over_m[0].x == heights.over_m[1].x || heights.over_m[0].y == heights.over_m[1].y)) {
       complain(path + ".over", "land without an inside; expected corners that differ in x and in z");
     }
     for (const CoverSpec& cover : heights.cover) {
@@ -149,20 +146,6 @@ void checkHeights(const Scene& scene, const rules::Check::Given&, const rules::C
                  "nothing is steeper than the one and flatter than the other; expected flatter to be more "
                  "than steeper");
     }
-    constexpr std::array<std::string_view, 5> kTaken{"plant", "plant_lod1", "plant_lod2", "plant_lod3",
-                                                     "diced"};
-    if (std::find(kTaken.begin(), kTaken.end(), heights.name) != kTaken.end())
-      complain(path, fmt::format("a model of the plants is called so, {}.glb; expected another name",
-                                 heights.name));
-    for (const ImageSpec& image : scene.images) {
-      if (image.name == heights.name)
-        complain(
-            path,
-            fmt::format("an image is called {} too, and both may be written as {}.exr; expected another name",
-                        inQuotes(heights.name), heights.name));
-    }
-    if (heights.name.find_first_of("/\\:*?\"<>|") != std::string::npos || heights.name.starts_with("."))
-      complain(path, "no file can be called so; expected a name of letters, digits, '-' and '_'");
   }
 }
 

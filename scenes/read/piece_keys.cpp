@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 
 #include "rules/language/key_builder.h"
 #include "scenes/problem.h"
@@ -38,22 +37,6 @@ std::vector<std::string> calledIn(const std::vector<Named>& all) {
   std::vector<std::string> names;
   for (const Named& one : all) names.push_back(one.name);
   return names;
-}
-
-/// What a run writes beside.
-constexpr std::array<std::string_view, 5> kTaken{"plant", "plant_lod1", "plant_lod2", "plant_lod3", "diced"};
-
-void checkNamed(const PiecesSpec& spec, const std::string& path, const Check::Complain& complain) {
-  const auto plain = [](char c) {
-    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' || c == '-';
-  };
-  if (spec.name.size() > 100 || !std::all_of(spec.name.begin(), spec.name.end(), plain)) {
-    complain(path, fmt::format("{} is no name of a file; expected letters, digits, _ and -, at most 100",
-                               inQuotes(spec.name)));
-  } else if (std::find(kTaken.begin(), kTaken.end(), spec.name) != kTaken.end()) {
-    complain(path,
-             fmt::format("{}.glb is written by every run, or may be; expected another name", spec.name));
-  }
 }
 
 void checkMesh(const Scene& scene, const PiecesSpec& spec, const std::string& path,
@@ -121,7 +104,6 @@ void checkPieces(const Scene& scene, const Check::Given& given, const Check::Com
   const std::vector<std::string> plants = calledIn(scene.plants);
   for (const PiecesSpec& spec : scene.pieces) {
     const std::string path = "pieces." + spec.name;
-    checkNamed(spec, path, complain);
     checkMesh(scene, spec, path, complain);
     if (spec.by.empty()) complain(path + ".by", "cut by no plants; expected the name of one or more");
     for (std::size_t k = 0; k < spec.by.size(); ++k) {

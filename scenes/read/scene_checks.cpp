@@ -9,6 +9,7 @@
 #include "scenes/read/film_keys.h"
 #include "scenes/read/heights_keys.h"
 #include "scenes/read/light_keys.h"
+#include "scenes/read/made_names.h"
 #include "scenes/read/piece_keys.h"
 #include "scenes/read/registry.h"
 #include "scenes/scene.h"
@@ -345,6 +346,7 @@ const std::vector<Check>& sceneChecks() {
       check({"plants", "images"}, checkImagePlants),
       check({"fields", "images"}, checkImageFields),
       check({"meshes", "plants", "pieces", "images"}, checkPieces),
+      check({"pieces", "heights", "images"}, checkMadeNames),
       check({"plants", "heights", "world.bounds"}, checkHeights),
       check({"heights", "images"}, checkImageHeights),
       check({"images"}, checkSheets),

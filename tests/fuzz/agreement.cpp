@@ -73,6 +73,23 @@ void agreeOnSun(Drawn& sun, tests::Numbers& numbers) {
              [](const std::string& a, const std::string& b) { return std::stod(a) < std::stod(b); });
 }
 
+/// Images of what is made show it.
+void agreeOnMade(Drawn& images, bool pieces, bool heights) {
+  const auto put = [](Drawn& image, const std::string& key, const std::string& text) {
+    takeOut(image, {key});
+    Drawn value;
+    value.text = text;
+    image.entries.push_back({key, std::move(value)});
+  };
+  for (DrawnEntry& image : images.entries) {
+    if (image.value.kind != Drawn::Kind::map) continue;
+    const bool apart = pieces && find(image.value, "apart"), land = heights && find(image.value, "heights");
+    if (!apart && !land) continue;
+    put(image.value, "kind", "vines");
+    put(image.value, "show", apart ? "[pieces]" : "[heights]");
+  }
+}
+
 void agreeOnImages(Drawn& images, const std::vector<std::string>& plants,
                    const std::vector<std::string>& meshes, const std::vector<std::string>& fields,
                    tests::Numbers& numbers) {
@@ -172,7 +189,9 @@ void agreeOnFields(Drawn& fields, const Meshes& meshes, tests::Numbers& numbers)
 void agreeOnPieces(Drawn& pieces, const Meshes& meshes, const std::vector<std::string>& plants,
                    tests::Numbers& numbers) {
   for (DrawnEntry& one : pieces.entries) {
-    takeOut(one.value, {"voxel"});
+    const Drawn* const kerf = find(one.value, "kerf");
+    if (Drawn* voxel = find(one.value, "voxel"); voxel && kerf)
+      voxel->text = fmt::format("{}", 0.25 * std::stod(kerf->text));
     if (Drawn* of = find(one.value, "of")) of->text = meshes.pick(true, numbers);
     if (Drawn* by = find(one.value, "by"); by && !plants.empty())
       by->text = fmt::format("[{}]", numbers.pick(plants));
@@ -333,9 +352,11 @@ void makeAgree(Drawn& scene, tests::Numbers& numbers) {
     agreeOnPieces(*pieces, meshes, namesOf(find(scene, "plants"), ""), numbers);
   if (Drawn* heights = find(scene, "heights"); heights && numbers.chance(kMostly))
     agreeOnHeights(*heights, namesOf(find(scene, "plants"), ""), numbers);
-  if (Drawn* images = find(scene, "images"); images && numbers.chance(kMostly))
+  if (Drawn* images = find(scene, "images"); images && numbers.chance(kMostly)) {
+    agreeOnMade(*images, find(scene, "pieces") != nullptr, find(scene, "heights") != nullptr);
     agreeOnImages(*images, namesOf(find(scene, "plants"), ""), namesOf(find(scene, "meshes"), ""),
                   keysOf(find(scene, "fields")), numbers);
+  }
 }
 
 }  // namespace espalier::fuzz

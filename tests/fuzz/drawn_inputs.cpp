@@ -166,7 +166,7 @@ std::string RandomFiles::writeSkeleton() {
 
 /// A scene about the middle that makes a mesh, a skeleton and a picture for others.
 std::string RandomFiles::writeMaker() {
-  const double voxel = std::clamp(world_.longest_m() / 12.0, 2e-5, 1e5);
+  const double voxel = std::clamp(world_.longest_m() / 12.0, 2e-5, 4e4);
   const sim::Vec3 half(6.0 * voxel);
   const auto corner = [](const sim::Vec3& at) { return ValueDrawer::point(at.x, at.y, at.z); };
   std::ofstream(folder_ / "maker.yaml") << fmt::format(

@@ -110,7 +110,7 @@ void RandomFiles::knowSpecials() {
     return fmt::format("[[{}, {}, {}], [{}]]", at(), at(), at(), at());
   });
   text("sky.background.file", [this] { return writeSky(); });
-  // Most regions that are drawn are not there, or level.
+  // Most are not there, or level.
   special("rules:bias.apex.of", [this] { return std::string(numbers_.chance(0.06) ? "roof" : ""); });
   special("rules:senses.<name>.of", [this] {
     std::vector<std::string> of(rules::kWhose.begin(), rules::kWhose.end());
@@ -195,11 +195,10 @@ void RandomFiles::knowSpecials() {
     return fmt::format("[[{}, {}], [{}, {}]]", world_.middle_m.x - half.x, world_.middle_m.z - half.z,
                        world_.middle_m.x + half.x, world_.middle_m.z + half.z);
   });
-  // Noise of fine waves over a large land takes long.
   text("heights.<name>.noise.scale",
        [this] { return fmt::format("{}", world_.longest_m() * numbers_.uniform(0.05, 1.0)); });
   text("images[].heights", [this] { return std::string(numbers_.chance(0.8) ? "main" : "other"); });
-  // Voxels that a kerf is cut in are a share of it.
+  text("pieces.<name>.by", [] { return std::string("[main]"); });
   text("pieces.<name>.kerf",
        [this] { return fmt::format("{}", numbers_.uniform(0.03, 0.3) * world_.longest_m()); });
   text("pieces.<name>.rough.amplitude",
@@ -220,8 +219,8 @@ void RandomFiles::knowSpecials() {
   text("film.width", [this] { return fmt::format("{}", 2 * numbers_.whole(8, 24)); });
   text("film.height", [this] { return fmt::format("{}", 2 * numbers_.whole(8, 20)); });
   text("images[].show", [this] {
-    return std::string(
-        numbers_.pick(std::array{"[scene, stems]", "[elements]", "[guides, scene]", "[heights]"}));
+    constexpr std::array kParts{"[scene, stems]", "[elements]", "[guides, scene]", "[heights]", "[pieces]"};
+    return std::string(numbers_.pick(kParts));
   });
   text("images[].camera", [] { return std::string("main"); });
   specials_["scene:images[].of"] = [this](Drawn& drawn) {

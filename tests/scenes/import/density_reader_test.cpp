@@ -68,8 +68,6 @@ TEST_F(DensityReader, ReadsAnExrBeyondOne) {
   EXPECT_NE(said("below.exr", render::encodeExr(image, {"Y"}))
                 .find("it has the value -0.5 in column 4 of row 1, from 1; expected numbers of 0 or more"),
             std::string::npos);
-  *image.at(3, 0) = std::numeric_limits<float>::quiet_NaN();
-  EXPECT_NE(said("none.exr", render::encodeExr(image, {"Y"})).find("nan in column 4"), std::string::npos);
 }
 
 TEST_F(DensityReader, RefusesGiantsBeforeTheyAreRead) {

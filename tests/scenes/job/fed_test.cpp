@@ -179,6 +179,30 @@ TEST_F(Fed, SkeletonsAreThoseThatGrewThere) {
   EXPECT_EQ(report_.growth->plants[0].segments, segments);
 }
 
+/// Heights are written as EXR by this very process, and read again in a child of it.
+TEST_F(Fed, APictureSaysWhereAttractorsAreDense) {
+  scratch_.write("land.yaml", R"(espalier: scene
+world: {voxel: 1 m, bounds: {min: [-20, -2, -20], max: [20, 2, 20]}, layers: 0}
+sky: {directions: 24}
+attractors: {land: {box: [38, 1, 38], at: [0, -0.5, 0], count: 60}}
+plants: [{name: rivers, rules: drainage, seeds: [[0, 0, 19]]}]
+heights: {land: {plants: rivers, spacing: 1 m, base: 1 m}}
+iterations: 100
+)");
+  grow(R"(espalier: scene
+world: {voxel: 1 m, bounds: {min: [-20, -2, -20], max: [20, 9, 20]}}
+sky: {directions: 24}
+attractors:
+  high:
+    picture: {from: land.yaml, product: land, top_left: [-20, 2, -20], top_right: [20, 2, -20], bottom_left: [-20, 2, 20]}
+    count: 200
+plants:
+  - {name: tree, rules: {propagate: colonization, colonization: {attractors: high}}, seeds: [[0, 0.2, 0]]}
+iterations: 100
+)");
+  EXPECT_GT(report_.growth->plants.at(0).segments, 50u);
+}
+
 TEST_F(Fed, TheSameBytesOnAnyNumberOfThreads) {
   std::vector<std::string> models;
   for (const int threads : {1, 5}) {

@@ -49,7 +49,7 @@ const std::vector<BadFile> kBadScenes = {
      {"2:27: world.layers is '4.5', which is no whole number"}},
     {"a mesh without a file",
      "meshes: [{name: wall}]\n",
-     {"3:10: a mesh without a file; expected file: MESH.obj, or lines: [[[x, y, z],"}},
+     {"3:10: a mesh without a file; expected file: MESH.obj, from: SCENE.yaml, or lines: [[[x, y, z],"}},
     {"lines and a file",
      "meshes: [{file: a.obj, lines: [[[0, 0, 0]]]}]\n",
      {"3:17: file means nothing to lines; expected one of them"}},

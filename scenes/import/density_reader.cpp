@@ -74,20 +74,13 @@ sim::DensityPicture densityFromChild(std::string_view bytes, sim::InputFile& rea
 }
 
 sim::DensityPicture readDensity(const std::filesystem::path& file, sim::InputFile& read) {
-  try {
+  return namingFile(file, [&] {
     const std::uintmax_t size = sizeOfFile(file, "picture");
     render::makeReadyToDraw();  // the child would load it for itself, and say less of why it cannot
-    const std::string bytes = readInChild([&] { return packedDensity(file); }, limitsFor(size), "picture");
     read = {cleanText(file.filename().string()), "density", 0};
-    try {
-      return densityFromChild(bytes, read);
-    } catch (const std::runtime_error& error) {
-      throw sim::InputError(
-          fmt::format("the file is damaged: it confused the picture reader ({})", error.what()));
-    }
-  } catch (const sim::InputError& error) {
-    throw sim::InputError(fmt::format("{}: {}", file.string(), cleanText(error.what())));
-  }
+    return readInChild([&] { return packedDensity(file); }, limitsFor(size), "picture",
+                       [&](std::string_view bytes) { return densityFromChild(bytes, read); });
+  });
 }
 
 }  // namespace espalier::scenes

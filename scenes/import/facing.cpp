@@ -6,10 +6,10 @@
 #include <numeric>
 
 #include "render/finish/ray_scene.h"
-#include "scenes/import/joined.h"
 #include "sim/base/parallel.h"
 #include "sim/base/random.h"
 #include "sim/light/sky.h"
+#include "sim/tile/joined.h"
 
 namespace espalier::scenes {
 namespace {
@@ -29,12 +29,12 @@ Vec3 crossOf(const sim::Mesh& mesh, std::size_t triangle) {
 }
 
 /// Which triangles are wound against the larger part of what they hang together with, and how large that is.
-struct Patches : WoundPatches {
+struct Patches : sim::WoundPatches {
   std::vector<double> areas;
 };
 
 Patches patchesOf(const sim::Mesh& mesh) {
-  Patches patches{woundPatches(joined(mesh)), {}};
+  Patches patches{sim::woundPatches(sim::joined(mesh)), {}};
   for (const std::vector<std::uint32_t>& patch : patches.triangles) {
     double area = 0.0, against = 0.0;
     for (const std::uint32_t t : patch) {

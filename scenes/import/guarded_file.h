@@ -1,10 +1,13 @@
 #pragma once
 #include <cstdint>
+#include <exception>
 #include <filesystem>
 #include <functional>
 #include <string>
 
+#include "scenes/clean_text.h"
 #include "scenes/import/child_process.h"
+#include "sim/base/error.h"
 
 /// Files of strangers, read by libraries that they can break.
 namespace espalier::scenes {
@@ -23,5 +26,28 @@ ChildLimits limitsFor(std::uintmax_t bytes);
 /// name, with what it throws there, or that it crashed, took too long or too much memory.
 std::string readInChild(const std::function<std::string()>& work, const ChildLimits& limits,
                         const std::string& what);
+
+/// What `unpack` makes of that: it does not trust the bytes, and throws a std::exception where they make no
+/// sense. Throws sim::InputError then too.
+template <class Unpack>
+auto readInChild(const std::function<std::string()>& work, const ChildLimits& limits, const std::string& what,
+                 Unpack unpack) {
+  const std::string bytes = readInChild(work, limits, what);
+  try {
+    return unpack(bytes);
+  } catch (const std::exception& error) {
+    throw sim::InputError("the file is damaged: it confused the " + what + " reader (" + error.what() + ")");
+  }
+}
+
+/// What `work` returns. A sim::InputError of its own begins with the file's path then, in one line.
+template <class Work>
+auto namingFile(const std::filesystem::path& file, Work work) {
+  try {
+    return work();
+  } catch (const sim::InputError& error) {
+    throw sim::InputError(file.string() + ": " + cleanText(error.what()));
+  }
+}
 
 }  // namespace espalier::scenes

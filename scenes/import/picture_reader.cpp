@@ -76,31 +76,24 @@ sim::Picture pictureFromChild(std::string_view bytes, sim::InputFile& read) {
 }
 
 std::shared_ptr<const sim::Picture> readPicture(const std::filesystem::path& file, sim::InputFile& read) {
-  try {
+  return namingFile(file, [&]() -> std::shared_ptr<const sim::Picture> {
     const std::uintmax_t size = sizeOfFile(file, "picture");
     if (size > kMostPngBytes)
       throw sim::InputError(
           fmt::format("it has {} MB; a picture may have at most {} MB", size >> 20, kMostPngBytes >> 20));
     render::makeReadyToDraw();  // the child would load it for itself, and say less of why it cannot
-    const std::string bytes = readInChild([&] { return packedPicture(file); }, limitsFor(size), "picture");
     const std::string name = cleanText(file.filename().string());
     read = {name, "picture", 0};
-    auto picture = std::make_shared<sim::Picture>();
-    try {
-      *picture = pictureFromChild(bytes, read);
-    } catch (const std::runtime_error& error) {
-      throw sim::InputError(
-          fmt::format("the file is damaged: it confused the picture reader ({})", error.what()));
-    }
+    const auto picture = std::make_shared<sim::Picture>(
+        readInChild([&] { return packedPicture(file); }, limitsFor(size), "picture",
+                    [&](std::string_view bytes) { return pictureFromChild(bytes, read); }));
     if (std::none_of(picture->texels.begin(), picture->texels.end(), opaque))
       throw sim::InputError(
           "nothing of it is opaque: its alpha is below a half everywhere; expected a picture of "
           "something");
     picture->name = name;
     return picture;
-  } catch (const sim::InputError& error) {
-    throw sim::InputError(fmt::format("{}: {}", file.string(), cleanText(error.what())));
-  }
+  });
 }
 
 sim::Colour meanColour(const sim::Picture& picture) {

@@ -86,19 +86,12 @@ std::vector<FileTree> skeletonsFromChild(std::string_view bytes, sim::InputFile&
 }
 
 std::vector<FileTree> readSkeletons(const std::filesystem::path& file, sim::InputFile& read) {
-  try {
+  return namingFile(file, [&] {
     const ChildLimits limits = limitsFor(sizeOfFile(file, "skeleton"));
-    const std::string bytes = readInChild([&] { return packedSkeletons(file); }, limits, "skeleton");
     read = {file.filename().string(), "skeleton", 0};
-    try {
-      return skeletonsFromChild(bytes, read);
-    } catch (const std::runtime_error& error) {
-      throw sim::InputError(
-          fmt::format("the file is damaged: it confused the skeleton reader ({})", error.what()));
-    }
-  } catch (const sim::InputError& error) {
-    throw sim::InputError(fmt::format("{}: {}", file.string(), error.what()));
-  }
+    return readInChild([&] { return packedSkeletons(file); }, limits, "skeleton",
+                       [&](std::string_view bytes) { return skeletonsFromChild(bytes, read); });
+  });
 }
 
 void placeSkeletons(std::vector<FileTree>& trees, const Placement& placement) {

@@ -83,25 +83,17 @@ sim::SkyPicture skyFromChild(std::string_view bytes, sim::InputFile& read) {
 }
 
 sim::SkyPicture readSky(const std::filesystem::path& file, sim::InputFile& read) {
-  try {
+  return namingFile(file, [&] {
     const std::uintmax_t size = sizeOfFile(file, "picture");
     render::makeReadyToDraw();  // the child would load it for itself, and say less of why it cannot
-    const std::string bytes = readInChild([&] { return packedSky(file); }, limitsFor(size), "picture");
     read = {cleanText(file.filename().string()), "sky", 0};
-    sim::SkyPicture picture;
-    try {
-      picture = skyFromChild(bytes, read);
-    } catch (const std::runtime_error& error) {
-      throw sim::InputError(
-          fmt::format("the file is damaged: it confused the picture reader ({})", error.what()));
-    }
+    sim::SkyPicture picture = readInChild([&] { return packedSky(file); }, limitsFor(size), "picture",
+                                          [&](std::string_view bytes) { return skyFromChild(bytes, read); });
     if (std::none_of(picture.radiance.begin(), picture.radiance.end(),
                      [](float value) { return value > 0.0f; }))
       throw sim::InputError("it is black above the horizon; expected a sky");
     return picture;
-  } catch (const sim::InputError& error) {
-    throw sim::InputError(fmt::format("{}: {}", file.string(), cleanText(error.what())));
-  }
+  });
 }
 
 }  // namespace espalier::scenes

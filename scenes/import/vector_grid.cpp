@@ -235,19 +235,12 @@ VectorLattice latticeFromChild(std::string_view bytes, sim::InputFile& read) {
 
 VectorLattice readVectorGrid(const std::filesystem::path& file, const std::string& grid,
                              sim::InputFile& read) {
-  try {
+  return namingFile(file, [&] {
     const ChildLimits limits = limitsFor(sizeOfFile(file, "volume"));
-    const std::string bytes = readInChild([&] { return packedLattice(file, grid); }, limits, "volume");
     read = {file.filename().string(), "volume", 0};
-    try {
-      return latticeFromChild(bytes, read);
-    } catch (const std::runtime_error& error) {
-      throw sim::InputError(
-          fmt::format("the file is damaged: it confused the volume reader ({})", error.what()));
-    }
-  } catch (const sim::InputError& error) {
-    throw sim::InputError(fmt::format("{}: {}", file.string(), error.what()));
-  }
+    return readInChild([&] { return packedLattice(file, grid); }, limits, "volume",
+                       [&](std::string_view bytes) { return latticeFromChild(bytes, read); });
+  });
 }
 
 }  // namespace espalier::scenes

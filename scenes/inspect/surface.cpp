@@ -6,17 +6,18 @@
 #include <map>
 #include <tuple>
 
-#include "scenes/import/joined.h"
 #include "scenes/inspect/mesh_shape.h"
 #include "scenes/inspect/winding.h"
+#include "sim/base/sets.h"
+#include "sim/tile/joined.h"
 
 namespace espalier::scenes {
 namespace {
 
 /// Of what hangs together each triangle either agrees with the first or does not: the fewer are those to be
 /// turned.
-std::size_t flippedIn(const Joined& mesh) {
-  const WoundPatches patches = woundPatches(mesh);
+std::size_t flippedIn(const sim::Joined& mesh) {
+  const sim::WoundPatches patches = sim::woundPatches(mesh);
   std::size_t flipped = 0;
   for (const std::vector<std::uint32_t>& patch : patches.triangles) {
     const auto against = static_cast<std::size_t>(
@@ -26,10 +27,10 @@ std::size_t flippedIn(const Joined& mesh) {
   return flipped;
 }
 
-void countEdges(const Joined& mesh, Surface& surface) {
-  Sets rims(mesh.places);
+void countEdges(const sim::Joined& mesh, Surface& surface) {
+  sim::Sets rims(mesh.places);
   std::vector<std::uint32_t> on_rims;
-  forEachEdge(mesh, [&](const Side* sides, std::size_t count) {
+  forEachEdge(mesh, [&](const sim::Side* sides, std::size_t count) {
     surface.crowded_edges += count > 2;
     if (count != 1) return;
     ++surface.open_edges;
@@ -41,7 +42,7 @@ void countEdges(const Joined& mesh, Surface& surface) {
   surface.rims = static_cast<std::size_t>(std::unique(on_rims.begin(), on_rims.end()) - on_rims.begin());
 }
 
-std::size_t duplicatesIn(Joined mesh) {
+std::size_t duplicatesIn(sim::Joined mesh) {
   for (auto& triangle : mesh.triangles) std::sort(triangle.begin(), triangle.end());
   std::sort(mesh.triangles.begin(), mesh.triangles.end());
   const auto last = std::unique(mesh.triangles.begin(), mesh.triangles.end());
@@ -124,9 +125,9 @@ void findBodies(const sim::Mesh& mesh, const std::vector<Patch>& patches, double
 }
 
 /// The piece of each triangle, by number.
-std::vector<std::uint32_t> piecesOf(const Joined& mesh, std::size_t& count) {
-  Sets sets(mesh.triangles.size());
-  forEachEdge(mesh, [&](const Side* sides, std::size_t sharing) {
+std::vector<std::uint32_t> piecesOf(const sim::Joined& mesh, std::size_t& count) {
+  sim::Sets sets(mesh.triangles.size());
+  forEachEdge(mesh, [&](const sim::Side* sides, std::size_t sharing) {
     for (std::size_t i = 1; i < sharing; ++i) sets.join(sides[0].triangle, sides[i].triangle);
   });
   std::vector<std::uint32_t> piece(mesh.triangles.size()), number(mesh.triangles.size(), ~0u);
@@ -150,7 +151,7 @@ Body bodyOf(double winding) {
 }
 
 Surface surfaceOf(const sim::Mesh& mesh) {
-  const Joined whole = joined(mesh);
+  const sim::Joined whole = sim::joined(mesh);
   Surface surface;
   surface.corners = whole.corners;
   countEdges(whole, surface);

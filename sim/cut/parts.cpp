@@ -2,31 +2,16 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <tuple>
+#include <utility>
 
 #include "sim/base/parallel.h"
+#include "sim/base/sets.h"
 #include "sim/base/stop.h"
+#include "sim/tile/joined.h"
 
 namespace espalier::sim {
 namespace {
-
-/// What hangs together, by numbers: each its least one.
-class Sets {
- public:
-  explicit Sets(std::size_t count) : of_(count) { std::iota(of_.begin(), of_.end(), 0u); }
-  std::uint32_t of(std::uint32_t i) {
-    while (of_[i] != i) i = of_[i] = of_[of_[i]];
-    return i;
-  }
-  void join(std::uint32_t a, std::uint32_t b) {
-    const auto [low, high] = std::minmax({of(a), of(b)});
-    of_[high] = low;
-  }
-
- private:
-  std::vector<std::uint32_t> of_;
-};
 
 /// Volume and middle by tetrahedra from its first point, so that far from the origin no digits are lost.
 void measure(ClosedPart& part) {
@@ -120,32 +105,18 @@ std::vector<ClosedPart> partsOf(const QuadSurface& surface) {
 }
 
 OpenEdges openEdgesOf(const Mesh& mesh) {
-  std::vector<std::uint32_t> order(mesh.vertices_m.size()), place(mesh.vertices_m.size());
-  std::iota(order.begin(), order.end(), 0u);
-  const auto key = [&](std::uint32_t i) {
-    const Vec3& p = mesh.vertices_m[i];
-    return std::tuple(p.x, p.y, p.z);
-  };
-  std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) { return key(a) < key(b); });
-  for (std::size_t i = 0; i < order.size(); ++i)
-    place[order[i]] = i > 0 && key(order[i - 1]) == key(order[i]) ? place[order[i - 1]] : order[i];
-  std::vector<std::array<std::uint32_t, 2>> edges;
-  edges.reserve(3 * mesh.triangles.size());
-  for (const auto& t : mesh.triangles) {
-    for (std::size_t k = 0; k < 3; ++k) {
-      const auto [a, b] = std::minmax({place[t[k]], place[t[(k + 1) % 3]]});
-      if (a != b) edges.push_back({a, b});
-    }
-  }
-  std::sort(edges.begin(), edges.end());
+  const Joined whole = joined(mesh);
   OpenEdges open;
-  for (std::size_t i = 0; i < edges.size();) {
-    const std::size_t first = i;
-    while (i < edges.size() && edges[i] == edges[first]) ++i;
-    if ((i - first) % 2 == 0) continue;
-    if (open.count++ == 0)
-      open.at_m = 0.5 * (mesh.vertices_m[edges[first][0]] + mesh.vertices_m[edges[first][1]]);
-  }
+  forEachEdge(whole, [&](const Side* sides, std::size_t sharing) {
+    if (sharing % 2 == 0 || open.count++ > 0) return;
+    const auto& places = whole.triangles[sides->triangle];
+    const auto& corners = mesh.triangles[sides->triangle];
+    for (std::size_t k = 0; k < 3; ++k) {
+      const std::size_t next = (k + 1) % 3;
+      if (std::minmax({places[k], places[next]}) == std::pair(sides->a, sides->b))
+        open.at_m = 0.5 * (mesh.vertices_m[corners[k]] + mesh.vertices_m[corners[next]]);
+    }
+  });
   return open;
 }
 

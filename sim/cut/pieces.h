@@ -57,10 +57,10 @@ inline constexpr double kLeastKerf_vx = 2.0;
 void requireCuttable(const Mesh& solid, const CutSettings& settings);
 
 /// Cuts a solid along lines, by level sets (OpenVDB): what lies nearer to a line, or to its sheet, than half
-/// of the kerf is taken away (the threshold distance of Tanaka 2018, section 3.7.5), and what is left falls
-/// into what hangs together. Where a level set's cells would have more than one surface, which meshes could
-/// only show by edges of four triangles, voxels of the solid give way. Surfaces are as the level set has
-/// them: within half a voxel, edges as round. The same bytes on any number of threads.
+/// of the kerf is taken away (the threshold distance of Tanaka et al. 2020, section 3.7.5), and what is left
+/// falls into what hangs together. Where a level set's cells would have more than one surface, which meshes
+/// could only show by edges of four triangles, voxels of the solid give way. Surfaces are as the level set
+/// has them: within half a voxel, edges as round. The same bytes on any number of threads.
 ///
 /// Throws InputError where requireCuttable does, for a mesh without an inside, and where nothing is left of
 /// it. Stopped.

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <bit>
-#include <numeric>
 
 #include "sim/base/stop.h"
 
@@ -41,8 +40,7 @@ Bodies::Bodies(const BitVolume& voxels, const BitVolume& but, int foot) {
       ends_.push_back(runs_.size());
     }
   }
-  parent_.resize(runs_.size());
-  std::iota(parent_.begin(), parent_.end(), std::size_t{0});
+  bodies_ = Sets(runs_.size());
   const auto z_rows = static_cast<std::size_t>(size.z);
   for (std::size_t row = 0; row < ends_.size(); ++row) {
     if (row % z_rows != 0) joinRows(row, row - 1);
@@ -56,13 +54,8 @@ void Bodies::joinRows(std::size_t row, std::size_t other) {
   for (std::size_t i = begin(row); i < ends_[row]; ++i) {
     while (from < ends_[other] && runs_[from].last < runs_[i].first) ++from;
     for (std::size_t k = from; k < ends_[other] && runs_[k].first <= runs_[i].last; ++k)
-      parent_[bodyOf(k)] = bodyOf(i);
+      bodies_.join(k, i);
   }
-}
-
-std::size_t Bodies::bodyOf(std::size_t run) {
-  while (parent_[run] != run) run = parent_[run] = parent_[parent_[run]];
-  return run;
 }
 
 std::size_t countIn(const BitVolume& voxels, const Run& run) {

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "sim/base/bits.h"
+#include "sim/base/sets.h"
 
 namespace espalier::sim {
 
@@ -23,14 +24,14 @@ class Bodies {
   /// In (y, z, x) order.
   const std::vector<Run>& runs() const { return runs_; }
   /// The same number, of a run, for all runs of a body.
-  std::size_t bodyOf(std::size_t run);
+  std::size_t bodyOf(std::size_t run) { return bodies_.of(run); }
 
  private:
   void joinRows(std::size_t row, std::size_t other);
 
   std::vector<Run> runs_;
   std::vector<std::size_t> ends_;  // of each row's runs
-  std::vector<std::size_t> parent_;
+  Sets bodies_;
 };
 
 /// How many voxels of a run are set.

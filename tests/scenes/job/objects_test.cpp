@@ -11,6 +11,7 @@
 #include "scenes/prepare/plantings.h"
 #include "scenes/problem.h"
 #include "scenes/read/read_scene.h"
+#include "sim/base/sets.h"
 #include "sim/grow/grow.h"
 #include "sim/scatter/surface_points.h"
 #include "sim/sense/scene_surface.h"
@@ -175,17 +176,6 @@ TEST(Delta, FansOutToTheCoastInEveryDirection) {
   expectDelta({{"voxel: 30 m", "voxel: 20 m"}});
 }
 
-/// What is left of several sets when all that share a member are made one.
-class Sets {
- public:
-  explicit Sets(std::size_t count) : of_(count) { std::iota(of_.begin(), of_.end(), std::size_t{0}); }
-  std::size_t find(std::size_t i) const { return of_[i] == i ? i : find(of_[i]); }
-  void join(std::size_t a, std::size_t b) { of_[find(a)] = find(b); }
-
- private:
-  std::vector<std::size_t> of_;
-};
-
 void expectShell(const Edits& edits, double reach_m) {
   const Object shell = made("branch_shell", edits);
   const sim::Mesh& body = shell.site.meshes.at(0).mesh;
@@ -204,7 +194,7 @@ void expectShell(const Edits& edits, double reach_m) {
   }
   // The roots' branches hang together.
   const auto& plants = shell.growth.plants;
-  Sets sets(plants.size());
+  sim::Sets sets(plants.size());
   for (std::size_t a = 0; a < plants.size(); ++a) {
     const auto& places = plants[a].skeleton.position_vx;
     for (std::size_t b = 0; b < a; ++b) {
@@ -213,7 +203,7 @@ void expectShell(const Edits& edits, double reach_m) {
         sets.join(a, b);
     }
   }
-  for (std::size_t a = 1; a < plants.size(); ++a) EXPECT_EQ(sets.find(a), sets.find(0)) << a;
+  for (std::size_t a = 1; a < plants.size(); ++a) EXPECT_EQ(sets.of(a), sets.of(0)) << a;
 }
 
 const Edits kSparse{{"spacing: 3 cm, waves: 3", "spacing: 4 cm, waves: 2"}};

@@ -1,27 +1,12 @@
 #pragma once
 #include <array>
+#include <cstddef>
 #include <cstdint>
-#include <numeric>
-#include <utility>
 #include <vector>
 
 #include "sim/tile/mesh.h"
 
-namespace espalier::scenes {
-
-/// Sets that grow together.
-class Sets {
- public:
-  explicit Sets(std::size_t count) : over_(count) { std::iota(over_.begin(), over_.end(), 0u); }
-  std::uint32_t of(std::uint32_t item) {
-    while (over_[item] != item) item = over_[item] = over_[over_[item]];
-    return item;
-  }
-  void join(std::uint32_t a, std::uint32_t b) { over_[of(a)] = of(b); }
-
- private:
-  std::vector<std::uint32_t> over_;
-};
+namespace espalier::sim {
 
 /// A side of a triangle, on corners a < b.
 struct Side {
@@ -37,7 +22,7 @@ struct Joined {
   std::vector<Side> sides;  ///< those on the same edge beside each other
 };
 
-Joined joined(const sim::Mesh& mesh);
+Joined joined(const Mesh& mesh);
 
 /// Calls for each edge with its sides.
 template <class Visit>
@@ -60,4 +45,4 @@ struct WoundPatches {
 
 WoundPatches woundPatches(const Joined& mesh);
 
-}  // namespace espalier::scenes
+}  // namespace espalier::sim

@@ -1,17 +1,18 @@
-#include "scenes/import/joined.h"
+#include "sim/tile/joined.h"
 
 #include <algorithm>
+#include <numeric>
 #include <tuple>
 
 #include "sim/base/stop.h"
 
-namespace espalier::scenes {
+namespace espalier::sim {
 
-Joined joined(const sim::Mesh& mesh) {
+Joined joined(const Mesh& mesh) {
   std::vector<std::uint32_t> order(mesh.vertices_m.size());
   std::iota(order.begin(), order.end(), 0u);
   const auto at = [&](std::uint32_t v) {
-    const sim::Vec3& p = mesh.vertices_m[v];
+    const Vec3& p = mesh.vertices_m[v];
     return std::tuple(p.x, p.y, p.z);
   };
   std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) { return at(a) < at(b); });
@@ -64,7 +65,7 @@ WoundPatches woundPatches(const Joined& mesh) {
   std::vector<bool> met(count);
   for (std::size_t first = 0; first < count; ++first) {
     if (met[first]) continue;
-    sim::throwIfStopped();
+    throwIfStopped();
     met[first] = true;
     std::vector<std::uint32_t> patch{static_cast<std::uint32_t>(first)};
     for (std::size_t i = 0; i < patch.size(); ++i) {
@@ -82,4 +83,4 @@ WoundPatches woundPatches(const Joined& mesh) {
   return patches;
 }
 
-}  // namespace espalier::scenes
+}  // namespace espalier::sim

@@ -274,6 +274,20 @@ Result<Scene> readScene(const fs::path& path, const OpenTexts& open) {
   return readWith(path, asked, open);
 }
 
+Scene filesOfScene(const fs::path& path, const OpenTexts& open) {
+  Problems problems;
+  const Document document = readDocument(path, FileKind::scene, problems, open);
+  Scene files;
+  if (!document.root) return files;
+  AskedScenes asked(
+      [&open](const fs::path& other, AskedScenes& others) { return readWith(other, others, open); });
+  Scene scene = sceneOf(document, path, asked, problems, open);
+  files.file = path;
+  files.read_files = std::move(scene.read_files);
+  files.read_paths = std::move(scene.read_paths);
+  return files;
+}
+
 Result<Scene> readSceneText(const std::string& text, const fs::path& path) {
   Problems problems;
   const Document document = documentOf(text, path.string(), wholeFile(path), FileKind::scene, problems);

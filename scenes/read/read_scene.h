@@ -19,6 +19,10 @@ Result<Scene> readScene(const std::filesystem::path& path, const OpenTexts& open
 /// The same for a text that is to become the file `path`.
 Result<Scene> readSceneText(const std::string& text, const std::filesystem::path& path);
 
+/// The scene file and the rule files that it names, so far as they can be read, whatever is wrong with them:
+/// a scene's read_files and read_paths, and nothing else of it.
+Scene filesOfScene(const std::filesystem::path& path, const OpenTexts& open = {});
+
 struct RulesOrScene {
   std::optional<Scene> scene;     ///< without one they are rules
   std::vector<Problem> warnings;  ///< what its files say without effect

@@ -51,7 +51,8 @@ int refusalByPlace(const Asker& asker, const House& house) {
   if (!plain && asker.origin.empty()) return kForbidden;
   const bool from_here = asker.fetch_site.empty() || asker.fetch_site == "same-origin";
   if (!plain && !from_here) return kForbidden;
-  // A link elsewhere may lead to the page, and gets no further than the cookie allows: SameSite keeps it away.
+  // A link elsewhere may lead to the page, and gets no further than the cookie allows: SameSite keeps it
+  // away.
   return 0;
 }
 

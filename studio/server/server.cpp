@@ -48,15 +48,16 @@ std::string libraryJson() {
 
 /// No room is left for a browser to guess, keep or let others frame what it is sent.
 httplib::Headers headersOfAll() {
-  return {{"Content-Security-Policy",
-           "default-src 'none'; script-src 'self'; style-src 'self' 'unsafe-inline'; img-src 'self' blob: data:; "
-           "connect-src 'self' blob:; worker-src 'self' blob:; base-uri 'none'; form-action 'none'; "
-           "frame-ancestors 'none'"},
-          {"X-Content-Type-Options", "nosniff"},
-          {"Cache-Control", "no-store"},
-          {"Referrer-Policy", "no-referrer"},
-          {"Cross-Origin-Opener-Policy", "same-origin"},
-          {"Cross-Origin-Resource-Policy", "same-origin"}};
+  return {
+      {"Content-Security-Policy",
+       "default-src 'none'; script-src 'self'; style-src 'self' 'unsafe-inline'; img-src 'self' blob: data:; "
+       "connect-src 'self' blob:; worker-src 'self' blob:; base-uri 'none'; form-action 'none'; "
+       "frame-ancestors 'none'"},
+      {"X-Content-Type-Options", "nosniff"},
+      {"Cache-Control", "no-store"},
+      {"Referrer-Policy", "no-referrer"},
+      {"Cross-Origin-Opener-Policy", "same-origin"},
+      {"Cross-Origin-Resource-Policy", "same-origin"}};
 }
 
 }  // namespace
@@ -71,8 +72,9 @@ class Server::Routes {
     http_.set_write_timeout(10);
     http_.set_keep_alive_timeout(5);
     http_.set_default_headers(headersOfAll());
-    http_.set_pre_routing_handler(
-        [this](const httplib::Request& request, httplib::Response& response) { return judge(request, response); });
+    http_.set_pre_routing_handler([this](const httplib::Request& request, httplib::Response& response) {
+      return judge(request, response);
+    });
     http_.set_exception_handler(
         [](const httplib::Request&, httplib::Response& response, std::exception_ptr thrown) {
           try {
@@ -90,8 +92,8 @@ class Server::Routes {
     addReading();
     addWriting();
     addStream();
-    house_.port = port == 0 ? http_.bind_to_any_port("127.0.0.1")
-                            : (http_.bind_to_port("127.0.0.1", port) ? port : -1);
+    house_.port =
+        port == 0 ? http_.bind_to_any_port("127.0.0.1") : (http_.bind_to_port("127.0.0.1", port) ? port : -1);
     if (house_.port <= 0)
       throw sim::InputError("the port " + std::to_string(port) +
                             " of this machine cannot be had; expected one that is free");
@@ -143,9 +145,10 @@ class Server::Routes {
     }
     if (pageFiles().empty()) {
       http_.Get("/", [](const Request&, Response& response) {
-        response.set_content("This espalier was built without its page: node 18 or newer and npm were missing, "
-                             "or npm could not fetch what the page is made from.\n",
-                             "text/plain; charset=utf-8");
+        response.set_content(
+            "This espalier was built without its page: node 18 or newer and npm were missing, "
+            "or npm could not fetch what the page is made from.\n",
+            "text/plain; charset=utf-8");
       });
     }
   }

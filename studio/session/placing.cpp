@@ -114,8 +114,7 @@ TextEdit::At behindBracket(const std::vector<std::string>& lines, const scenes::
 const YamlNode& plantNode(const YamlNode& root, const scenes::Scene& scene, const std::string& planting) {
   const auto at = std::find_if(scene.plants.begin(), scene.plants.end(),
                                [&](const scenes::PlantSpec& plant) { return plant.name == planting; });
-  if (at == scene.plants.end())
-    throw sim::InputError("no planting is called " + scenes::inQuotes(planting));
+  if (at == scene.plants.end()) throw sim::InputError("no planting is called " + scenes::inQuotes(planting));
   const auto* const plants = root.entry("plants");
   const auto index = static_cast<std::size_t>(at - scene.plants.begin());
   if (!plants || index >= plants->value.items.size())

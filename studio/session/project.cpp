@@ -47,7 +47,8 @@ Project::Project(const fs::path& scene) {
   const scenes::Place whole{std::make_shared<const std::string>(scene.string()), 0, 0};
   const auto text = scenes::readText(path.string(), whole, problems);
   if (!text) throw scenes::PlacedError(problems.sorted());
-  files_.push_back({scenes::cleanText(path.filename().string()), path, true, false, *text, hashOfText(*text)});
+  files_.push_back(
+      {scenes::cleanText(path.filename().string()), path, true, false, *text, hashOfText(*text)});
   stamps_[path.string()] = stampOf(path);
 }
 
@@ -92,6 +93,7 @@ void Project::write(const std::string& name, std::string text) {
 }
 
 bool Project::take(const scenes::Scene& scene) {
+  if (scene.read_files.empty()) return false;
   std::vector<OpenFile> files{files_.front()};
   std::size_t path = 0;
   for (const sim::InputFile& read : scene.read_files) {
@@ -113,7 +115,8 @@ bool Project::take(const scenes::Scene& scene) {
   }
   for (const OpenFile& file : files_) {
     const auto same = [&](const OpenFile& other) { return other.path == file.path; };
-    if (std::none_of(files.begin(), files.end(), same) && !file.library && hashOfText(file.text) != file.saved)
+    if (std::none_of(files.begin(), files.end(), same) && !file.library &&
+        hashOfText(file.text) != file.saved)
       files.push_back(file);
   }
   const bool others = !std::equal(files.begin(), files.end(), files_.begin(), files_.end(),

@@ -39,8 +39,8 @@ class Project {
 
   /// Throws InputError for a name that none has, and for a file of the library.
   void write(const std::string& name, std::string text);
-  /// Files that a scene names come in, those that it does not name go, but for ones with unsaved words.
-  /// Whether any did.
+  /// Files that a scene names (its read_files) come in, those that it does not name go, but for ones with
+  /// unsaved words; where it names none at all, nothing happens. Whether any did.
   bool take(const scenes::Scene& scene);
 
   /// Puts a text into its file, whole or not at all. `saved`: the hash that the writer knows. Where the file

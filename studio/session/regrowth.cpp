@@ -173,9 +173,8 @@ void Regrowth::grow() {
   stage("growing", [&] {
     site_->world = *bare_;
     std::unique_ptr<sim::Growing> growing;
-    scenes::inScene(scene_, [&] {
-      growing = scenes::beginGrowth(scene_, *site_, plans_.plantings, growthSettings());
-    });
+    scenes::inScene(
+        scene_, [&] { growing = scenes::beginGrowth(scene_, *site_, plans_.plantings, growthSettings()); });
     struct Watched {
       const sim::Growth*& growing;
       ~Watched() { growing = nullptr; }

@@ -32,7 +32,8 @@ constexpr int kBadRequest = 400, kConflict = 409, kTooMany = 429;
 fs::path newFolder() {
   std::string name = (fs::temp_directory_path() / "espalier-studio-XXXXXX").string();
   if (::mkdtemp(name.data()) == nullptr)
-    throw sim::InputError(name + ": a folder cannot be made there: " + std::generic_category().message(errno));
+    throw sim::InputError(name +
+                          ": a folder cannot be made there: " + std::generic_category().message(errno));
   return name;
 }
 
@@ -52,9 +53,8 @@ auto refusing(Work work) {
 
 Session::Session(const fs::path& scene, int threads)
     : project_(scene), threads_(threads), folder_(newFolder()) {
-  worker_ = std::jthread([this](std::stop_token ends) {
-    sim::onThreads(threads_, [&] { work(std::move(ends)); });
-  });
+  worker_ = std::jthread(
+      [this](std::stop_token ends) { sim::onThreads(threads_, [&] { work(std::move(ends)); }); });
   edit({});
 }
 
@@ -119,14 +119,14 @@ std::string Session::edit(const std::map<std::string, std::string>& texts) {
     edit.scene = *scene;
   } else {
     edit.told.errors = scene.problems();
+    others = project_.take(scenes::filesOfScene(project_.scene(), project_.texts()));
   }
   const std::string answer = "{\"version\":" + std::to_string(edit.version) +
                              ",\"problems\":" + problemsJson(edit.told, names()) + "}";
   next_ = std::move(edit);
   current_.request_stop();
   lock.unlock();
-  if (others)
-    hub_.send(frameOf(FrameKind::event, textOf({{"event", "project"}, {"version", version_}})));
+  if (others) hub_.send(frameOf(FrameKind::event, textOf({{"event", "project"}, {"version", version_}})));
   woken_.notify_all();
   return answer;
 }
@@ -160,9 +160,8 @@ void Session::work(std::stop_token ends) {
                     {[this](std::string frame) { hub_.send(std::move(frame)); }, [&] { answer(regrowth); }});
   std::unique_lock lock(mutex_);
   while (!ends.stop_requested()) {
-    woken_.wait_for(lock, kBetweenLooksAtDisk, [&] {
-      return ends.stop_requested() || next_ || !questions_.empty() || hub_.anyNew();
-    });
+    woken_.wait_for(lock, kBetweenLooksAtDisk,
+                    [&] { return ends.stop_requested() || next_ || !questions_.empty() || hub_.anyNew(); });
     if (ends.stop_requested()) break;
     if (next_) {
       Edit edit = *std::exchange(next_, std::nullopt);

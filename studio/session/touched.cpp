@@ -57,7 +57,8 @@ std::string tilingText(const scenes::Scene& scene) {
     return begins(path, {"meshes", "world", "fields", "sky.background"}) || isOfFiles(path);
   });
   for (const scenes::SceneMesh& mesh : scene.meshes) addStamp(text, mesh.file);
-  forEachTable(scene, [&](const scenes::PointTable& table, const std::string&) { addStamp(text, table.file); });
+  forEachTable(scene,
+               [&](const scenes::PointTable& table, const std::string&) { addStamp(text, table.file); });
   for (const scenes::AttractorsSpec& attractors : scene.attractors) {
     if (attractors.picture) addStamp(text, attractors.picture->file);
   }
@@ -70,8 +71,9 @@ std::string tilingText(const scenes::Scene& scene) {
 }
 
 std::string lightText(const scenes::Scene& scene) {
-  return chosen(scenes::settings(scene),
-                [](std::string_view path) { return begins(path, {"sky", "sun", "seed"}); });
+  return chosen(scenes::settings(scene), [](std::string_view path) {
+    return begins(path, {"sky", "sun", "seed"});
+  });
 }
 
 std::string growthText(const scenes::Scene& scene, const scenes::Site& site) {

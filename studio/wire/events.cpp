@@ -20,7 +20,8 @@ std::string meantIn(const std::string& text) {
 }
 
 Json problemJson(const scenes::Problem& problem, const char* severity, const FileNames& names) {
-  Json json{{"file", names(problem.path)}, {"severity", severity}, {"message", scenes::cleanText(problem.text)}};
+  Json json{
+      {"file", names(problem.path)}, {"severity", severity}, {"message", scenes::cleanText(problem.text)}};
   if (problem.line > 0) {
     json["line"] = problem.line;
     json["column"] = problem.column;
@@ -55,8 +56,8 @@ Json seedsJson(const scenes::Scene& scene, const sim::Frame& frame,
     const std::size_t written = scene.plants[p].seeds.size();
     for (std::size_t s = 0; s < plantings[p].seeds.size(); ++s) {
       const bool movable = s < written;
-      const sim::Vec3 at_m = movable ? scene.plants[p].seeds[s].at_m
-                                     : sim::worldFromVoxel(frame, plantings[p].seeds[s].at_vx);
+      const sim::Vec3 at_m =
+          movable ? scene.plants[p].seeds[s].at_m : sim::worldFromVoxel(frame, plantings[p].seeds[s].at_vx);
       seeds.push_back({{"planting", plantings[p].name},
                        {"seed", s},
                        {"key", movable ? scene.plants[p].seeds[s].key : ""},
@@ -153,21 +154,21 @@ std::string grownEvent(Version version, const scenes::Report::Growth& growth, in
     if (plant.failure) one["failure"] = scenes::whyItDidNotGrow(*plant.failure);
     plants.push_back(std::move(one));
   }
-  return textOf({{"event", "growth"},
-                 {"version", version},
-                 {"iteration", growth.iterations},
-                 {"iterations", iterations},
-                 {"segments", segments},
-                 {"elements", elements},
-                 {"sites", 0},
-                 {"done", true},
-                 {"seconds", seconds},
-                 {"hash", sim::hexOf(growth.state_hash)},
-                 {"ending", ending},
-                 {"plants", std::move(plants)},
-                 {"poor", scenes::poorPlants(growth.plants)},
-                 {"outcomes",
-                  {{"buds", outcomesJson(growth.buds)}, {"trials", outcomesJson(growth.trials)}}}});
+  return textOf(
+      {{"event", "growth"},
+       {"version", version},
+       {"iteration", growth.iterations},
+       {"iterations", iterations},
+       {"segments", segments},
+       {"elements", elements},
+       {"sites", 0},
+       {"done", true},
+       {"seconds", seconds},
+       {"hash", sim::hexOf(growth.state_hash)},
+       {"ending", ending},
+       {"plants", std::move(plants)},
+       {"poor", scenes::poorPlants(growth.plants)},
+       {"outcomes", {{"buds", outcomesJson(growth.buds)}, {"trials", outcomesJson(growth.trials)}}}});
 }
 
 std::string stagesEvent(Version version, const StageCounts& counts) {

@@ -10,11 +10,10 @@ namespace espalier::studio {
 using Json = nlohmann::ordered_json;
 
 template <class Vector>
-Json jsonOf(const Vector& v)
-  requires requires { v.x + v.y + v.z; }
-{
-  return Json::array({v.x, v.y, v.z});
+Json jsonOf(const Vector& v) requires requires {
+  v.x + v.y + v.z;
 }
+{ return Json::array({v.x, v.y, v.z}); }
 
 /// Bytes that are no UTF-8 are replaced.
 inline std::string textOf(const Json& json) {

@@ -40,15 +40,15 @@ Json shapeJson(const sim::ElementShape& shape, double voxel_m, Pictures& picture
   for (const sim::Vec3f& n : mesh.normals) normals.insert(normals.end(), {n.x, n.y, n.z});
   for (const glm::vec2& uv : mesh.uvs) uvs.insert(uvs.end(), {uv.x, uv.y});
   for (const auto& [a, b, c] : mesh.triangles) indices.insert(indices.end(), {a, b, c});
-  const Picture picture =
-      shape.drawn.empty() ? shape.picture : render::drawnLeaf(shape.drawn, shape.colour);
+  const Picture picture = shape.drawn.empty() ? shape.picture : render::drawnLeaf(shape.drawn, shape.colour);
   return {{"name", shape.name},
           {"positions", std::move(positions)},
           {"normals", std::move(normals)},
           {"uvs", std::move(uvs)},
           {"indices", std::move(indices)},
           {"colour", jsonOf(shape.colour)},
-          {"varies", {shape.varies.by_chance, shape.varies.by_age, shape.varies.by_light, shape.varies.by_height}},
+          {"varies",
+           {shape.varies.by_chance, shape.varies.by_age, shape.varies.by_light, shape.varies.by_height}},
           {"texture", pictures.address(picture)},
           {"opacity", shape.alpha},
           {"emits", jsonOf(shape.emits)}};

@@ -1,6 +1,6 @@
 #pragma once
-#include <map>
 #include <cstdint>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -15,8 +15,8 @@ struct Looks {
   std::map<std::string, std::string> textures;  ///< PNG files, by their IDs
 };
 
-/// Of all of growth's plants, whose plantings are called so; plants of one have the shapes of its first, and null in
-/// their place. Throws InputError where pictures cannot be drawn.
+/// Of all of growth's plants, whose plantings are called so; plants of one have the shapes of its first, and
+/// null in their place. Throws InputError where pictures cannot be drawn.
 Looks looksOf(std::uint32_t version, const sim::Growth& growth, const std::vector<std::string>& plantings,
               const sim::Frame& frame);
 

@@ -23,7 +23,8 @@ struct Sent {
 
 /// The nodes from the first that was not sent on, with the radii of all. Throws InputError as
 /// render::stemRadii does.
-std::string nodesFrame(const OfPlant& of, const sim::Plant& plant, const sim::Frame& frame, std::size_t first);
+std::string nodesFrame(const OfPlant& of, const sim::Plant& plant, const sim::Frame& frame,
+                       std::size_t first);
 
 /// A frame for each shape of which there are elements that were not sent; from 0, one for every shape, so
 /// that the page forgets those that it has.

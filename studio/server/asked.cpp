@@ -11,6 +11,7 @@ namespace {
 
 constexpr int kBadRequest = 400;
 constexpr int kMostDepth = 16;
+constexpr double kFarthest_m = 1e7;
 
 [[noreturn]] void refuse(const char* key, const std::string& expected) {
   throw Refused(kBadRequest, std::string(key) + ": expected " + expected);
@@ -56,7 +57,6 @@ std::map<std::string, std::string> AskedBody::texts(const char* key) const {
 }
 
 sim::Vec3 AskedBody::place(const char* key) const {
-  constexpr double kFarthest_m = 1e7;
   const Json& json = parsed_->json;
   if (!has(key) || !json[key].is_array() || json[key].size() != 3) refuse(key, "three numbers");
   sim::Vec3 place(0.0);
@@ -74,6 +74,14 @@ std::int64_t AskedBody::number(const char* key, std::int64_t low, std::int64_t h
   const auto number = json[key].get<std::int64_t>();
   if (number < low || number > high) refuse(key, "a whole number that can be");
   return number;
+}
+
+double metresOf(const std::string& text) {
+  double metres = 0.0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), metres);
+  if (error != std::errc() || end != text.data() + text.size() || !(std::abs(metres) <= kFarthest_m))
+    throw Refused(kBadRequest, "expected a number of metres");
+  return metres;
 }
 
 std::int64_t wholeNumber(const std::string& text, std::int64_t high) {

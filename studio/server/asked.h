@@ -34,6 +34,8 @@ class AskedBody {
   std::unique_ptr<const Parsed> parsed_;
 };
 
+/// A number of metres of an address.
+double metresOf(const std::string& text);
 /// A whole number of an address.
 std::int64_t wholeNumber(const std::string& text, std::int64_t high);
 template <class Number>

@@ -67,6 +67,11 @@ class Server::Routes {
   Routes(Session& session, int port) : session_(session) {
     house_.token = newToken();
     http_.new_task_queue = [] { return new httplib::ThreadPool(kThreads); };
+    // Not the library's own choice, by which another process could listen at the same port.
+    http_.set_socket_options([](socket_t socket) {
+      const int yes = 1;
+      ::setsockopt(socket, SOL_SOCKET, SO_REUSEADDR, &yes, sizeof yes);
+    });
     http_.set_payload_max_length(kMostBody);
     http_.set_read_timeout(10);
     http_.set_write_timeout(10);
@@ -186,6 +191,13 @@ class Server::Routes {
          [this](const std::string& id) { return session_.assets().texture(id); });
     http_.Get("/api/surfaces", [this](const Request& request, Response& response) {
       response.set_content(session_.surfaces(wholeOf<Version>(request.get_param_value("version"))), kBinary);
+    });
+    http_.Get("/api/layers", [this](const Request& request, Response& response) {
+      const std::string axis = request.get_param_value("axis");
+      if (axis != "x" && axis != "y" && axis != "z") throw Refused(400, "axis: expected x, y or z");
+      response.set_content(session_.layers(wholeOf<Version>(request.get_param_value("version")), axis[0] - 'x',
+                                           metresOf(request.get_param_value("at"))),
+                           kBinary);
     });
     http_.Get(R"(/api/export/([A-Za-z0-9_.-]+))", [this](const Request& request, Response& response) {
       const std::string name = request.matches[1].str();

@@ -149,6 +149,44 @@ std::string surfacesOf(Version version, const scenes::Scene& scene, const scenes
   return bytes;
 }
 
+std::string layersOf(Version version, const sim::World& bare, int axis, double at_m) {
+  constexpr std::uint8_t kOccupied = 255;
+  const sim::Frame& frame = bare.frame();
+  const int across = (axis + 1) % 3, up = (axis + 2) % 3;
+  const double at_vx = (at_m - frame.origin_m[axis]) / frame.voxel_m;
+  if (!(at_vx >= -0.5 && at_vx < frame.size[axis] - 0.5))
+    throw sim::InputError(fmt::format("the world has nothing at {} m", at_m));
+  sim::Voxel v(0);
+  v[axis] = static_cast<int>(std::floor(at_vx + 0.5));
+  const auto along = [&](int of) {
+    sim::Vec3 way(0.0);
+    way[of] = frame.voxel_m * frame.size[of];
+    return jsonOf(way);
+  };
+  std::string bytes;
+  sim::Vec3 corner_vx(-0.5);
+  corner_vx[axis] = v[axis];
+  std::string header = textOf({{"version", version},
+                               {"corner_m", jsonOf(sim::worldFromVoxel(frame, corner_vx))},
+                               {"across_m", along(across)},
+                               {"up_m", along(up)},
+                               {"across", frame.size[across]},
+                               {"up", frame.size[up]},
+                               {"layers", bare.layers()}});
+  header.resize((header.size() + 3) / 4 * 4, ' ');
+  put(bytes, static_cast<std::uint32_t>(header.size()));
+  bytes += header;
+  for (v[up] = 0; v[up] < frame.size[up]; ++v[up]) {
+    for (v[across] = 0; v[across] < frame.size[across]; ++v[across]) {
+      const auto near = bare.nearnessAt(v);
+      put(bytes, bare.occupied().at(v) ? kOccupied
+                 : near ? static_cast<std::uint8_t>(std::clamp(near->layer, 0, 254))
+                        : std::uint8_t{0});
+    }
+  }
+  return bytes;
+}
+
 std::string whyOf(Version version, const sim::World& bare, const std::vector<sim::Planting>& plantings,
                   const sim::GrowthSettings& settings, const sim::Growth& growth, std::size_t plant,
                   sim::NodeId node) {

@@ -15,6 +15,10 @@ namespace espalier::studio {
 std::string surfacesOf(Version version, const scenes::Scene& scene, const scenes::Site& site,
                        const sim::World& bare);
 
+/// A cut through the boundary layers at right angles to an axis (0: x), as README.md has it. Throws InputError
+/// where `at_m` is outside of the world.
+std::string layersOf(Version version, const sim::World& bare, int axis, double at_m);
+
 /// How a node of growth.plants[plant] came to be, and what the sites at it tried last: JSON, as README.md has
 /// it. The plants are grown once more in a copy of `bare`, to where it happened. Throws InputError where
 /// there is no such node; Stopped.

@@ -290,6 +290,11 @@ std::string Regrowth::surfaces(Version version) {
   return surfacesOf(version, scene_, *site_, *bare_);
 }
 
+std::string Regrowth::layers(Version version, int axis, double at_m) {
+  requireGrown(version);
+  return layersOf(version, *bare_, axis, at_m);
+}
+
 std::string Regrowth::why(Version version, std::size_t plant, sim::NodeId node) {
   requireGrown(version);
   return whyOf(version, *bare_, plans_.plantings, growthSettings(), growth_, plant, node);

@@ -42,6 +42,8 @@ class Regrowth {
 
   /// What falls on surfaces, as README.md has it. Throws InputError where nothing has grown for that version.
   std::string surfaces(Version version);
+  /// A cut through the boundary layers, likewise; `axis` 0: x.
+  std::string layers(Version version, int axis, double at_m);
   /// How a node came to be, and what its sites tried last. Throws InputError for one that is none.
   std::string why(Version version, std::size_t plant, sim::NodeId node);
 

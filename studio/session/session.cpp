@@ -226,6 +226,10 @@ std::string Session::surfaces(Version version) {
   return ask([version](Regrowth& regrowth) { return regrowth.surfaces(version); });
 }
 
+std::string Session::layers(Version version, int axis, double at_m) {
+  return ask([=](Regrowth& regrowth) { return regrowth.layers(version, axis, at_m); });
+}
+
 std::string Session::why(Version version, std::size_t plant, sim::NodeId node) {
   return ask([=](Regrowth& regrowth) { return regrowth.why(version, plant, node); });
 }

@@ -41,6 +41,7 @@ class Session {
   const Assets& assets() const { return assets_; }
 
   std::string surfaces(Version version);
+  std::string layers(Version version, int axis, double at_m);
   std::string why(Version version, std::size_t plant, sim::NodeId node);
 
   std::string moveSeed(const std::string& planting, std::size_t seed, sim::Vec3 to_m) const;

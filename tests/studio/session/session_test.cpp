@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
+#include <fstream>
 #include <nlohmann/json.hpp>
 #include <random>
 
@@ -178,6 +180,23 @@ TEST_F(Studio, SurfacesSayWhatFallsOnThem) {
   EXPECT_THROW(session_->surfaces(7), Refused);
 }
 
+TEST_F(Studio, ACutShowsTheLayersAroundTheWall) {
+  open();
+  const std::string bytes = session_->layers(1, 2, 0.0);  // in the wall's own plane
+  std::uint32_t length = 0;
+  std::memcpy(&length, bytes.data(), 4);
+  const json header = json::parse(bytes.substr(4, length));
+  const std::size_t across = header["across"], up = header["up"];
+  ASSERT_EQ(bytes.size(), 4 + length + across * up);
+  EXPECT_NEAR(header["across_m"][0], 2.2, 0.051);
+  std::array<std::size_t, 256> times{};
+  for (std::size_t i = 4 + length; i < bytes.size(); ++i) ++times[static_cast<unsigned char>(bytes[i])];
+  EXPECT_GT(times[255], 500u) << "the wall";
+  EXPECT_GT(times[0], 20u) << "beyond all layers";
+  for (std::size_t layer = 1; layer <= header["layers"]; ++layer) EXPECT_GT(times[layer], 20u) << layer;
+  EXPECT_THROW(session_->layers(1, 1, 99.0), Refused);
+}
+
 TEST_F(Studio, ExportsAreThoseOfARun) {
   open();
   const json made = json::parse(session_->makeExport("skeleton", ""));
@@ -205,7 +224,20 @@ TEST_F(Studio, ASceneOfWrongTextsOpensToo) {
   EXPECT_GT(grown_["segments"], 20);
 }
 
-/// Valid and broken edits, each before the last has grown.
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+constexpr bool kSanitized = true;  // which keeps what is freed
+#else
+constexpr bool kSanitized = false;
+#endif
+
+std::size_t residentBytes() {
+  std::ifstream status("/proc/self/statm");
+  std::size_t all = 0, resident = 0;
+  status >> all >> resident;
+  return resident * 4096;
+}
+
+/// Valid and broken edits, most of them before the last has grown.
 TEST_F(Studio, LivesThroughAnyEditsAndEndsWhereARunDoes) {
   open();
   std::mt19937 random(5);
@@ -218,7 +250,8 @@ TEST_F(Studio, LivesThroughAnyEditsAndEndsWhereARunDoes) {
       {"boost: 1.8", {"boost: 0.5", "boost: \"", "boost: 1e9"}},
       {"espalier: rules", {"espalier: scene", "", "\t", "espalier: rules/1"}}};
   std::size_t valid = 0;
-  for (int i = 0; i < 300; ++i) {
+  std::size_t before = 0;
+  for (int i = 0; i < 1000; ++i) {
     std::string text = kSmallRules;
     for (const auto& [word, others] : knobs) {
       if (random() % 3 == 0) text = replaced(text, word, others[random() % others.size()]);
@@ -226,9 +259,18 @@ TEST_F(Studio, LivesThroughAnyEditsAndEndsWhereARunDoes) {
     if (edit("vine.yaml", text)["problems"].empty()) ++valid;
     if (random() % 7 == 0) edit("scene.yaml", replaced(kSmallScene, "5 cm", random() % 2 ? "6 cm" : "x"));
     if (random() % 11 == 0) edit("scene.yaml", kSmallScene);
+    if (i % 100 != 99) continue;
+    edit("scene.yaml", kSmallScene);
+    edit("vine.yaml", kSmallRules);
+    heard_->grown(version_);
+    heard_->frames.clear();
+    if (i == 299) before = residentBytes();
   }
-  EXPECT_GT(valid, 10u);
+  EXPECT_GT(valid, 100u);
   edit("scene.yaml", kSmallScene);
+  if (!kSanitized) {
+    EXPECT_LT(residentBytes(), before + (std::size_t{16} << 20)) << "memory stays flat";
+  }
   edit("vine.yaml", replaced(kSmallRules, "size: 1.2", "size: 1.1"));
   const json grown = heard_->grown(version_);
   scratch_.write("vine.yaml", replaced(kSmallRules, "size: 1.2", "size: 1.1"));

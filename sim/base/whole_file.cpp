@@ -221,7 +221,8 @@ void NewFile::putInPlace() {
 // that another is about to make something in, that one begins again.
 NewFolder::NewFolder(const std::filesystem::path& path) : path_(path) {
   std::error_code error;
-  for (int tries = 0; tries < 10; ++tries) {
+  constexpr int kMostTries = 1000;  // of others that make and remove them under our hands
+  for (int tries = 0; tries < kMostTries; ++tries) {
     error.clear();
     std::vector<std::filesystem::path> missing;
     for (auto folder = std::filesystem::absolute(path, error).lexically_normal();
@@ -233,10 +234,10 @@ NewFolder::NewFolder(const std::filesystem::path& path) : path_(path) {
       if (std::filesystem::create_directory(*folder, error)) made_.insert(made_.begin(), *folder);
     }
     if (!error) std::filesystem::create_directories(path, error);
+    if (!error && !std::filesystem::is_directory(path, error) && !error)
+      error = std::make_error_code(std::errc::not_a_directory);
     if (error != std::errc::no_such_file_or_directory) break;
   }
-  if (!error && !std::filesystem::is_directory(path, error) && !error)
-    error = std::make_error_code(std::errc::not_a_directory);
   if (error) {
     removeEmpty(made_);
     throw InputError(fmt::format("{}: cannot make the folder: {}", path.string(), error.message()));

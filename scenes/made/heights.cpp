@@ -188,7 +188,7 @@ std::vector<OutputFile> heightFiles(const std::vector<MadeHeights>& made, const 
       metadata.emplace_back("espalier:first_z_m", fmt::format("{}", raster.low_m.y));
       return render::encodeExr(image, {"height"}, metadata);
     }));
-    files.push_back({one.name + ".glb", [&one, &made_by](std::ostream& out) {
+    files.push_back({one.name + ".glb", [&one, &made_by](std::iostream& out) {
                        std::vector<const sim::Mesh*> meshes;
                        for (const sim::Mesh& mesh : one.meshes) meshes.push_back(&mesh);
                        render::writeGlb(

@@ -130,8 +130,7 @@ class Painter {
   float diagonal_m_ = 1.0f, voxel_m_ = 1.0f;
   float pixel_ = 0.0f;  // how much a pixel spans at a distance of 1
   int width_, height_;
-  // by round and sample
-  std::array<std::array<SamplePoint, kRays>, kClearRounds> points_;
+  std::array<std::array<SamplePoint, kRays>, kClearRounds> points_;  // by round and sample
   std::array<std::array<Vec3f, kRays>, kClearRounds> to_suns_;
 };
 

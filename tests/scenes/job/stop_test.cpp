@@ -104,9 +104,8 @@ TEST_F(StoppedJob, EndsSoonWhereverExposureIs) {
 /// As in a server: what one grows is none of the other's affair, and neither is its stop.
 TEST(TwoJobs, HearTheirOwnStopsAloneAndGrowWhatTheyGrowAlone) {
   const tests::Scratch scratch;
-  auto read = readScene(tests::sourceFolder() / "scenes/library/garden_wall.yaml");
+  const auto read = readScene(tests::sourceFolder() / "scenes/library/garden_wall.yaml");
   ASSERT_TRUE(read);
-  read->world.voxel_m = 0.08;
   const auto grow = [&](const std::string& folder, const std::stop_token& stop) {
     RunOptions options;
     options.pictures = false;

@@ -20,5 +20,6 @@ void addSchema(CLI::App& app, int& exit_status);
 void addInit(CLI::App& app, int& exit_status);
 void addExplain(CLI::App& app, int& exit_status);
 void addGallery(CLI::App& app, int& exit_status);
+void addStudio(CLI::App& app, int& exit_status);
 
 }  // namespace espalier::cli

@@ -33,6 +33,7 @@ int parse(int argc, char** argv) {
   addInit(app, exit_status);
   addExplain(app, exit_status);
   addGallery(app, exit_status);
+  addStudio(app, exit_status);
   try {
     app.parse(argc, argv);
   } catch (const CLI::Success& asked) {  // --help and --version

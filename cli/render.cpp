@@ -1,14 +1,12 @@
 #include <CLI/App.hpp>
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
-#include <algorithm>
 #include <memory>
 
 #include "cli/commands.h"
 #include "cli/job_options.h"
+#include "scenes/job/chosen_images.h"
 #include "scenes/job/run.h"
-#include "scenes/problem.h"
-#include "sim/base/error.h"
 
 namespace espalier::cli {
 namespace {
@@ -18,30 +16,6 @@ struct RenderArguments {
   std::string from;
   std::vector<std::string> images;
 };
-
-constexpr const char* kFilm = "film";
-
-/// Those of the scene's images that are named, and those that a contact sheet among them needs; its film
-/// where that is.
-void keepImages(scenes::Scene& scene, const std::vector<std::string>& names) {
-  std::vector<std::string> known, wanted = names;
-  for (const scenes::ImageSpec& image : scene.images) known.push_back(image.name);
-  if (scene.film) known.emplace_back(kFilm);
-  for (const std::string& name : names) {
-    const auto at = std::find(known.begin(), known.end(), name);
-    if (at == known.end()) {
-      throw sim::InputError(scene.file.string() + ": there is no image " + scenes::inQuotes(name) +
-                            "; expected one of " + scenes::listed(known) + scenes::didYouMean(name, known));
-    }
-    if (scene.film && name == kFilm) continue;
-    const scenes::ImageSpec& image = scene.images[static_cast<std::size_t>(at - known.begin())];
-    wanted.insert(wanted.end(), image.of.begin(), image.of.end());
-  }
-  std::erase_if(scene.images, [&](const scenes::ImageSpec& image) {
-    return std::find(wanted.begin(), wanted.end(), image.name) == wanted.end();
-  });
-  if (std::find(wanted.begin(), wanted.end(), kFilm) == wanted.end()) scene.film.reset();
-}
 
 }  // namespace
 
@@ -59,7 +33,7 @@ void addRender(CLI::App& app, int& exit_status) {
   command->callback([arguments, &exit_status] {
     if (arguments->job.folder.empty()) arguments->job.folder = arguments->from;
     exit_status = runJob(arguments->job, [&](scenes::Scene scene, const scenes::RunOptions& run) {
-      if (!arguments->images.empty()) keepImages(scene, arguments->images);
+      if (!arguments->images.empty()) scenes::keepImages(scene, arguments->images);
       const scenes::Report report = scenes::renderScene(scene, arguments->from, run);
       return JobOutcome{scenes::toJson(report), scenes::summary(report, run.folder)};
     });

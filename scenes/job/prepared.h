@@ -9,12 +9,20 @@
 
 namespace espalier::scenes {
 
-/// A scene's site, and what shall grow on it or has grown there.
-struct Prepared {
-  Site site;
+/// What shall grow on a site.
+struct Plans {
   std::vector<sim::Planting> plantings;
   std::vector<NamedPoints> attractors;
-  std::vector<rules::Exposure> seed_lights;
+  std::vector<rules::Exposure> seed_lights;  ///< what every seed sees before anything grows
+  std::vector<Problem> warnings;             ///< of all that a run on this site warns of before it grows
+};
+
+/// Throws PlacedError with all that is wrong with the scene on its site.
+Plans plansOn(const Scene& scene, const Site& site, const RunOptions& options);
+
+/// A scene's site, and what shall grow on it or has grown there.
+struct Prepared : Plans {
+  Site site;
 };
 
 /// Tiles a scene and makes ready what grows on it; tells the report of the world, and of what the run warns.

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <string_view>
+#include <system_error>
+#include <utility>
 
 #include "scenes/clean_text.h"
 #include "scenes/yaml/yaml_text.h"
@@ -104,8 +106,16 @@ std::optional<FileKind> headerOf(const YamlNode& root, Problems& problems) {
   return kind == "rules" ? FileKind::rules : FileKind::scene;
 }
 
+std::string canonicalOf(const std::filesystem::path& path) {
+  std::error_code error;
+  const std::filesystem::path canonical = std::filesystem::weakly_canonical(path, error);
+  return error ? path.string() : canonical.string();
+}
+
 Document readDocument(const std::string& path, const Place& asker, std::optional<FileKind> expected,
-                      Problems& problems) {
+                      Problems& problems, const OpenTexts& open) {
+  if (const auto written = open.empty() ? open.end() : open.find(canonicalOf(path)); written != open.end())
+    return documentOf(written->second, path, asker, expected, problems);
   std::uint64_t hash = 0;
   const auto text = readText(path, asker, problems, &hash);
   if (!text) return {};
@@ -132,10 +142,10 @@ Document documentOf(const std::string& text, const std::string& path, const Plac
   return {};
 }
 
-Document readDocument(const std::filesystem::path& path, std::optional<FileKind> expected,
-                      Problems& problems) {
+Document readDocument(const std::filesystem::path& path, std::optional<FileKind> expected, Problems& problems,
+                      const OpenTexts& open) {
   return readDocument(path.string(), {std::make_shared<const std::string>(path.string()), 0, 0}, expected,
-                      problems);
+                      problems, open);
 }
 
 }  // namespace espalier::scenes

@@ -1,6 +1,7 @@
 #pragma once
 #include <cstdint>
 #include <filesystem>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -21,13 +22,20 @@ struct Document {
   std::uint64_t hash = 0;  ///< of all the file's bytes
 };
 
-/// Reads a file. `asker` is the place that names it; the file itself where nothing does. Of a file without a
-/// header no word is repeated: it is not ours. Without `expected` any kind will do.
+/// Texts that are to become files, read in place of what these hold: by the path as canonicalOf has it.
+using OpenTexts = std::map<std::string, std::string>;
+
+/// One name for a file, however the way to it is written. There need be no file.
+std::string canonicalOf(const std::filesystem::path& path);
+
+/// Reads a file, or what is open in its place. `asker` is the place that names it; the file itself where
+/// nothing does. Of a file without a header no word is repeated: it is not ours. Without `expected` any kind
+/// will do.
 Document readDocument(const std::string& path, const Place& asker, std::optional<FileKind> expected,
-                      Problems& problems);
+                      Problems& problems, const OpenTexts& open = {});
 /// The same for a file that nothing names but who asks.
-Document readDocument(const std::filesystem::path& path, std::optional<FileKind> expected,
-                      Problems& problems);
+Document readDocument(const std::filesystem::path& path, std::optional<FileKind> expected, Problems& problems,
+                      const OpenTexts& open = {});
 
 /// The same for a text that was read already, or stands in no file; `path` is what messages call it.
 Document documentOf(const std::string& text, const std::string& path, const Place& asker,

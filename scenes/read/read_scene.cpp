@@ -173,13 +173,14 @@ void findAsked(Scene& scene, const YamlNode& root) {
   }
 }
 
-Scene sceneOf(const Document& document, const fs::path& path, AskedScenes& asked, Problems& problems) {
+Scene sceneOf(const Document& document, const fs::path& path, AskedScenes& asked, Problems& problems,
+              const OpenTexts& texts = {}) {
   const AskedScenes::Open open(asked, path);
   const YamlNode& root = *document.root;
   static const auto paths = pathsOf(sceneTable());
   Scene scene;
   scene.file = path;
-  RuleLoader loader(problems);
+  RuleLoader loader(problems, texts);
   Reading reading{problems, paths};
   reading.special = [&](const YamlNode& node, const rules::Key& key, void* target, const std::string& at) {
     if (key.kind != rules::Kind::rules) return;
@@ -226,16 +227,21 @@ Scene sceneOf(const Document& document, const fs::path& path, AskedScenes& asked
 }
 
 Result<Scene> sceneOrProblems(const Document& document, const fs::path& path, AskedScenes& asked,
-                              Problems& problems) {
+                              Problems& problems, const OpenTexts& open = {}) {
   if (!document.root) return problems.sorted();
-  auto scene = sceneOf(document, path, asked, problems);
+  auto scene = sceneOf(document, path, asked, problems, open);
   if (!problems.empty()) return problems.sorted();
   return scene;
 }
 
-Result<Scene> readAsked(const fs::path& path, AskedScenes& asked) {
+Result<Scene> readWith(const fs::path& path, AskedScenes& asked, const OpenTexts& open) {
   Problems problems;
-  return sceneOrProblems(readDocument(path, FileKind::scene, problems), path, asked, problems);
+  return sceneOrProblems(readDocument(path, FileKind::scene, problems, open), path, asked, problems, open);
+}
+
+/// Of files alone.
+Result<Scene> readAsked(const fs::path& path, AskedScenes& asked) {
+  return readWith(path, asked, {});
 }
 
 Result<RulesOrScene> rulesOrScene(const Document& document, const fs::path& path, Problems& problems) {
@@ -262,9 +268,24 @@ Place wholeFile(const fs::path& path) {
 
 }  // namespace
 
-Result<Scene> readScene(const fs::path& path) {
-  AskedScenes asked(readAsked);
-  return readAsked(path, asked);
+Result<Scene> readScene(const fs::path& path, const OpenTexts& open) {
+  AskedScenes asked(
+      [&open](const fs::path& other, AskedScenes& others) { return readWith(other, others, open); });
+  return readWith(path, asked, open);
+}
+
+Scene filesOfScene(const fs::path& path, const OpenTexts& open) {
+  Problems problems;
+  const Document document = readDocument(path, FileKind::scene, problems, open);
+  Scene files;
+  if (!document.root) return files;
+  AskedScenes asked(
+      [&open](const fs::path& other, AskedScenes& others) { return readWith(other, others, open); });
+  Scene scene = sceneOf(document, path, asked, problems, open);
+  files.file = path;
+  files.read_files = std::move(scene.read_files);
+  files.read_paths = std::move(scene.read_paths);
+  return files;
 }
 
 Result<Scene> readSceneText(const std::string& text, const fs::path& path) {

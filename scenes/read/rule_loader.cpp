@@ -34,12 +34,6 @@ const YamlNode* lastGiven(const std::vector<const YamlNode*>& layers, std::strin
   return nullptr;
 }
 
-std::string canonicalOf(const fs::path& path) {
-  std::error_code error;
-  const fs::path canonical = fs::weakly_canonical(path, error);
-  return error ? path.string() : canonical.string();
-}
-
 /// A word that names no file beside the one in which it stands. Rule sets of the library know only each
 /// other.
 bool meansLibrary(const YamlNode& node) {
@@ -102,7 +96,7 @@ const RuleLoader::File* RuleLoader::load(const fs::path& path, const Place& aske
   const LibraryRules* const of_library = libraryRules(nameInLibrary(shown));
   const Document document =
       of_library ? documentOf(std::string(of_library->text), shown, asker, FileKind::rules, problems_)
-                 : readDocument(shown, asker, FileKind::rules, problems_);
+                 : readDocument(shown, asker, FileKind::rules, problems_, open_texts_);
   if (!document.root) return nullptr;
   from_root = from_root || std::any_of(read_files_.begin(), read_files_.end(), [&](const ReadFile& read) {
                 return read.from_root && read.path == *asker.path;

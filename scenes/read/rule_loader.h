@@ -25,7 +25,8 @@ std::filesystem::path ruleFileOf(const YamlNode& node);
 /// rule sets that it returns are not to be used, or null.
 class RuleLoader {
  public:
-  explicit RuleLoader(Problems& problems) : problems_(problems) {}
+  explicit RuleLoader(Problems& problems, OpenTexts open = {})
+      : problems_(problems), open_texts_(std::move(open)) {}
 
   /// Of a file that has been read: the first of a run.
   std::shared_ptr<const rules::RuleSet> file(const std::filesystem::path& path, const Document& document);
@@ -81,6 +82,7 @@ class RuleLoader {
   bool countOne(const Place& place);
 
   Problems& problems_;
+  OpenTexts open_texts_;
   std::map<std::string, File> files_;                      ///< by canonical path
   std::vector<std::pair<std::string, std::string>> open_;  ///< files being read: canonical and shown paths
   std::vector<RegionMention> mentions_;

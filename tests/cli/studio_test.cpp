@@ -1,0 +1,103 @@
+// The studio as a process: it says where it is, and Ctrl-C closes it whatever it is at.
+#include <gtest/gtest.h>
+#include <signal.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <array>
+#include <chrono>
+#include <cstdio>
+#include <string>
+
+#include "tests/cli/plot.h"
+
+namespace espalier::tests {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+/// Ten times what is promised: test machines are busy.
+constexpr double kSoon_s = 3.0;
+
+struct Studio {
+  pid_t child = -1;
+  int out = -1;
+  std::string said;
+
+  explicit Studio(const std::string& scene) {
+    std::array<int, 2> ends{};
+    if (::pipe(ends.data()) != 0) return;
+    child = ::fork();
+    if (child == 0) {
+      ::dup2(ends[1], STDOUT_FILENO);
+      ::close(ends[0]);
+      ::execl(ESPALIER_PROGRAM, "espalier", "studio", scene.c_str(), "--no-open", nullptr);
+      ::_exit(127);
+    }
+    ::close(ends[1]);
+    out = ends[0];
+    for (char c = 0; ::read(out, &c, 1) == 1 && c != '\n';) said += c;
+  }
+  Studio(const Studio&) = delete;
+  Studio& operator=(const Studio&) = delete;
+  ~Studio() {
+    if (out >= 0) ::close(out);
+    if (child > 0) ::kill(child, SIGKILL);
+  }
+
+  /// The exit status, or 128 + signal.
+  int endedBy(int signal, double& seconds) {
+    const auto began = Clock::now();
+    ::kill(child, signal);
+    int status = 0;
+    ::waitpid(child, &status, 0);
+    child = -1;
+    seconds = std::chrono::duration<double>(Clock::now() - began).count();
+    return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+  }
+};
+
+class StudioCommand : public Plot {};
+
+TEST_F(StudioCommand, SaysWhereItIsAndEndsByCtrlC) {
+  for (const int signal : {SIGINT, SIGTERM}) {
+    Studio studio(scratch_.path("scene.yaml").string());
+    EXPECT_NE(studio.said.find("http://127.0.0.1:"), std::string::npos) << studio.said;
+    EXPECT_NE(studio.said.find("/?token="), std::string::npos) << studio.said;
+    double seconds = 0.0;
+    EXPECT_EQ(studio.endedBy(signal, seconds), 0);
+    EXPECT_LT(seconds, kSoon_s);
+  }
+}
+
+TEST_F(StudioCommand, EndsWhileItGrows) {
+  // A wall of millions of voxels, which takes longer to tile than anybody waits here.
+  std::string scene = fileText(scratch_.path("scene.yaml"));
+  scene.replace(scene.find("5 cm"), 4, "4 mm");
+  scratch_.write("scene.yaml", scene);
+  Studio studio(scratch_.path("scene.yaml").string());
+  ::usleep(300'000);
+  double seconds = 0.0;
+  studio.endedBy(SIGINT, seconds);
+  EXPECT_LT(seconds, kSoon_s);
+}
+
+TEST_F(StudioCommand, RefusesWhatIsNoScene) {
+  const Ran none = espalier("studio " + scratch_.path("none.yaml").string() + " --no-open");
+  EXPECT_EQ(none.status, 2);
+  EXPECT_NE(none.output.find("none.yaml"), std::string::npos) << none.output;
+  const Ran port = espalier("studio " + scratch_.path("scene.yaml").string() + " --no-open --port 70000");
+  EXPECT_EQ(port.status, 2);
+}
+
+TEST_F(StudioCommand, SaysThatAPortIsTaken) {
+  Studio first(scratch_.path("scene.yaml").string());
+  const auto at = first.said.find("127.0.0.1:") + 10;
+  const std::string port = first.said.substr(at, first.said.find('/', at) - at);
+  const Ran second = espalier("studio " + scratch_.path("scene.yaml").string() + " --no-open --port " + port);
+  EXPECT_EQ(second.status, 2);
+  EXPECT_NE(second.output.find(port), std::string::npos) << second.output;
+}
+
+}  // namespace
+}  // namespace espalier::tests

@@ -10,7 +10,6 @@ export interface OpenFile {
   name: string;
   kind: "scene" | "rules";
   library: boolean;
-  usedBy: string[];
   /** The hash of what lies in the file. */
   saved: string;
   /** What lies in the file, where this page knows it. */
@@ -45,11 +44,11 @@ export class Workspace {
       const mine = this.file(theirs.name);
       if (mine && mine.unsaved && !mine.library && mine.text !== theirs.text) {
         this.write(mine.name, mine.text);
-        return { ...mine, kind: theirs.kind, usedBy: theirs.used_by };
+        return { ...mine, kind: theirs.kind };
       }
       const unsaved = theirs.unsaved ?? false;
       const file: OpenFile = {
-        name: theirs.name, kind: theirs.kind, library: theirs.library, usedBy: theirs.used_by, saved: theirs.saved,
+        name: theirs.name, kind: theirs.kind, library: theirs.library, saved: theirs.saved,
         savedText: unsaved ? null : theirs.text, text: theirs.text, unsaved, theirs: mine?.theirs ?? null,
       };
       if (!mine || mine.text !== theirs.text) changed.push(file);

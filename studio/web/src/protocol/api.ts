@@ -1,5 +1,5 @@
 // Questions to the program, each one function. What goes wrong is told in the program's own words.
-import type { ExportAnswer, LibraryRules, Problem, Project, TextChange, Vec3, WhyAnswer } from "./types";
+import type { ExportAnswer, LibraryRules, PlaceAnswer, Problem, Project, Vec3, WhyAnswer } from "./types";
 import { readSurfaces, type Surfaces } from "./surfaces";
 
 export class ApiError extends Error {
@@ -38,11 +38,11 @@ export const askWhy = (version: number, plant: number, node: number) =>
   ask<WhyAnswer>("/api/why", { version, plant, node });
 
 export type Place =
-  | { planting: number; seed: number; at_m: Vec3 }
-  | { planting: number; at_m: Vec3 }
+  | { planting: string; seed: number; at_m: Vec3 }
+  | { planting: string; at_m: Vec3 }
   | { camera: string; eye_m: Vec3; target_m: Vec3 };
 
-export const askPlace = (place: Place) => ask<TextChange>("/api/place", place);
+export const askPlace = (place: Place) => ask<PlaceAnswer>("/api/place", place);
 
 export const sendSave = (file: string, text: string, saved: string) =>
   ask<{ saved: string }>("/api/save", { file, text, saved });

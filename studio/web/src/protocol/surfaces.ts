@@ -6,6 +6,8 @@ export interface SurfaceChannel {
   unit: string;
   low: number;
   high: number;
+  /** From which a plant grows. */
+  least?: number;
   /** 0: low, 254: high, 255: none. */
   values: Uint8Array;
 }
@@ -27,7 +29,7 @@ interface Head {
   count: number;
   low_m: Vec3;
   voxel_m: number;
-  channels: { name: string; unit: string; low: number; high: number }[];
+  channels: { name: string; unit: string; low: number; high: number; least?: number }[];
 }
 
 export function readSurfaces(data: ArrayBuffer): Surfaces {

@@ -11,7 +11,6 @@ export interface ProjectFile {
   library: boolean;
   /** Whether `text` is another than what lies in the file. */
   unsaved?: boolean;
-  used_by: string[];
 }
 
 export interface Project {
@@ -46,12 +45,13 @@ export interface SceneCamera {
   name: string;
   eye_m: Vec3;
   target_m: Vec3;
-  up: Vec3;
   fov_deg: number;
 }
 
 export interface SceneSeed {
-  planting: number;
+  /** The planting's name. */
+  planting: string;
+  /** Its number among those of the planting. */
   seed: number;
   key: string;
   at_m: Vec3;
@@ -71,7 +71,7 @@ export interface SceneEvent {
   seeds: SceneSeed[];
   sun: { direction: Vec3; strength: number; colour: Vec3 };
   sky: { colour: Vec3; strength: number };
-  fields: unknown;
+  fields: string[];
 }
 
 export interface LeafShape {
@@ -88,9 +88,9 @@ export interface LeafShape {
 
 export interface PlantLooks {
   name: string;
-  planting: number;
   stem: { colour: Vec3; shoot_colour: Vec3; texture: string | null; opacity: number; emits: Vec3 | null };
-  shapes: LeafShape[];
+  /** null: those of the plant before it. */
+  shapes: LeafShape[] | null;
 }
 
 export interface LooksEvent {
@@ -111,8 +111,10 @@ export interface GrowthEvent {
   seconds: number;
   hash?: string;
   ending?: string;
-  plants: { segments: number; elements: number; failure?: string | null }[];
-  outcomes: { buds?: Record<string, number>; trials?: Record<string, number> };
+  plants: { name?: string; segments: number; elements: number; failure?: string | null }[];
+  /** With `done`: a few lines on plants that did not thrive. */
+  poor?: string[];
+  outcomes?: { buds?: Record<string, number>; trials?: Record<string, number> };
 }
 
 export interface StagesEvent {
@@ -135,6 +137,7 @@ export type ServerEvent =
   | { event: "hello"; version: number }
   | { event: "problems"; version: number; depth: "text" | "site"; problems: Problem[] }
   | { event: "busy"; version: number; stage: string; share: number }
+  | { event: "project"; version: number }
   | SceneEvent
   | LooksEvent
   | GrowthEvent
@@ -142,21 +145,39 @@ export type ServerEvent =
   | DiskEvent
   | { event: "end"; version: number };
 
-export interface WhyAnswer {
-  plant: number;
-  node: number;
-  at_m: Vec3;
-  iteration: number;
+export interface Trial {
+  from_m: Vec3;
+  to_m: Vec3;
   outcome: string;
-  sensed: { name: string; value: number }[];
-  trials: { from_m: Vec3; to_m: Vec3; outcome: string; words: string }[];
+  taken: boolean;
+  words: string;
 }
 
-export interface TextChange {
+/** A question that a site asked in one iteration, and what came of it. */
+export interface Asked {
+  iteration: number;
+  outcome: string;
+  words: string;
+  trials: Trial[];
+}
+
+export interface WhyAnswer {
+  version: number;
+  plant: number;
+  node: number;
+  name: string;
+  at_m: Vec3;
+  born: number;
+  sensed: { name: string; value: number }[];
+  /** How the node came to be. */
+  came: Asked | null;
+  /** What the sites at it tried last. */
+  last: Asked | null;
+}
+
+export interface PlaceAnswer {
   file: string;
-  from: { line: number; column: number };
-  to: { line: number; column: number };
-  insert: string;
+  edits: { from: { line: number; column: number }; to: { line: number; column: number }; insert: string }[];
 }
 
 export interface ExportAnswer {

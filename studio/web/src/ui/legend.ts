@@ -8,6 +8,8 @@ export interface LegendSpec {
   high: string;
   /** Where there is a threshold to be set: its share of the span, or null. */
   cut: number | null | undefined;
+  /** Where the threshold begins: from which the plant grows. */
+  first?: number;
   cutWords: (share: number) => string;
   setCut: (share: number | null) => void;
 }
@@ -17,11 +19,11 @@ export function showLegend(place: HTMLElement, spec: LegendSpec | null): void {
   if (!spec) return;
   const ramp = make("div", { class: "ramp" });
   ramp.style.background = cssGradient();
-  const parts = [make("h2", {}, spec.title), ramp, make("div", { class: "ends" }, make("span", {}, spec.low), make("span", {}, spec.high))];
+  const parts: HTMLElement[] = [make("h2", {}, spec.title), ramp, make("div", { class: "ends" }, make("span", {}, spec.low), make("span", {}, spec.high))];
   if (spec.cut !== undefined) {
     const words = make("span", {}, "");
     const box = make("input", { type: "checkbox", checked: spec.cut !== null });
-    const range = make("input", { type: "range", min: 0, max: 100, value: Math.round(100 * (spec.cut ?? 0.3)), "aria-label": "Threshold" });
+    const range = make("input", { type: "range", min: 0, max: 100, value: Math.round(100 * (spec.cut ?? spec.first ?? 0.3)), "aria-label": "Threshold" });
     const write = () => {
       const share = Number(range.value) / 100;
       words.textContent = `Only whether it is at least ${spec.cutWords(share)}`;
@@ -30,7 +32,7 @@ export function showLegend(place: HTMLElement, spec: LegendSpec | null): void {
     };
     box.addEventListener("change", write);
     range.addEventListener("input", write);
-    parts.push(make("label", {}, box, words) as unknown as HTMLDivElement, range as unknown as HTMLDivElement);
+    parts.push(make("label", {}, box, words), range);
     write();
   }
   refill(place, ...parts);

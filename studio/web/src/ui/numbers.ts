@@ -21,11 +21,11 @@ export class Numbers {
     refill(place, list, this.stages, this.buds);
   }
 
-  growth(growth: GrowthEvent, names: string[]): void {
+  growth(growth: GrowthEvent): void {
     this.put("segments", grouped(growth.segments));
     this.put("leaves", grouped(growth.elements));
     refill(this.figure("iterations"), String(growth.iteration), make("small", {}, ` of ${growth.iterations}`));
-    this.outcomes(growth, names);
+    if (growth.done) this.outcomes(growth);
   }
 
   /** From the last keystroke to the first of the plant on the screen. */
@@ -43,15 +43,15 @@ export class Numbers {
         swatch(ran(entry) ? (stageColours[entry[0]] ?? "#888") : "var(--edge-strong)"), `${entry[0]} ${ran(entry) ? seconds(entry[1]) : "kept"}`))));
   }
 
-  private outcomes(growth: GrowthEvent, names: string[]): void {
+  private outcomes(growth: GrowthEvent): void {
     const buds = Object.entries(growth.outcomes?.buds ?? {}).filter(([, count]) => count > 0).sort((a, b) => b[1] - a[1]);
     const sum = buds.reduce((total, [, count]) => total + count, 0);
-    const failed = growth.plants.flatMap((plant, i) => (plant.failure ? [`${names[i] ?? `plant ${i + 1}`} ${plant.failure}`] : []));
+    const failed = [...(growth.ending ? [growth.ending] : []), ...growth.plants.flatMap((plant) => (plant.failure ? [`${plant.name ?? "a plant"}: ${plant.failure}`] : [])), ...(growth.poor ?? [])];
     const colour = (i: number) => outcomeColours[i % outcomeColours.length] ?? "#888";
     refill(this.buds,
       make("div", { class: "bar", "aria-hidden": "true" }, ...buds.map(([, count], i) => piece(colour(i), count / (sum || 1)))),
-      make("ul", {}, make("li", {}, `${grouped(growth.sites)} buds live`), ...buds.map(([name, count], i) => make("li", {}, swatch(colour(i)), `${grouped(count)} ${name.replaceAll("_", " ")}`))),
-      failed.length ? make("p", { class: "failure", title: failed.join("\n") }, failed.length === 1 ? failed[0] : `${failed.length} plants failed: ${failed[0]}`) : null);
+      make("ul", {}, make("li", {}, "Buds"), ...buds.map(([name, count], i) => make("li", {}, swatch(colour(i)), `${grouped(count)} ${name.replaceAll("_", " ")}`))),
+      failed.length ? make("p", { class: "failure", title: failed.join("\n") }, failed.join(" · ")) : null);
   }
 
   private figure(name: string): HTMLElement {

@@ -140,5 +140,5 @@ function around(scene: SceneEvent): SceneCamera {
   const middle = scene.low_m.map((low, k) => (low + (scene.high_m[k] ?? low)) / 2) as Vec3;
   const size = Math.hypot(...scene.low_m.map((low, k) => (scene.high_m[k] ?? low) - low));
   const eye_m: Vec3 = [middle[0] + 0.45 * size, middle[1] + 0.3 * size, middle[2] + 1.05 * size];
-  return { name: "", eye_m, target_m: middle, up: [0, 1, 0], fov_deg: 37 };
+  return { name: "", eye_m, target_m: middle, fov_deg: 37 };
 }

@@ -39,7 +39,7 @@ export class Foliage {
     const wanted = new Map<string, { shape: LeafShape; sources: Leaves[]; count: number }>();
     for (const [plant, shapes] of shown.leaves) {
       for (const [index, leaves] of shapes) {
-        const shape = looks[plant]?.shapes[index];
+        const shape = shapesOf(looks, plant)[index];
         if (!shape || leaves.count === 0) continue;
         const key = shapeKey(shape);
         const entry = wanted.get(key) ?? { shape, sources: [], count: 0 };
@@ -131,6 +131,15 @@ export class Foliage {
     if (kind.texture) this.textures.giveBack(kind.texture);
     this.kinds.delete(key);
   }
+}
+
+/** A plant without shapes of its own has those of the plant before it. */
+function shapesOf(looks: PlantLooks[], plant: number): LeafShape[] {
+  for (let i = plant; i >= 0; i--) {
+    const shapes = looks[i]?.shapes;
+    if (shapes) return shapes;
+  }
+  return [];
 }
 
 function deal(kind: Kind, eye: THREE.Vector3, budget: number): void {

@@ -13,7 +13,7 @@ varying float vShare;
 varying float vShade;
 void main() {
   float axis = floor(aFace.x * 0.5);
-  float sign = mod(aFace.x, 2.0) < 0.5 ? 1.0 : -1.0;
+  float sign = mod(aFace.x, 2.0) < 0.5 ? -1.0 : 1.0;
   vec2 p = position.xy;
   vec3 corner = axis < 0.5 ? vec3(0.503 * sign, p.x * sign, p.y)
               : axis < 1.5 ? vec3(p.y * sign, 0.503 * sign, p.x)

@@ -1,32 +1,36 @@
 // The trials of one node, drawn where they were made: what was accepted green and in front, the others by what became
 // of them.
 import * as THREE from "three";
-import type { WhyAnswer } from "../protocol/types";
+import type { Asked, Trial, Vec3 } from "../protocol/types";
 
 /** Colours that are told apart with any eye: the page's legend takes the same. */
 export const outcomeColours = ["#d5563f", "#d99a2b", "#5b8fd0", "#a672b8", "#8a8f88", "#c46a8f"];
-export const acceptedColour = "#7fc241";
+export const acceptedColour = "#8fd14a";
+export const goodColour = "#4f8f5e";
 
-export const isAccepted = (outcome: string): boolean => /^(accepted|taken|grew)/.test(outcome);
+/** Rejected outcomes in the order in which they get their colours. */
+export const outcomesOf = (asked: Asked): string[] =>
+  [...new Set(asked.trials.filter((trial) => !trial.taken).map((trial) => trial.outcome))].sort();
 
-export function outcomeColour(outcome: string, all: string[]): string {
-  if (isAccepted(outcome)) return acceptedColour;
-  const rejected = all.filter((each) => !isAccepted(each));
-  return outcomeColours[Math.max(0, rejected.indexOf(outcome)) % outcomeColours.length] ?? "#888888";
+export function trialColour(trial: Trial, outcomes: string[]): string {
+  if (trial.taken) return acceptedColour;
+  // What met the rules and was not taken is nearly what was: a paler green.
+  if (trial.outcome === "grown") return goodColour;
+  return outcomeColours[Math.max(0, outcomes.indexOf(trial.outcome)) % outcomeColours.length] ?? "#888888";
 }
-
-export const outcomesOf = (why: WhyAnswer): string[] => [...new Set(why.trials.map((trial) => trial.outcome))].sort();
 
 export class TrialLines {
   readonly root = new THREE.Group();
 
-  show(why: WhyAnswer): void {
+  show(at_m: Vec3, asked: Asked | null): void {
     this.clear();
-    const outcomes = outcomesOf(why);
-    this.add(why, why.trials.filter((trial) => !isAccepted(trial.outcome)), outcomes, 0.75, 30);
-    this.add(why, why.trials.filter((trial) => isAccepted(trial.outcome)), outcomes, 1, 31);
+    if (asked) {
+      const outcomes = outcomesOf(asked);
+      this.add(asked.trials.filter((trial) => !trial.taken), outcomes, 0.7, 30);
+      this.add(asked.trials.filter((trial) => trial.taken), outcomes, 1, 31);
+    }
     const dot = new THREE.Points(
-      new THREE.BufferGeometry().setAttribute("position", new THREE.Float32BufferAttribute(why.at_m, 3)),
+      new THREE.BufferGeometry().setAttribute("position", new THREE.Float32BufferAttribute(at_m, 3)),
       new THREE.PointsMaterial({ size: 9, sizeAttenuation: false, color: 0xffffff, depthTest: false, toneMapped: false }),
     );
     dot.renderOrder = 32;
@@ -41,13 +45,13 @@ export class TrialLines {
     }
   }
 
-  private add(why: WhyAnswer, trials: WhyAnswer["trials"], outcomes: string[], opacity: number, order: number): void {
+  private add(trials: Trial[], outcomes: string[], opacity: number, order: number): void {
     if (trials.length === 0) return;
     const position: number[] = [];
     const colour: number[] = [];
     for (const trial of trials) {
-      position.push(...(trial.from_m ?? why.at_m), ...trial.to_m);
-      const c = new THREE.Color(outcomeColour(trial.outcome, outcomes));
+      position.push(...trial.from_m, ...trial.to_m);
+      const c = new THREE.Color(trialColour(trial, outcomes));
       colour.push(c.r, c.g, c.b, c.r, c.g, c.b);
     }
     const geometry = new THREE.BufferGeometry();

@@ -54,12 +54,13 @@ export class World {
     this.resize();
   }
 
-  describe(scene: SceneEvent, project: string): void {
+  /** With `moveSeeds` false markers stay where the hand holds them. */
+  describe(scene: SceneEvent, project: string, moveSeeds: boolean): void {
     this.described = scene;
     this.lights.scene(scene, this.site.box);
     this.uniforms.uSunLight.value.copy(this.lights.sunLight);
     this.eye.scene(scene, project);
-    this.seeds.set(scene.seeds);
+    if (moveSeeds) this.seeds.set(scene.seeds);
     void this.site.show(scene.site);
     this.changedScene();
   }
@@ -119,6 +120,23 @@ export class World {
     const { width, height } = this.size;
     ray.setFromCamera(new THREE.Vector2((2 * x_px) / width - 1, 1 - (2 * y_px) / height), this.eye.camera);
     return ray;
+  }
+
+  /** Where a seed is on the page. */
+  seedPoint(index: number): { x: number; y: number } | null {
+    const seed = this.seeds.seeds[index];
+    return seed ? this.onPage(new THREE.Vector3(...seed.at_m)) : null;
+  }
+
+  pointOf(shown: Generation, plant: number, node: number): { x: number; y: number } | null {
+    const skeleton = shown.skeletons.get(plant);
+    return skeleton && node < skeleton.count ? this.onPage(new THREE.Vector3().fromArray(skeleton.position, 3 * node)) : null;
+  }
+
+  private onPage(at: THREE.Vector3): { x: number; y: number } {
+    const box = this.canvas.getBoundingClientRect();
+    at.project(this.eye.camera);
+    return { x: box.left + (at.x * 0.5 + 0.5) * box.width, y: box.top + (0.5 - at.y * 0.5) * box.height };
   }
 
   get size(): { width: number; height: number } {

@@ -5,12 +5,14 @@
 #include <exception>
 #include <sstream>
 #include <string>
+#include <string_view>
 
 #include "cli/commands.h"
 #include "cli/doing.h"
 #include "cli/job_options.h"
 #include "cli/say.h"
 #include "cli/values.h"
+#include "scenes/import/reading.h"
 #include "sim/base/error.h"
 
 namespace espalier::cli {
@@ -66,6 +68,7 @@ int run(int argc, char** argv) {
 
 int main(int argc, char** argv) {
   using namespace espalier;
+  if (argc == 2 && std::string_view(argv[1]) == scenes::kAnswerFlag) scenes::readForParent();
   cli::keepStandardStreams();
   cli::keepLastWords();
   // A file that grows beyond a limit, or a closed pipe, is a failed write with a reason, not the end of the

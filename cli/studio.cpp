@@ -16,6 +16,7 @@
 #include "cli/interrupt.h"
 #include "cli/say.h"
 #include "cli/values.h"
+#include "scenes/import/reading.h"
 #include "sim/base/parallel.h"
 #include "studio/server/server.h"
 #include "studio/session/session.h"
@@ -45,6 +46,7 @@ void openInBrowser(std::string address) {
 }
 
 void serve(const StudioArguments& arguments) {
+  scenes::readInProgram("/proc/self/exe");  // threads are at work beside
   const Interrupt interrupt;
   studio::Session session(arguments.scene, arguments.threads);
   const studio::Server server(session, arguments.port);

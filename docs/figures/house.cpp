@@ -49,6 +49,7 @@ const std::map<std::string, Setting>& settings() {
          {"job", "foretell", "show", "made", "write"}},
         {0.955f, 0.905f, 0.885f},
         {0.64f, 0.36f, 0.26f}}},
+      {"studio", {{{"server", "session", "wire"}}, {0.930f, 0.905f, 0.945f}, {0.47f, 0.33f, 0.56f}}},
       {"cli", {{}, {0.925f, 0.920f, 0.915f}, {0.42f, 0.42f, 0.44f}}}};
   return all;
 }
@@ -226,24 +227,26 @@ render::Image house() {
                                               {"rules", {"sim"}},
                                               {"render", {"sim"}},
                                               {"scenes", {"rules", "render"}},
-                                              {"cli", {"scenes"}}};
+                                              {"studio", {"scenes"}},
+                                              {"cli", {"studio"}}};
   for (const auto& [name, room] : rooms) {
     if (!drawn.contains(name) || drawn.at(name) != room.builds_on)
       throw sim::InputError("docs/figures/house.cpp draws other rooms than tests/house/wings.txt says");
   }
   const float inside = kPage - 2 * kMargin, rules_wide = 0.42f * (inside - kBetween);
-  RoomPlan cli("cli", rooms.at("cli"), inside), scenes("scenes", rooms.at("scenes"), inside),
-      rules("rules", rooms.at("rules"), rules_wide),
+  RoomPlan cli("cli", rooms.at("cli"), inside), studio("studio", rooms.at("studio"), inside),
+      scenes("scenes", rooms.at("scenes"), inside), rules("rules", rooms.at("rules"), rules_wide),
       render("render", rooms.at("render"), inside - kBetween - rules_wide),
       sim("sim", rooms.at("sim"), inside);
   rules.stretchTo(render.high());
 
-  const float scenes_y = kMargin + cli.high() + kBetween, middle_y = scenes_y + scenes.high() + kBetween,
-              sim_y = middle_y + render.high() + kBetween;
+  const float studio_y = kMargin + cli.high() + kBetween, scenes_y = studio_y + studio.high() + kBetween,
+              middle_y = scenes_y + scenes.high() + kBetween, sim_y = middle_y + render.high() + kBetween;
   render::Image image(static_cast<int>(kPage), static_cast<int>(sim_y + sim.high() + kMargin), 3);
   render::fillBox(image, {0, 0}, {image.width, image.height}, {kPaper});
   const float render_x = kMargin + rules_wide + kBetween;
   cli.draw(image, {kMargin, kMargin});
+  studio.draw(image, {kMargin, studio_y});
   scenes.draw(image, {kMargin, scenes_y});
   rules.draw(image, {kMargin, middle_y});
   render.draw(image, {render_x, middle_y});
@@ -252,6 +255,7 @@ render::Image house() {
     arrow(image, {x, below - kBetween + 1}, {x, below - 3}, kInk);
   };
   const float rules_x = kMargin + 0.5f * rules_wide, render_middle = 0.5f * (render_x + kPage - kMargin);
+  down(0.5f * kPage, studio_y);
   down(0.5f * kPage, scenes_y);
   for (const float y : {middle_y, sim_y}) {
     down(rules_x, y);

@@ -14,6 +14,7 @@ namespace espalier::render {
 namespace {
 
 constexpr int kBarkSide = 256;
+constexpr std::size_t kMostBarksKept = 64;
 
 float smoothStep(float from, float to, float v) {
   const float t = std::clamp((v - from) / (to - from), 0.0f, 1.0f);
@@ -65,6 +66,7 @@ std::shared_ptr<const LeafPicture> drawnBark(sim::Colour colour) {
   static std::mutex one_at_a_time;
   static std::map<std::tuple<float, float, float>, std::shared_ptr<const LeafPicture>> drawn;
   const std::lock_guard lock(one_at_a_time);
+  if (drawn.size() >= kMostBarksKept) drawn.clear();  // a server draws in many colours
   auto& picture = drawn[{colour.r, colour.g, colour.b}];
   if (!picture) picture = std::make_shared<const LeafPicture>(barkIn(srgbFromLinear(colour)));
   return picture;

@@ -22,6 +22,8 @@ namespace {
 using glm::vec2;
 using sim::Colour;
 
+constexpr std::size_t kMostLeavesKept = 64;
+
 constexpr Colour kTwig(0.42f, 0.33f, 0.23f);
 
 /// A leaf's colours: display values.
@@ -301,6 +303,7 @@ std::shared_ptr<const LeafPicture> drawnLeaf(const std::string& kind, sim::Colou
   static std::map<std::tuple<std::string, float, float, float>, std::shared_ptr<const LeafPicture>> drawn;
   const Kind& wanted = kindOf(kind);
   const std::lock_guard lock(one_at_a_time);
+  if (drawn.size() >= kMostLeavesKept) drawn.clear();  // a server draws in many colours
   auto& picture = drawn[{kind, colour.r, colour.g, colour.b}];
   if (!picture) {
     const Paint paint{srgbFromLinear(colour)};

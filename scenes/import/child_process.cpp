@@ -3,8 +3,8 @@
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <poll.h>
-#include <sys/prctl.h>
-#include <sys/resource.h>
+#include <spawn.h>
+#include <sys/socket.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -13,31 +13,23 @@
 #include <cerrno>
 #include <csignal>
 #include <cstring>
-#include <fstream>
 #include <new>
+#include <stdexcept>
+#include <string_view>
+#include <utility>
 
+#include "scenes/import/child_work.h"
 #include "sim/base/error.h"
 #include "sim/base/stop.h"
 
 namespace espalier::scenes {
 namespace {
 
-// Sanitizers map terabytes of shadow memory, so a limit on the address space would end every child at once.
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-constexpr bool kLimitMemory = false;
-#else
-constexpr bool kLimitMemory = true;
-#endif
-
-constexpr char kFinished = 'F';
-constexpr char kThrew = 'T';
-constexpr char kOutOfMemory = 'M';
-
 class Descriptor {
  public:
   explicit Descriptor(int fd) : fd_(fd) {}
-  Descriptor(const Descriptor&) = delete;
-  Descriptor& operator=(const Descriptor&) = delete;
+  Descriptor(Descriptor&& other) noexcept : fd_(std::exchange(other.fd_, -1)) {}
+  Descriptor& operator=(Descriptor&&) = delete;
   ~Descriptor() { close(); }
   int get() const { return fd_; }
   void close() {
@@ -49,75 +41,106 @@ class Descriptor {
   int fd_;
 };
 
-/// Never beyond what is allowed already.
-void limitTo(int resource, rlim_t soft, rlim_t hard) {
-  rlimit limit{};
-  if (::getrlimit(static_cast<__rlimit_resource>(resource), &limit) != 0) ::_exit(1);
-  limit.rlim_max = std::min(limit.rlim_max, hard);
-  limit.rlim_cur = std::min(limit.rlim_max, soft);
-  if (::setrlimit(static_cast<__rlimit_resource>(resource), &limit) != 0) ::_exit(1);
+/// Two that are connected, neither among the three standard ones: those are put in their places in a child.
+struct Ends {
+  Descriptor ours, theirs;
+};
+
+int aside(int fd) {
+  if (fd > STDERR_FILENO) return fd;
+  const Descriptor low(fd);
+  return ::fcntl(fd, F_DUPFD_CLOEXEC, STDERR_FILENO + 1);
 }
 
-void enterLimits(const ChildLimits& limits, pid_t parent) {
-  ::prctl(PR_SET_PDEATHSIG, SIGKILL);
-  if (::getppid() != parent) ::_exit(1);  // the parent went before the line above could tie us to it
-  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) std::signal(signal, SIG_DFL);
-  limitTo(RLIMIT_CORE, 0, 0);
-  limitTo(RLIMIT_FSIZE, 0, 0);
-  const auto seconds = static_cast<rlim_t>(limits.cpu.count());
-  limitTo(RLIMIT_CPU, seconds, seconds + 1);
-  if (kLimitMemory) {
-    std::size_t pages = 0;
-    std::ifstream("/proc/self/statm") >> pages;
-    const rlim_t bytes = pages * static_cast<rlim_t>(::sysconf(_SC_PAGESIZE)) + limits.memory_bytes;
-    limitTo(RLIMIT_AS, bytes, bytes);
+Ends connected(std::array<int, 2> ends, bool made) {
+  const int reason = errno;
+  if (made) ends = {aside(ends[0]), aside(ends[1])};
+  if (made && ends[0] >= 0 && ends[1] >= 0) return {Descriptor(ends[0]), Descriptor(ends[1])};
+  const int why = made ? errno : reason;
+  for (const int end : ends) {
+    if (end >= 0) ::close(end);
   }
-  // An abort inside a library prints to the terminal; the parent says it better.
-  const int nowhere = ::open("/dev/null", O_WRONLY);
-  ::dup2(nowhere, STDOUT_FILENO);
-  ::dup2(nowhere, STDERR_FILENO);
+  throw std::runtime_error(fmt::format("cannot open a pipe: {}", std::strerror(why)));
 }
 
-void send(int fd, const char* data, std::size_t size) {
-  while (size > 0) {
-    const ssize_t n = ::write(fd, data, size);
-    if (n < 0 && errno == EINTR) continue;
-    if (n <= 0) ::_exit(1);
-    data += n;
-    size -= static_cast<std::size_t>(n);
-  }
+/// What they write comes to us.
+Ends pipeToUs() {
+  std::array<int, 2> ends{-1, -1};
+  const bool made = ::pipe2(ends.data(), O_CLOEXEC) == 0;
+  return connected(ends, made);
 }
+
+/// What we write comes to them; unlike into a pipe, it can be written without a signal where they have gone.
+Ends socketToThem() {
+  std::array<int, 2> ends{-1, -1};
+  const bool made = ::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends.data()) == 0;
+  return connected(ends, made);
+}
+
+constexpr std::array<int, 3> kEnding{SIGINT, SIGTERM, SIGHUP};  // what ends a child of ours is not ours
 
 [[noreturn]] void childMain(const std::function<std::string()>& work, const ChildLimits& limits, pid_t parent,
-                            int fd) {
-  enterLimits(limits, parent);
-  char kind = kFinished;
-  std::string bytes;
-  try {
-    bytes = work();
-  } catch (const std::bad_alloc&) {
-    kind = kOutOfMemory;
-  } catch (const std::exception& error) {
-    kind = kThrew;
-    bytes = error.what();
-  }
-  send(fd, &kind, 1);
-  send(fd, bytes.data(), bytes.size());
-  ::_exit(0);  // nothing of the parent's may be run or flushed a second time
+                            int to) {
+  endWith(parent);
+  for (const int signal : kEnding) std::signal(signal, SIG_DFL);
+  enterLimits(limits);
+  fallSilent();
+  answer(work, to);
+}
+
+/// Executes the program with those as its standard input and output, and no other descriptor of ours, whoever
+/// opened it.
+pid_t spawned(const std::filesystem::path& program, int in, int out) {
+  posix_spawn_file_actions_t files;
+  posix_spawnattr_t how;
+  ::posix_spawn_file_actions_init(&files);
+  ::posix_spawnattr_init(&how);
+  ::posix_spawn_file_actions_adddup2(&files, in, STDIN_FILENO);
+  ::posix_spawn_file_actions_adddup2(&files, out, STDOUT_FILENO);
+  ::posix_spawn_file_actions_addopen(&files, STDERR_FILENO, "/dev/null", O_WRONLY, 0);
+  ::posix_spawn_file_actions_addclosefrom_np(&files, STDERR_FILENO + 1);
+  sigset_t ending;
+  sigemptyset(&ending);
+  for (const int signal : kEnding) sigaddset(&ending, signal);
+  ::posix_spawnattr_setsigdefault(&how, &ending);
+  ::posix_spawnattr_setflags(&how, POSIX_SPAWN_SETSIGDEF);
+  std::string name = program.string(), flag = kAnswerFlag;
+  const std::array<char*, 3> command{name.data(), flag.data(), nullptr};
+  pid_t child = -1;
+  const int failure = ::posix_spawn(&child, name.c_str(), &files, &how, command.data(), environ);
+  ::posix_spawn_file_actions_destroy(&files);
+  ::posix_spawnattr_destroy(&how);
+  if (failure != 0)
+    throw std::runtime_error(fmt::format("cannot start {}: {}", name, std::strerror(failure)));
+  return child;
 }
 
 enum class Received { all, late, too_long };
 
+using Clock = std::chrono::steady_clock;
 constexpr std::chrono::milliseconds kBetweenQuestions(20);  // whether to stop
 
+/// Whether all was taken in time, or its taker has ended, of which its answer will tell.
+bool give(int to, std::string_view bytes, Clock::time_point deadline) {
+  while (!bytes.empty()) {
+    if (Clock::now() >= deadline) return false;
+    sim::throwIfStopped();
+    pollfd wait{to, POLLOUT, 0};
+    const int ready = ::poll(&wait, 1, static_cast<int>(kBetweenQuestions.count()));
+    if (ready == 0 || (ready < 0 && errno == EINTR)) continue;
+    const ssize_t n = ::send(to, bytes.data(), bytes.size(), MSG_NOSIGNAL | MSG_DONTWAIT);
+    if (n < 0 && (errno == EINTR || errno == EAGAIN)) continue;
+    if (n <= 0) return true;
+    bytes.remove_prefix(static_cast<std::size_t>(n));
+  }
+  return true;
+}
+
 /// Everything that the child writes until it closes its end.
-Received receive(int fd, std::chrono::steady_clock::time_point deadline, std::size_t limit,
-                 std::string& bytes) {
+Received receive(int fd, Clock::time_point deadline, std::size_t limit, std::string& bytes) {
   std::array<char, 1 << 16> buffer{};
   for (;;) {
-    const auto left =
-        std::chrono::duration_cast<std::chrono::milliseconds>(deadline - std::chrono::steady_clock::now())
-            .count();
+    const auto left = std::chrono::duration_cast<std::chrono::milliseconds>(deadline - Clock::now()).count();
     if (left <= 0) return Received::late;
     sim::throwIfStopped();
     pollfd wait{fd, POLLIN, 0};
@@ -161,22 +184,10 @@ ChildResult resultOf(int status, std::string bytes) {
   }
 }
 
-}  // namespace
-
-ChildResult runInChild(const std::function<std::string()>& work, const ChildLimits& limits) {
-  std::array<int, 2> ends{};
-  if (::pipe2(ends.data(), O_CLOEXEC) != 0) {
-    throw std::runtime_error(fmt::format("cannot open a pipe: {}", std::strerror(errno)));
-  }
-  Descriptor read_end(ends[0]);
-  Descriptor write_end(ends[1]);
-  const auto deadline = std::chrono::steady_clock::now() + limits.wall;
-  const pid_t parent = ::getpid();
-  const pid_t child = ::fork();
-  if (child < 0) throw std::runtime_error(fmt::format("cannot start a process: {}", std::strerror(errno)));
-  if (child == 0) childMain(work, limits, parent, write_end.get());
-
-  write_end.close();
+/// What a child answers, once it was told what it is to do.
+template <class Tell>
+ChildResult answerOf(pid_t child, int from, const ChildLimits& limits, Clock::time_point deadline,
+                     Tell tell) {
   const auto end = [&] {
     ::kill(child, SIGKILL);
     waitFor(child);
@@ -184,7 +195,7 @@ ChildResult runInChild(const std::function<std::string()>& work, const ChildLimi
   std::string bytes;
   Received received = Received::too_long;  // what running out of memory in here leaves behind
   try {
-    received = receive(read_end.get(), deadline, limits.result_bytes, bytes);
+    received = tell() ? receive(from, deadline, limits.result_bytes, bytes) : Received::late;
   } catch (const std::bad_alloc&) {
     bytes.clear();
   } catch (const sim::Stopped&) {
@@ -196,6 +207,35 @@ ChildResult runInChild(const std::function<std::string()>& work, const ChildLimi
     return {received == Received::late ? ChildEnd::out_of_time : ChildEnd::out_of_memory, {}};
   }
   return resultOf(waitFor(child), std::move(bytes));
+}
+
+}  // namespace
+
+ChildResult runInChild(const std::function<std::string()>& work, const ChildLimits& limits) {
+  Ends answers = pipeToUs();
+  const auto deadline = Clock::now() + limits.wall;
+  const pid_t parent = ::getpid();
+  const pid_t child = ::fork();
+  if (child < 0) throw std::runtime_error(fmt::format("cannot start a process: {}", std::strerror(errno)));
+  if (child == 0) childMain(work, limits, parent, answers.theirs.get());
+  answers.theirs.close();
+  return answerOf(child, answers.ours.get(), limits, deadline, [] { return true; });
+}
+
+ChildResult runInProgram(const std::filesystem::path& program, const std::string& ask,
+                         const ChildLimits& limits) {
+  const std::string order = orderFor(ask, limits);
+  Ends orders = socketToThem();
+  Ends answers = pipeToUs();
+  const auto deadline = Clock::now() + limits.wall;
+  const pid_t child = spawned(program, orders.theirs.get(), answers.theirs.get());
+  orders.theirs.close();
+  answers.theirs.close();
+  return answerOf(child, answers.ours.get(), limits, deadline, [&] {
+    const bool given = give(orders.ours.get(), order, deadline);
+    orders.ours.close();
+    return given;
+  });
 }
 
 }  // namespace espalier::scenes

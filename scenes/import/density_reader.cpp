@@ -37,7 +37,8 @@ std::vector<float> sharesOf(render::Image picture) {
   return std::move(picture.pixels);
 }
 
-/// The work of the child.
+}  // namespace
+
 std::string packedDensity(const std::filesystem::path& file) {
   std::ifstream in(file, std::ios::binary);
   const std::string bytes{std::istreambuf_iterator<char>(in), {}};
@@ -51,8 +52,6 @@ std::string packedDensity(const std::filesystem::path& file) {
   out.putArray(shares.data(), shares.size());
   return out.take();
 }
-
-}  // namespace
 
 sim::DensityPicture densityFromChild(std::string_view bytes, sim::InputFile& read) {
   Unpacker in(bytes);
@@ -78,7 +77,7 @@ sim::DensityPicture readDensity(const std::filesystem::path& file, sim::InputFil
     const std::uintmax_t size = sizeOfFile(file, "picture");
     render::makeReadyToDraw();  // the child would load it for itself, and say less of why it cannot
     read = {cleanText(file.filename().string()), "density", 0};
-    return readInChild([&] { return packedDensity(file); }, limitsFor(size), "picture",
+    return readInChild({"density", {file.string()}}, limitsFor(size), "picture",
                        [&](std::string_view bytes) { return densityFromChild(bytes, read); });
   });
 }

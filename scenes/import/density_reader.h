@@ -1,5 +1,6 @@
 #pragma once
 #include <filesystem>
+#include <string>
 #include <string_view>
 
 #include "sim/base/provenance.h"
@@ -18,6 +19,8 @@ inline constexpr int kMostDensityPixels = 1 << 24, kMostDensitySide = 1 << 14;
 /// is no number, or black.
 sim::DensityPicture readDensity(const std::filesystem::path& file, sim::InputFile& read);
 
+/// The work of the child.
+std::string packedDensity(const std::filesystem::path& file);
 /// What the reading child sent, unpacked and checked; the bytes are not trusted. Throws std::runtime_error.
 sim::DensityPicture densityFromChild(std::string_view bytes, sim::InputFile& read);
 

@@ -38,9 +38,8 @@ ChildLimits limitsFor(std::uintmax_t bytes) {
   return limits;
 }
 
-std::string readInChild(const std::function<std::string()>& work, const ChildLimits& limits,
-                        const std::string& what) {
-  ChildResult result = runInChild(work, limits);
+std::string readInChild(const Reading& reading, const ChildLimits& limits, const std::string& what) {
+  ChildResult result = readBeside(reading, limits);
   switch (result.end) {
     case ChildEnd::finished:
       break;

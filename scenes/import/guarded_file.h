@@ -2,11 +2,11 @@
 #include <cstdint>
 #include <exception>
 #include <filesystem>
-#include <functional>
 #include <string>
 
 #include "scenes/clean_text.h"
 #include "scenes/import/child_process.h"
+#include "scenes/import/reading.h"
 #include "sim/base/error.h"
 
 /// Files of strangers, read by libraries that they can break.
@@ -22,17 +22,16 @@ std::uintmax_t sizeOfFile(const std::filesystem::path& file, const std::string& 
 /// Ample for a file of that size on slow machines.
 ChildLimits limitsFor(std::uintmax_t bytes);
 
-/// What `work` returns, which reads a file in a child process. Throws sim::InputError, without the file's
-/// name, with what it throws there, or that it crashed, took too long or too much memory.
-std::string readInChild(const std::function<std::string()>& work, const ChildLimits& limits,
-                        const std::string& what);
+/// What a reader makes of a file in a child process. `what` the file is, in words. Throws sim::InputError,
+/// without the file's name, with what the reader throws there, or that it crashed, took too long or too much
+/// memory.
+std::string readInChild(const Reading& reading, const ChildLimits& limits, const std::string& what);
 
 /// What `unpack` makes of that: it does not trust the bytes, and throws a std::exception where they make no
 /// sense. Throws sim::InputError then too.
 template <class Unpack>
-auto readInChild(const std::function<std::string()>& work, const ChildLimits& limits, const std::string& what,
-                 Unpack unpack) {
-  const std::string bytes = readInChild(work, limits, what);
+auto readInChild(const Reading& reading, const ChildLimits& limits, const std::string& what, Unpack unpack) {
+  const std::string bytes = readInChild(reading, limits, what);
   try {
     return unpack(bytes);
   } catch (const std::exception& error) {

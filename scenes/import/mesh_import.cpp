@@ -82,6 +82,12 @@ sim::Mesh checked(sim::Mesh mesh) {
 
 }  // namespace
 
+std::string packedMesh(const std::filesystem::path& file, RegionsFrom regions_from) {
+  MeshSources sources;
+  const sim::Mesh mesh = readWithAssimp(file, regions_from, sources);
+  return packMesh(mesh, sources);
+}
+
 sim::Mesh meshFromChild(std::string_view bytes, MeshSources& sources) {
   return checked(unpacked(bytes, sources));
 }
@@ -91,13 +97,10 @@ sim::Mesh importMesh(const std::filesystem::path& file, RegionsFrom regions_from
   try {
     const std::uintmax_t bytes = sizeOfFile(file, "mesh");
     requireMeshFormat(file);
-    const auto work = [&] {
-      MeshSources in_child;
-      const sim::Mesh mesh = readWithAssimp(file, regions_from, in_child);
-      return packMesh(mesh, in_child);
-    };
+    const Reading reading{"mesh",
+                          {file.string(), regions_from == RegionsFrom::material ? "material" : "group"}};
     MeshSources read;
-    sim::Mesh mesh = meshFromChild(readInChild(work, limits.value_or(limitsFor(bytes)), "mesh"), read);
+    sim::Mesh mesh = meshFromChild(readInChild(reading, limits.value_or(limitsFor(bytes)), "mesh"), read);
     for (Problem& warning : read.warnings) {
       warning.path = file.string();
       warning.text = cleanText(warning.text);

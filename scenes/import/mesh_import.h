@@ -2,6 +2,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <optional>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -48,6 +49,8 @@ struct MeshSources {
 sim::Mesh importMesh(const std::filesystem::path& file, RegionsFrom regions_from,
                      std::optional<ChildLimits> limits = std::nullopt, MeshSources* sources = nullptr);
 
+/// The work of the child.
+std::string packedMesh(const std::filesystem::path& file, RegionsFrom regions_from);
 /// What the reading child sent (scenes/import/mesh_wire.h), unpacked and checked as importMesh does; the
 /// bytes are not trusted. Throws sim::InputError, without the file's name.
 sim::Mesh meshFromChild(std::string_view bytes, MeshSources& sources);

@@ -25,12 +25,12 @@ bool opaque(const std::array<std::uint8_t, 4>& texel) {
   return static_cast<float>(texel[3]) >= render::kCutout * 255.0f;
 }
 
-/// The work of the child.
-std::string packedPicture(const std::filesystem::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  const std::string bytes{std::istreambuf_iterator<char>(in), {}};
-  if (!in) throw sim::InputError("cannot be read");
-  return packPicture(pictureIn(bytes), sim::hashOf(bytes));
+sim::Picture pictureOf(render::Texels decoded) {
+  sim::Picture picture;
+  picture.width = decoded.width;
+  picture.height = decoded.height;
+  picture.texels = std::move(decoded.rgba);
+  return picture;
 }
 
 void requirePicture(bool sound) {
@@ -39,12 +39,20 @@ void requirePicture(bool sound) {
 
 }  // namespace
 
+std::string packedPicture(const std::filesystem::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  const std::string bytes{std::istreambuf_iterator<char>(in), {}};
+  if (!in) throw sim::InputError("cannot be read");
+  return packPicture(pictureIn(bytes), sim::hashOf(bytes));
+}
+
+std::string packedTexture(const std::string& mime_type, const std::string& bytes) {
+  const auto read = mime_type == "image/jpeg" ? render::oiio().read_jpeg : render::oiio().read_png;
+  return packPicture(pictureOf(read(bytes, kMostPicturePixels, kMostPictureSide)), 0);
+}
+
 sim::Picture pictureIn(const std::string& png) {
-  render::Texels decoded = render::oiio().read_png(png, kMostPicturePixels, kMostPictureSide);
-  sim::Picture picture;
-  picture.width = decoded.width;
-  picture.height = decoded.height;
-  picture.texels = std::move(decoded.rgba);
+  sim::Picture picture = pictureOf(render::oiio().read_png(png, kMostPicturePixels, kMostPictureSide));
   picture.png = png;
   return picture;
 }
@@ -85,7 +93,7 @@ std::shared_ptr<const sim::Picture> readPicture(const std::filesystem::path& fil
     const std::string name = cleanText(file.filename().string());
     read = {name, "picture", 0};
     const auto picture = std::make_shared<sim::Picture>(
-        readInChild([&] { return packedPicture(file); }, limitsFor(size), "picture",
+        readInChild({"picture", {file.string()}}, limitsFor(size), "picture",
                     [&](std::string_view bytes) { return pictureFromChild(bytes, read); }));
     if (std::none_of(picture->texels.begin(), picture->texels.end(), opaque))
       throw sim::InputError(

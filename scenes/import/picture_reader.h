@@ -19,6 +19,10 @@ inline constexpr int kMostPicturePixels = 1 << 24, kMostPictureSide = 8192;
 /// PNG, damaged or cut, of more pixels than above (asked before any is read), or wholly transparent.
 std::shared_ptr<const sim::Picture> readPicture(const std::filesystem::path& file, sim::InputFile& read);
 
+/// The work of the child.
+std::string packedPicture(const std::filesystem::path& file);
+/// The same with the bytes of a mesh's texture, by what it says they are.
+std::string packedTexture(const std::string& mime_type, const std::string& bytes);
 /// A PNG's bytes: what the child does with a file's. Throws sim::InputError.
 sim::Picture pictureIn(const std::string& png);
 /// What the child sends.

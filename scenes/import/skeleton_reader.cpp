@@ -23,17 +23,6 @@ bool endsInObj(const std::filesystem::path& file) {
   return ending == ".obj" || ending == ".OBJ" || ending == ".Obj";
 }
 
-/// The work of the child.
-std::string packedSkeletons(const std::filesystem::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  const std::string bytes{std::istreambuf_iterator<char>(in), {}};
-  if (!in) throw sim::InputError("cannot be read");
-  const std::vector<FileTree> trees = endsInObj(file) ? skeletonsInObj(bytes) : skeletonsInJson(bytes);
-  if (trees.empty())
-    throw sim::InputError("there is no segment in the file; expected a node with a parent elsewhere");
-  return packSkeletons(trees, sim::hashOf(bytes));
-}
-
 void requireSense(bool sound) {
   if (!sound) throw std::runtime_error("a skeleton that makes no sense");
 }
@@ -52,6 +41,16 @@ void requireTree(const FileTree& tree) {
 }
 
 }  // namespace
+
+std::string packedSkeletons(const std::filesystem::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  const std::string bytes{std::istreambuf_iterator<char>(in), {}};
+  if (!in) throw sim::InputError("cannot be read");
+  const std::vector<FileTree> trees = endsInObj(file) ? skeletonsInObj(bytes) : skeletonsInJson(bytes);
+  if (trees.empty())
+    throw sim::InputError("there is no segment in the file; expected a node with a parent elsewhere");
+  return packSkeletons(trees, sim::hashOf(bytes));
+}
 
 std::string packSkeletons(const std::vector<FileTree>& trees, std::uint64_t hash) {
   Packer out;
@@ -89,7 +88,7 @@ std::vector<FileTree> readSkeletons(const std::filesystem::path& file, sim::Inpu
   return namingFile(file, [&] {
     const ChildLimits limits = limitsFor(sizeOfFile(file, "skeleton"));
     read = {file.filename().string(), "skeleton", 0};
-    return readInChild([&] { return packedSkeletons(file); }, limits, "skeleton",
+    return readInChild({"skeleton", {file.string()}}, limits, "skeleton",
                        [&](std::string_view bytes) { return skeletonsFromChild(bytes, read); });
   });
 }

@@ -19,7 +19,9 @@ namespace espalier::scenes {
 /// a vertex that is not there or joins what is joined already, no segment in all the file.
 std::vector<FileTree> readSkeletons(const std::filesystem::path& file, sim::InputFile& read);
 
-/// The work of the child, by the text alone.
+/// The work of the child.
+std::string packedSkeletons(const std::filesystem::path& file);
+/// The same by the text alone.
 std::vector<FileTree> skeletonsInJson(std::string_view text);
 std::vector<FileTree> skeletonsInObj(std::string_view text);
 

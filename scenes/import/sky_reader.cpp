@@ -53,7 +53,8 @@ std::vector<float> cellsOf(const render::Image& whole, bool display) {
   return cells;
 }
 
-/// The work of the child.
+}  // namespace
+
 std::string packedSky(const std::filesystem::path& file) {
   std::ifstream in(file, std::ios::binary);
   const std::string bytes{std::istreambuf_iterator<char>(in), {}};
@@ -66,8 +67,6 @@ std::string packedSky(const std::filesystem::path& file) {
   out.putArray(cells.data(), cells.size());
   return out.take();
 }
-
-}  // namespace
 
 sim::SkyPicture skyFromChild(std::string_view bytes, sim::InputFile& read) {
   Unpacker in(bytes);
@@ -87,7 +86,7 @@ sim::SkyPicture readSky(const std::filesystem::path& file, sim::InputFile& read)
     const std::uintmax_t size = sizeOfFile(file, "picture");
     render::makeReadyToDraw();  // the child would load it for itself, and say less of why it cannot
     read = {cleanText(file.filename().string()), "sky", 0};
-    sim::SkyPicture picture = readInChild([&] { return packedSky(file); }, limitsFor(size), "picture",
+    sim::SkyPicture picture = readInChild({"sky", {file.string()}}, limitsFor(size), "picture",
                                           [&](std::string_view bytes) { return skyFromChild(bytes, read); });
     if (std::none_of(picture.radiance.begin(), picture.radiance.end(),
                      [](float value) { return value > 0.0f; }))

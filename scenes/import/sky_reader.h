@@ -1,5 +1,6 @@
 #pragma once
 #include <filesystem>
+#include <string>
 #include <string_view>
 
 #include "sim/base/provenance.h"
@@ -17,6 +18,8 @@ inline constexpr int kMostSkyPixels = 1 << 25;
 /// above the horizon.
 sim::SkyPicture readSky(const std::filesystem::path& file, sim::InputFile& read);
 
+/// The work of the child.
+std::string packedSky(const std::filesystem::path& file);
 /// What the reading child sent, unpacked and checked; the bytes are not trusted. Throws std::runtime_error.
 sim::SkyPicture skyFromChild(std::string_view bytes, sim::InputFile& read);
 

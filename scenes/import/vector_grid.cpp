@@ -175,13 +175,18 @@ openvdb::GridPtrVecPtr gridsIn(const std::string& bytes) {
   }
 }
 
-/// The work of the child.
+void require(bool sound) {
+  if (!sound) throw std::runtime_error("a lattice that makes no sense");
+}
+
+}  // namespace
+
 std::string packedLattice(const std::filesystem::path& file, const std::string& wanted) {
   std::ifstream in(file, std::ios::binary);
   const std::string bytes{std::istreambuf_iterator<char>(in), {}};
   if (!in) throw sim::InputError("cannot be read");
   VectorLattice lattice;
-  // On one thread: the parent's others do not live here.
+  // On one thread: of a forked child the parent's others do not live here.
   sim::onThreads(1, [&] {
     openvdb::initialize();
     const auto grids = gridsIn(bytes);
@@ -204,12 +209,6 @@ std::string packedLattice(const std::filesystem::path& file, const std::string& 
   out.put(lattice.coarser);
   return out.take();
 }
-
-void require(bool sound) {
-  if (!sound) throw std::runtime_error("a lattice that makes no sense");
-}
-
-}  // namespace
 
 VectorLattice latticeFromChild(std::string_view bytes, sim::InputFile& read) {
   Unpacker in(bytes);
@@ -238,7 +237,7 @@ VectorLattice readVectorGrid(const std::filesystem::path& file, const std::strin
   return namingFile(file, [&] {
     const ChildLimits limits = limitsFor(sizeOfFile(file, "volume"));
     read = {file.filename().string(), "volume", 0};
-    return readInChild([&] { return packedLattice(file, grid); }, limits, "volume",
+    return readInChild({"volume", {file.string(), grid}}, limits, "volume",
                        [&](std::string_view bytes) { return latticeFromChild(bytes, read); });
   });
 }

@@ -40,6 +40,8 @@ inline constexpr std::int32_t kMostLatticeSide = 4096;
 VectorLattice readVectorGrid(const std::filesystem::path& file, const std::string& grid,
                              sim::InputFile& read);
 
+/// The work of the child.
+std::string packedLattice(const std::filesystem::path& file, const std::string& grid);
 /// What the reading child sent, unpacked and checked; the bytes are not trusted. Throws std::runtime_error.
 VectorLattice latticeFromChild(std::string_view bytes, sim::InputFile& read);
 

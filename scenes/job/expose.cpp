@@ -121,7 +121,7 @@ Foretold foretellExpose(const Scene& scene, const RunOptions& options, const Sit
 }
 
 ExposeResult exposeScene(const Scene& scene, const RunOptions& options) {
-  if (!scene.asks.empty()) return exposeScene(fed(scene, options.folder, options), options);
+  if (!scene.asks.empty()) return exposeScene(fed(scene, options.folder, options).scene, options);
   ExposeResult result;
   Report& report = result.report;
   Stages stages(options, report);

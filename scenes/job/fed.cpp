@@ -251,14 +251,15 @@ fs::path newTemporaryFolder() {
 
 }  // namespace
 
-Scene fed(const Scene& scene, const fs::path& folder, const RunOptions& options) {
+FedScene fed(const Scene& scene, const fs::path& folder, const RunOptions& options) {
   const sim::StopScope stoppable(options.stop);
-  return Feeding(folder / kFedFolder, options).feed(scene);
+  auto claim = std::make_unique<const FolderClaim>(folder / kFedFolder);
+  return {Feeding(folder / kFedFolder, options).feed(scene), std::move(claim)};
 }
 
 FedInPassing::FedInPassing(const Scene& scene, const RunOptions& options) : folder_(newTemporaryFolder()) {
   try {
-    scene_ = fed(scene, folder_, options);
+    scene_ = fed(scene, folder_, options).scene;
   } catch (...) {
     std::error_code error;
     fs::remove_all(folder_, error);

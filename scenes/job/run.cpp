@@ -173,7 +173,7 @@ bool drawsTextures(const Scene& scene) {
 }  // namespace
 
 Report runScene(const Scene& scene, const RunOptions& options, const Keeping& keeping) {
-  if (!scene.asks.empty()) return runScene(fed(scene, options.folder, options), options, keeping);
+  if (!scene.asks.empty()) return runScene(fed(scene, options.folder, options).scene, options, keeping);
   if (options.pictures) requirePicturesFit(scene, picturesOf(scene));
   requireFilmFits(scene, options);
   std::vector<std::string> names = modelFileNames(options.models);
@@ -320,7 +320,11 @@ Foretold foretellRun(const Scene& scene, const RunOptions& options,
 }
 
 Report renderScene(Scene scene, const std::filesystem::path& from, const RunOptions& options) {
-  if (!scene.asks.empty()) scene = fed(scene, from, options);
+  FedScene fed_scene;
+  if (!scene.asks.empty()) {
+    fed_scene = fed(scene, from, options);
+    scene = std::move(fed_scene.scene);
+  }
   if (scene.images.empty() && !scene.film) {
     throw sim::InputError(
         fmt::format("{}: it has no images to draw; expected at least one, or a film", scene.file.string()));

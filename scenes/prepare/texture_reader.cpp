@@ -6,7 +6,7 @@
 #include <set>
 #include <stdexcept>
 
-#include "render/image/oiio.h"
+#include "render/image/image_io.h"
 #include "scenes/clean_text.h"
 #include "scenes/import/guarded_file.h"
 #include "scenes/import/picture_reader.h"
@@ -16,18 +16,8 @@
 namespace espalier::scenes {
 namespace {
 
-sim::Picture decodedTexture(const sim::Texture& texture) {
-  const auto read = texture.mime_type == "image/jpeg" ? render::oiio().read_jpeg : render::oiio().read_png;
-  render::Texels decoded = read(texture.bytes, kMostPicturePixels, kMostPictureSide);
-  sim::Picture picture;
-  picture.width = decoded.width;
-  picture.height = decoded.height;
-  picture.texels = std::move(decoded.rgba);
-  return picture;
-}
-
 std::shared_ptr<const sim::Picture> readTexture(const sim::Texture& texture) {
-  const std::string bytes = readInChild([&] { return packPicture(decodedTexture(texture), 0); },
+  const std::string bytes = readInChild({"texture", {texture.mime_type, texture.bytes}},
                                         limitsFor(texture.bytes.size()), "texture");
   sim::InputFile unused;
   try {

@@ -1,17 +1,14 @@
 #include "scenes/write/output_folder.h"
 
-#include <fcntl.h>
 #include <fmt/format.h>
-#include <sys/file.h>
-#include <unistd.h>
 
 #include <algorithm>
-#include <cerrno>
 #include <memory>
 #include <ostream>
 
 #include "sim/base/error.h"
 #include "sim/base/parallel.h"
+#include "sim/base/whole_file.h"
 
 namespace espalier::scenes {
 
@@ -24,41 +21,15 @@ OutputFile fileOf(std::string name, std::string bytes) {
                                std::ostream& out) { out << *bytes; }};
 }
 
-namespace {
-
 namespace fs = std::filesystem;
-
-/// A descriptor of the folder that holds its lock; -1 where the file system knows no locks. The system frees
-/// it when the last process that has the descriptor ends: children of ours do not outlive us.
-int claimOf(const fs::path& folder) {
-  const int descriptor = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-  if (descriptor < 0 || ::flock(descriptor, LOCK_EX | LOCK_NB) == 0) return descriptor;
-  const bool taken = errno == EWOULDBLOCK;
-  ::close(descriptor);
-  if (taken) {
-    throw sim::InputError(fmt::format(
-        "{}: another run is writing into this folder; expected another folder, or to wait", folder.string()));
-  }
-  return -1;
-}
-
-}  // namespace
 
 OutputFolder::OutputFolder(const fs::path& folder, std::vector<std::string> names,
                            std::span<const fs::path> read)
-    : made_(folder), claim_(claimOf(folder)), names_(std::move(names)) {
-  try {
-    protect(read);
-    sim::removeLeftovers(folder);
-    const sim::NewFile trial(folder / "trial", [](std::ostream&) {});
-  } catch (...) {
-    if (claim_ >= 0) ::close(claim_);
-    throw;
-  }
-}
-
-OutputFolder::~OutputFolder() {
-  if (claim_ >= 0) ::close(claim_);
+    : claim_(folder), names_(std::move(names)) {
+  protect(read);
+  // Where nobody knows who writes here, processes of other machines do not show either.
+  if (claim_.certain()) sim::removeLeftovers(folder);
+  const sim::NewFile trial(folder / "trial", [](std::ostream&) {});
 }
 
 void OutputFolder::protect(std::span<const fs::path> read) {

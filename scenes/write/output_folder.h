@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "sim/base/whole_file.h"
+#include "scenes/write/folder_claim.h"
 
 namespace espalier::scenes {
 
@@ -23,9 +23,7 @@ OutputFile fileOf(std::string name, std::function<std::string()> bytes);
 /// One whose bytes are there.
 OutputFile fileOf(std::string name, std::string bytes);
 
-/// A folder that one run writes into. As long as this lives no other run, of this process or of another one,
-/// can have one there; the claim ends with the process, however that ends. Where nothing was written, a
-/// folder that was not there before is not there afterwards either.
+/// A folder that one run writes into, and claims (scenes/write/folder_claim.h).
 class OutputFolder {
  public:
   /// Makes the folder where there is none, and a file in it, for a moment, so that what cannot be written is
@@ -37,9 +35,8 @@ class OutputFolder {
                std::span<const std::filesystem::path> read);
   OutputFolder(const OutputFolder&) = delete;
   OutputFolder& operator=(const OutputFolder&) = delete;
-  ~OutputFolder();
 
-  const std::filesystem::path& path() const { return made_.path(); }
+  const std::filesystem::path& path() const { return claim_.path(); }
 
   /// More files that were read.
   void protect(std::span<const std::filesystem::path> read);
@@ -51,8 +48,7 @@ class OutputFolder {
  private:
   void requireFree(const std::string& name) const;
 
-  sim::NewFolder made_;
-  int claim_ = -1;  // descriptor of the folder, locked
+  FolderClaim claim_;
   std::vector<std::string> names_;
   std::vector<std::filesystem::path> read_;
 };

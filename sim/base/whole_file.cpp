@@ -14,6 +14,7 @@
 #include <ostream>
 #include <set>
 #include <streambuf>
+#include <utility>
 
 #include "sim/base/error.h"
 
@@ -26,8 +27,8 @@ class Descriptor {
  public:
   Descriptor(const std::filesystem::path& path, int flags)
       : fd_(::open(path.c_str(), flags | O_CLOEXEC, 0644)) {}
-  Descriptor(const Descriptor&) = delete;
-  Descriptor& operator=(const Descriptor&) = delete;
+  Descriptor(Descriptor&& other) noexcept : fd_(std::exchange(other.fd_, -1)) {}
+  Descriptor& operator=(Descriptor&&) = delete;
   ~Descriptor() { close(); }
 
   bool ok() const { return fd_ >= 0; }
@@ -111,6 +112,7 @@ class FileBuffer : public std::streambuf {
 struct Parts {
   std::mutex mutex;
   std::set<std::filesystem::path> paths;
+  std::uint64_t made = 0;                      // files so far
   std::vector<std::filesystem::path> folders;  // new ones, inner ones first
 };
 
@@ -124,6 +126,15 @@ Parts& parts() {
   return *all;
 }
 
+/// Under the lock. Each once: another object may have made one of the same name since.
+void forget(std::vector<std::filesystem::path>& made) {
+  for (const auto& folder : made) {
+    const auto at = std::find(parts().folders.begin(), parts().folders.end(), folder);
+    if (at != parts().folders.end()) parts().folders.erase(at);
+  }
+  made.clear();
+}
+
 void removePart(const std::filesystem::path& part) {
   const std::lock_guard lock(parts().mutex);
   std::error_code ignored;
@@ -131,33 +142,43 @@ void removePart(const std::filesystem::path& part) {
   parts().paths.erase(part);
 }
 
-/// Whether the process that writes a temporary file still lives: its number is the end of the name.
+/// Whether the process that writes a temporary file still lives: its number is the end of the name. Where
+/// processes are numbered anew, as in containers, a dead one may have had our own.
 bool beingWritten(std::string_view name) {
   const std::string_view number = name.substr(name.rfind('-') + 1);
   pid_t writer = 0;
   const auto [end, error] = std::from_chars(number.data(), number.data() + number.size(), writer);
   if (error != std::errc() || end != number.data() + number.size() || writer <= 0) return false;
-  return ::kill(writer, 0) == 0 || errno == EPERM;
+  if (writer != ::getpid()) return ::kill(writer, 0) == 0 || errno == EPERM;
+  const std::lock_guard lock(parts().mutex);
+  return std::any_of(parts().paths.begin(), parts().paths.end(),
+                     [&](const std::filesystem::path& part) { return part.filename() == name; });
+}
+
+/// A new file beside `path`, of this process alone: two of its threads may be writing the same.
+Descriptor newPart(const std::filesystem::path& path, std::filesystem::path& part) {
+  const auto folder = path.has_parent_path() ? path.parent_path() : std::filesystem::path(".");
+  const std::lock_guard lock(parts().mutex);
+  for (;;) {
+    part = folder / fmt::format("{}{}-{}-{}", kMark, path.filename().string(), ++parts().made, ::getpid());
+    Descriptor file(part, O_WRONLY | O_CREAT | O_EXCL);
+    if (file.ok()) parts().paths.insert(part);
+    if (file.ok() || errno != EEXIST) return file;
+  }
 }
 
 }  // namespace
 
 NewFile::NewFile(const std::filesystem::path& path, const std::function<void(std::ostream&)>& write)
     : path_(path) {
-  const auto folder = path.has_parent_path() ? path.parent_path() : std::filesystem::path(".");
-  part_ = folder / fmt::format("{}{}-{}", kMark, path.filename().string(), ::getpid());
-  const auto create = [&] {
-    const std::lock_guard lock(parts().mutex);
-    parts().paths.insert(part_);
-    return Descriptor(part_, O_WRONLY | O_CREAT | O_TRUNC);
-  };
-  Descriptor file = create();
+  Descriptor file = newPart(path, part_);
   const auto fail = [&](const char* what) {
     const int reason = errno;
     removePart(part_);
     throw InputError(fmt::format("{}: cannot {}: {}", path.string(), what, std::strerror(reason)));
   };
-  if (!file.ok()) fail("create the file");
+  if (!file.ok())
+    throw InputError(fmt::format("{}: cannot create the file: {}", path.string(), std::strerror(errno)));
   FileBuffer buffer(file);
   std::ostream out(&buffer);
   try {
@@ -196,21 +217,30 @@ void NewFile::putInPlace() {
   part_.clear();
 }
 
+// Of folders that several runs make at once each belongs to the one that made it; where a run removes one
+// that another is about to make something in, that one begins again.
 NewFolder::NewFolder(const std::filesystem::path& path) : path_(path) {
   std::error_code error;
-  std::vector<std::filesystem::path> missing;
-  for (auto folder = std::filesystem::absolute(path, error).lexically_normal();
-       !folder.empty() && !std::filesystem::exists(folder, error); folder = folder.parent_path()) {
-    if (folder.has_filename()) missing.push_back(folder);
+  for (int tries = 0; tries < 10; ++tries) {
+    error.clear();
+    std::vector<std::filesystem::path> missing;
+    for (auto folder = std::filesystem::absolute(path, error).lexically_normal();
+         !folder.empty() && !std::filesystem::exists(folder, error); folder = folder.parent_path()) {
+      if (folder.has_filename()) missing.push_back(folder);
+    }
+    error.clear();
+    for (auto folder = missing.rbegin(); folder != missing.rend() && !error; ++folder) {
+      if (std::filesystem::create_directory(*folder, error)) made_.insert(made_.begin(), *folder);
+    }
+    if (!error) std::filesystem::create_directories(path, error);
+    if (error != std::errc::no_such_file_or_directory) break;
   }
-  std::filesystem::create_directories(path, error);
   if (!error && !std::filesystem::is_directory(path, error) && !error)
     error = std::make_error_code(std::errc::not_a_directory);
   if (error) {
-    removeEmpty(missing);
+    removeEmpty(made_);
     throw InputError(fmt::format("{}: cannot make the folder: {}", path.string(), error.message()));
   }
-  made_ = std::move(missing);
   const std::lock_guard lock(parts().mutex);
   parts().folders.insert(parts().folders.begin(), made_.begin(), made_.end());
 }
@@ -218,9 +248,12 @@ NewFolder::NewFolder(const std::filesystem::path& path) : path_(path) {
 NewFolder::~NewFolder() {
   const std::lock_guard lock(parts().mutex);
   removeEmpty(made_);
-  std::erase_if(parts().folders, [&](const std::filesystem::path& folder) {
-    return std::find(made_.begin(), made_.end(), folder) != made_.end();
-  });
+  forget(made_);
+}
+
+void NewFolder::keep() {
+  const std::lock_guard lock(parts().mutex);
+  forget(made_);
 }
 
 void writeWhole(const std::filesystem::path& path, std::string_view bytes) {

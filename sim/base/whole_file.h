@@ -41,6 +41,9 @@ class NewFolder {
 
   const std::filesystem::path& path() const { return path_; }
 
+  /// From now on it stays, whatever it holds.
+  void keep();
+
  private:
   std::filesystem::path path_;
   std::vector<std::filesystem::path> made_;  // inner ones first
@@ -51,7 +54,8 @@ class NewFolder {
 /// be writing.
 void abandonFiles();
 
-/// Removes temporary files that a killed run of ours left in a folder, and none that a living one is writing.
+/// Removes temporary files that a killed run of ours left in a folder, and none that a living process of this
+/// machine is writing, this one included.
 void removeLeftovers(const std::filesystem::path& folder);
 
 }  // namespace espalier::sim

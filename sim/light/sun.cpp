@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <mutex>
 #include <numbers>
 #include <numeric>
 
@@ -77,6 +78,9 @@ class SunDay {
   };
 
   Position at(double julian_day) const {
+    // libnova remembers what it was asked last, in variables that all threads share.
+    static std::mutex one_at_a_time;
+    const std::lock_guard lock(one_at_a_time);
     ln_equ_posn j2000{}, now{};
     ln_get_solar_equ_coords(julian_day, &j2000);  // for the equinox of 2000, whatever the date
     ln_get_equ_prec(&j2000, julian_day, &now);

@@ -2,10 +2,14 @@
 
 #include <httplib.h>
 
+#include <algorithm>
 #include <chrono>
 #include <map>
+#include <memory>
+#include <optional>
 #include <string_view>
 #include <thread>
+#include <utility>
 
 #include "scenes/clean_text.h"
 #include "scenes/problem.h"
@@ -15,8 +19,8 @@
 #include "studio/server/asked.h"
 #include "studio/server/guard.h"
 #include "studio/server/page_files.h"
+#include "studio/server/sending.h"
 #include "studio/session/refused.h"
-#include "studio/wire/frame.h"
 #include "studio/wire/json.h"
 
 namespace espalier::studio {
@@ -24,7 +28,6 @@ namespace {
 
 constexpr std::size_t kMostBody = std::size_t{1} << 20;
 constexpr std::size_t kThreads = 12;  // each stream holds one
-constexpr std::chrono::seconds kBetweenPings(2);
 constexpr const char* kJson = "application/json";
 constexpr const char* kBinary = "application/octet-stream";
 
@@ -74,7 +77,7 @@ class Server::Routes {
     });
     http_.set_payload_max_length(kMostBody);
     http_.set_read_timeout(10);
-    http_.set_write_timeout(10);
+    http_.set_write_timeout(0, 100'000);
     http_.set_keep_alive_timeout(5);
     http_.set_default_headers(headersOfAll());
     http_.set_pre_routing_handler([this](const httplib::Request& request, httplib::Response& response) {
@@ -142,11 +145,11 @@ class Server::Routes {
 
   void addPage() {
     for (const PageFile& file : pageFiles()) {
-      const auto give = [&file](const Request&, Response& response) {
-        response.set_content(file.bytes.data(), file.bytes.size(), std::string(file.type).c_str());
+      const auto page = [&file](const Request&, Response& response) {
+        give(response, std::string(file.bytes), std::string(file.type).c_str());
       };
-      http_.Get("/" + literal(file.path), give);
-      if (file.path == "index.html") http_.Get("/", give);
+      http_.Get("/" + literal(file.path), page);
+      if (file.path == "index.html") http_.Get("/", page);
     }
     if (pageFiles().empty()) {
       http_.Get("/", [](const Request&, Response& response) {
@@ -170,9 +173,8 @@ class Server::Routes {
 
   void addReading() {
     const auto get = [this](const char* pattern, auto make) {
-      http_.Get(pattern, [make](const Request& request, Response& response) {
-        response.set_content(make(request), kJson);
-      });
+      http_.Get(pattern,
+                [make](const Request& request, Response& response) { give(response, make(request), kJson); });
     };
     get("/api/project", [this](const Request&) { return session_.project(); });
     get("/api/library", [](const Request&) { return libraryJson(); });
@@ -182,7 +184,7 @@ class Server::Routes {
       http_.Get(pattern, [find, type](const Request& request, Response& response) {
         const Assets::Bytes bytes = find(request.matches[1].str());
         if (!bytes) throw Refused(404, "it is gone");
-        response.set_content(*bytes, type);
+        give(response, bytes, type);
       });
     };
     file(R"(/api/site/([0-9a-f]{16})\.glb)", "model/gltf-binary",
@@ -190,28 +192,29 @@ class Server::Routes {
     file(R"(/api/texture/([0-9a-f]{16})\.png)", "image/png",
          [this](const std::string& id) { return session_.assets().texture(id); });
     http_.Get("/api/surfaces", [this](const Request& request, Response& response) {
-      response.set_content(session_.surfaces(wholeOf<Version>(request.get_param_value("version"))), kBinary);
+      give(response, session_.surfaces(wholeOf<Version>(request.get_param_value("version"))), kBinary);
     });
     http_.Get("/api/layers", [this](const Request& request, Response& response) {
       const std::string axis = request.get_param_value("axis");
       if (axis != "x" && axis != "y" && axis != "z") throw Refused(400, "axis: expected x, y or z");
-      response.set_content(session_.layers(wholeOf<Version>(request.get_param_value("version")), axis[0] - 'x',
-                                           metresOf(request.get_param_value("at"))),
-                           kBinary);
+      give(response,
+           session_.layers(wholeOf<Version>(request.get_param_value("version")), axis[0] - 'x',
+                           metresOf(request.get_param_value("at"))),
+           kBinary);
     });
     http_.Get(R"(/api/export/([A-Za-z0-9_.-]+))", [this](const Request& request, Response& response) {
       const std::string name = request.matches[1].str();
       auto bytes = session_.exported(name);
       if (!bytes) throw Refused(404, "it is gone");
       response.set_header("Content-Disposition", "attachment; filename=\"" + name + "\"");
-      response.set_content(std::move(*bytes), kBinary);
+      give(response, std::move(*bytes), kBinary);
     });
   }
 
   void addWriting() {
     const auto post = [this](const char* path, auto make) {
       http_.Post(path, [make](const Request& request, Response& response) {
-        response.set_content(make(AskedBody(request.body)), kJson);
+        give(response, make(AskedBody(request.body)), kJson);
       });
     };
     post("/api/edit", [this](const AskedBody& asked) { return session_.edit(asked.texts("texts")); });
@@ -234,7 +237,7 @@ class Server::Routes {
       const AskedBody asked(request.body);
       const Session::Saved saved = session_.save(asked.text("file"), asked.text("text"), asked.text("saved"));
       if (saved.conflict) response.status = 409;
-      response.set_content(saved.json, kJson);
+      give(response, saved.json, kJson);
     });
   }
 
@@ -242,16 +245,7 @@ class Server::Routes {
     http_.Get("/api/stream", [this](const Request&, Response& response) {
       const std::shared_ptr<Listener> listener = session_.listen();
       if (!listener) throw Refused(429, "too many pages are open");
-      response.set_chunked_content_provider(kBinary, [listener](std::size_t, httplib::DataSink& sink) {
-        const auto frame = listener->next(kBetweenPings);
-        if (!frame) {
-          sink.done();
-          return true;
-        }
-        const std::string ping = frameOf(FrameKind::nothing, "");
-        const std::string& bytes = frame->empty() ? ping : *frame;
-        return sink.write(bytes.data(), bytes.size());
-      });
+      stream(response, listener, kBinary);
     });
   }
 

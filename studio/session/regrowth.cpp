@@ -84,7 +84,9 @@ void Regrowth::to(const scenes::Scene& asked, Version version, const Told& text,
     event(busyEvent(version_, "", 1.0));
   };
   try {
-    const scenes::Scene scene = asked.asks.empty() ? asked : scenes::fed(asked, folder_, {});
+    scenes::FedScene fed{asked, nullptr};
+    if (!asked.asks.empty()) fed = scenes::fed(asked, folder_, {});
+    const scenes::Scene& scene = fed.scene;
     makeSite(scene);
     makePlans(scene);
     told.warnings = plans_.warnings;

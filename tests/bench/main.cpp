@@ -35,7 +35,7 @@ int main(int argc, char** argv) {
   app.add_option("--most-voxels", most_voxels, "Of the largest world")->capture_default_str();
   app.add_option("--most-segments", most_segments, "Of the largest growth");
   app.add_option("--most-attractors", most_attractors, "Of the largest front");
-  app.add_option("--rows", rows, "Only these of 1 .. 14")->check(CLI::Range(1, 14));
+  app.add_option("--rows", rows, "Only these of 1 .. 15")->check(CLI::Range(1, 15));
   CLI11_PARSE(app, argc, argv);
   const auto wanted = [&](int row) { return rows.empty() || rows.contains(row); };
   try {
@@ -57,6 +57,7 @@ int main(int argc, char** argv) {
     if (wanted(12)) bench::benchBranching(report);
     if (wanted(13)) bench::benchPieces(report);
     if (wanted(14)) bench::benchHeights(report);
+    if (wanted(15)) bench::benchStudio(report);
     report.writeCsv(csv);
     if (!document.empty()) report.writeInto(document);
   } catch (const std::exception& error) {

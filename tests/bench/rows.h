@@ -48,6 +48,9 @@ void benchPieces(Report& report);
 /// Land by the number of a tree's attractors: growth, heights, mesh and files.
 void benchHeights(Report& report);
 
+/// From an edit in the studio to what the page hears of it.
+void benchStudio(Report& report);
+
 /// A sky of at least so many directions, of equal weight for equal parts.
 sim::DirectionSet skyOf(int directions);
 

@@ -86,7 +86,7 @@ TEST_F(Options, AWrongCommandLineIsAnsweredWithWhatIsRight) {
     EXPECT_EQ(ran.output, said + "\n") << arguments;
   };
   const std::string
-      commands = "grow, render, expose, check, certify, inspect, rules, schema, init, explain, gallery",
+      commands = "grow, render, expose, check, certify, inspect, rules, schema, init, explain, gallery, studio",
       see = " (see espalier --help)";
   expectSaid("", "espalier: no command is given; expected one of " + commands + see);
   expectSaid("gorw x.yaml", "espalier: there is no command 'gorw'; expected one of " + commands +

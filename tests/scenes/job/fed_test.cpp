@@ -146,13 +146,23 @@ TEST_F(Fed, ScenesInARowFeedEachOther) {
   EXPECT_GT(of("middle.yaml"), 0) << "what it was made from is another now";
 }
 
+/// Another run in the same folder would remove what this one took, as its scene asks for another state of it.
+TEST_F(Fed, WhatALivingRunTakesStays) {
+  const FedScene has = fed(scene("scene.yaml", kOnIt), scratch_.path("out"), {});
+  const fs::path mesh = has.scene.meshes.at(0).file;
+  ASSERT_TRUE(fs::exists(mesh));
+  scratch_.write("wall.yaml", with(kWall, "[[-0.4, 0.25, 0.25]]", "[[-0.4, 0.25, 0.55]]"));
+  EXPECT_THROW(fed(scene("scene.yaml", kOnIt), scratch_.path("out"), {}), sim::InputError);
+  EXPECT_TRUE(fs::exists(mesh));
+}
+
 TEST_F(Fed, APictureIsPaintedOnElements) {
   const std::string leaves =
       "elements: [{name: leaf, from: wall.yaml, product: sheet, size: 0.4}], random_tree";
   const Scene asks = scene("scene.yaml", with(kWall, "random_tree", leaves));
   EXPECT_EQ(asks.plants[0].rules->elements[0].picture, nullptr);
   RunOptions options;
-  const Scene has = fed(asks, scratch_.path("out"), options);
+  const Scene has = fed(asks, scratch_.path("out"), options).scene;
   const rules::Element& leaf = has.plants[0].rules->elements[0];
   ASSERT_NE(leaf.picture, nullptr);
   const auto drawn =
@@ -164,7 +174,8 @@ TEST_F(Fed, APictureIsPaintedOnElements) {
   EXPECT_FALSE(fs::exists(scratch_.path("out") / kFedFolder / madeIn()[0] / "view.png")) << "nobody asked";
   const Scene own =
       fed(scene("scene.yaml", with(kWall, "random_tree", with(leaves, "size", "colour: \"#102030\", size"))),
-          scratch_.path("out"), options);
+          scratch_.path("out"), options)
+          .scene;
   EXPECT_NE(own.plants[0].rules->elements[0].colour, leaf.colour);
   EXPECT_EQ(grow(with(kWall, "random_tree", leaves)).size(), 0u);
   EXPECT_GT(report_.growth->plants.at(0).elements, 0u);

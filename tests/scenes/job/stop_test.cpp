@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <atomic>
 #include <chrono>
 #include <condition_variable>
 #include <mutex>
@@ -98,6 +99,43 @@ TEST_F(StoppedJob, EndsSoonWhereverExposureIs) {
     for (const int after_ms : {0, 300}) stops(stage, after_ms, expose);
   }
   EXPECT_GE(stopped_, 6);
+}
+
+/// As in a server: what one grows is none of the other's affair, and neither is its stop.
+TEST(TwoJobs, HearTheirOwnStopsAloneAndGrowWhatTheyGrowAlone) {
+  const tests::Scratch scratch;
+  auto read = readScene(tests::sourceFolder() / "scenes/library/garden_wall.yaml");
+  ASSERT_TRUE(read);
+  read->world.voxel_m = 0.08;
+  const auto grow = [&](const std::string& folder, const std::stop_token& stop) {
+    RunOptions options;
+    options.pictures = false;
+    options.folder = scratch.path(folder);
+    options.stop = stop;
+    return runScene(*read, options).growth.value().state_hash;
+  };
+  const auto alone = grow("alone", {});
+  std::stop_source never;
+  std::atomic<bool> over = false;
+  int stopped = 0;
+  std::jthread beside([&] {
+    for (int round = 0; !over; ++round) {
+      std::stop_source mine;
+      const std::jthread soon([&] {
+        std::this_thread::sleep_for(std::chrono::milliseconds(20 * (round % 20)));
+        mine.request_stop();
+      });
+      try {
+        grow("stopped", mine.get_token());
+      } catch (const sim::Stopped&) {
+        ++stopped;
+      }
+    }
+  });
+  for (int round = 0; round < 2; ++round) EXPECT_EQ(grow("kept", never.get_token()), alone);
+  over = true;
+  beside.join();
+  EXPECT_GT(stopped, 0);
 }
 
 }  // namespace

@@ -108,6 +108,64 @@ TEST(StopScope, OtherJobsOfTheProcessAreNotTouched) {
   EXPECT_EQ(count, 20u * 50u * 50u);
 }
 
+/// Each hears its own, at whatever depth, on whatever threads, and however often.
+TEST(StopScope, TwoJobsWithTokensOfTheirOwnHearThoseAlone) {
+  std::atomic<int> wrong = 0, heard = 0;
+  const auto job = [&](int threads) {
+    for (int round = 0; round < 200; ++round) {
+      std::stop_source mine;
+      const StopScope in_force(mine.get_token());
+      std::atomic<int> count = 0;
+      try {
+        onThreads(threads, [&] {
+          parallelForEach(30, [&](std::size_t) {
+            parallelInvoke(
+                [&] {
+                  parallelForEach(30, [&](std::size_t) {
+                    if (stopRequested() && !mine.stop_requested()) ++wrong;
+                    if (++count == 400) mine.request_stop();
+                  });
+                },
+                [] { throwIfStopped(); });
+          });
+        });
+        ++wrong;
+      } catch (const Stopped&) {
+        ++(mine.stop_requested() ? heard : wrong);
+      }
+      if (count < 400) ++wrong;
+    }
+  };
+  {
+    const std::jthread one(job, 2), another(job, 3);
+    job(1);
+  }
+  EXPECT_EQ(wrong, 0);
+  EXPECT_EQ(heard, 3 * 200);
+}
+
+/// What is built on one thread, to be the same every time, leaves the others theirs.
+TEST(OnThreads, HoldsNoOtherJobBack) {
+  if (threadCount() < 2) GTEST_SKIP() << "one thread is all that there is";
+  std::stop_source over;
+  std::atomic<bool> begun = false;
+  const std::jthread alone([&] {
+    onThreads(1, [&] {
+      begun = true;
+      while (!over.stop_requested()) std::this_thread::sleep_for(1ms);
+    });
+  });
+  while (!begun) std::this_thread::sleep_for(1ms);
+  std::atomic<int> met = 0;
+  const auto until = std::chrono::steady_clock::now() + 20s;
+  parallelForEach(2, [&](std::size_t) {
+    ++met;
+    while (met < 2 && std::chrono::steady_clock::now() < until) std::this_thread::sleep_for(1ms);
+    EXPECT_EQ(met, 2) << "they were to run at the same time";
+  });
+  over.request_stop();
+}
+
 TEST(StopScope, AFailureBeforeTheStopIsStillAStop) {
   std::stop_source source;
   const StopScope in_force(source.get_token());

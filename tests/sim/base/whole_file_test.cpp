@@ -10,6 +10,8 @@
 #include <ostream>
 #include <stdexcept>
 #include <string>
+#include <thread>
+#include <vector>
 
 #include "sim/base/error.h"
 
@@ -42,6 +44,21 @@ TEST(WholeFile, LeftoversOfTheDeadGoAndWhatTheLivingWriteStays) {
   EXPECT_FALSE(fs::exists(dead));
   EXPECT_FALSE(fs::exists(nobodys));
   EXPECT_TRUE(fs::exists(folder / "plant.glb"));
+  fs::remove_all(folder);
+}
+
+/// A program in a container has the number of the one before it.
+TEST(WholeFile, LeftoversOfADeadProcessOfOurNumberGoAndOurOwnFilesStay) {
+  const fs::path folder = fs::path(testing::TempDir()) / ("espalier.own." + std::to_string(::getpid()));
+  fs::create_directories(folder);
+  std::ofstream(folder / (".espalier-part-plant.glb-4000000000-" + std::to_string(::getpid()))) << "half";
+  NewFile(folder / "plant.glb", [&](std::ostream& out) {
+    out << "whole";
+    const NewFile beside(folder / "world.vdb", [](std::ostream&) {});
+    removeLeftovers(folder);
+    EXPECT_EQ(std::distance(fs::directory_iterator(folder), {}), 2);
+  }).putInPlace();
+  EXPECT_EQ(std::distance(fs::directory_iterator(folder), {}), 1);
   fs::remove_all(folder);
 }
 
@@ -94,6 +111,22 @@ TEST_F(NewFiles, CanBeSoughtInWhileTheyAreWritten) {
   });
   file.putInPlace();
   EXPECT_TRUE(in(path_) == wanted);
+}
+
+/// Two jobs of a process: the last one counts, and its bytes are not mixed with those of the other.
+TEST_F(NewFiles, OfTheSameNameAreWrittenBesideEachOther) {
+  {
+    std::vector<std::jthread> threads;
+    for (int thread = 0; thread < 6; ++thread) {
+      threads.emplace_back([&, letter = static_cast<char>('a' + thread)] {
+        for (int round = 0; round < 20; ++round) writeWhole(path_, std::string(50'000, letter));
+      });
+    }
+  }
+  const std::string last = in(path_);
+  ASSERT_EQ(last.size(), 50'000u);
+  EXPECT_EQ(last, std::string(50'000, last[0]));
+  EXPECT_EQ(files(), 1);
 }
 
 TEST_F(NewFiles, ThatCannotBeMadeLeaveNothing) {

@@ -3,6 +3,9 @@
 
 #include <gtest/gtest.h>
 #include <httplib.h>
+#include <netinet/in.h>
+#include <sys/socket.h>
+#include <unistd.h>
 
 #include <atomic>
 #include <chrono>
@@ -212,6 +215,38 @@ TEST_F(Served, StreamsAreFewAndEndWithTheServer) {
       << "ten times what is promised";
   for (std::thread& page : pages) page.join();
   EXPECT_EQ(ended, 6);
+}
+
+/// A page that never reads: its laptop's lid is closed.
+TEST_F(Served, AClosedLidHoldsNobodyUp) {
+  const int lid = ::socket(AF_INET, SOCK_STREAM, 0);
+  const int little = 4096;  // of what the system takes on its behalf
+  ::setsockopt(lid, SOL_SOCKET, SO_RCVBUF, &little, sizeof little);
+  sockaddr_in to{};
+  to.sin_family = AF_INET;
+  to.sin_port = htons(static_cast<std::uint16_t>(server_->port()));
+  to.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+  ASSERT_EQ(::connect(lid, reinterpret_cast<const sockaddr*>(&to), sizeof to), 0);
+  std::string request = "GET /api/stream HTTP/1.1\r\n";
+  for (const auto& [name, value] : page_) request += name + ": " + value + "\r\n";
+  request += "\r\n";
+  ASSERT_EQ(::send(lid, request.data(), request.size(), 0), static_cast<ssize_t>(request.size()));
+  auto http = client();
+  for (int i = 0; i < 150; ++i) {
+    const std::string text =
+        tests::replaced(tests::kSmallRules, "up: 0.1", "up: 0.1" + std::to_string(i % 7));
+    const auto answer =
+        http.Post("/api/edit", page_, json{{"texts", {{"vine.yaml", text}}}}.dump(), "application/json");
+    ASSERT_TRUE(answer);
+    EXPECT_EQ(answer->status, 200);
+    if (i % 10 == 0) std::this_thread::sleep_for(std::chrono::milliseconds(20));
+  }
+  const auto closing = std::chrono::steady_clock::now();
+  server_.reset();
+  session_.reset();
+  EXPECT_LT(std::chrono::steady_clock::now() - closing, std::chrono::seconds(3))
+      << "ten times what is promised";
+  ::close(lid);
 }
 
 }  // namespace

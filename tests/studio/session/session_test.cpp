@@ -5,6 +5,7 @@
 
 #include <array>
 #include <fstream>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <random>
 
@@ -135,6 +136,53 @@ TEST_F(Studio, SomebodyWhoComesLaterHearsAllThatStands) {
   EXPECT_EQ(nodes, grown["segments"].get<std::size_t>() + 2) << "and the seeds";
   EXPECT_EQ(elements, grown["elements"].get<std::size_t>());
   EXPECT_GT(elements, 0u);
+}
+
+/// Where nodes of a version stand that were born early, in metres, by plant and number.
+std::map<std::pair<std::uint32_t, std::uint32_t>, sim::Vec3> earlyNodes(
+    const std::vector<Heard::Frame>& frames, std::uint32_t version) {
+  constexpr std::uint16_t kEarly = 5;
+  std::map<std::pair<std::uint32_t, std::uint32_t>, sim::Vec3> nodes;
+  for (const Heard::Frame& frame : frames) {
+    std::uint32_t header[6];
+    if (frame.kind != 2) continue;
+    std::memcpy(header, frame.payload.data(), sizeof header);
+    const auto [own, plant, first, count, total, iteration] = header;
+    if (own != version) continue;
+    for (std::uint32_t i = 0; i < count; ++i) {
+      float at[3];
+      std::uint16_t born = 0;
+      std::memcpy(at, frame.payload.data() + 24 + 4 * count + 12 * i, sizeof at);
+      std::memcpy(&born, frame.payload.data() + 24 + 16 * count + 4 * total + 2 * i, sizeof born);
+      if (born < kEarly) nodes[{plant, first + i}] = sim::Vec3(at[0], at[1], at[2]);
+    }
+  }
+  return nodes;
+}
+
+TEST_F(Studio, SmallEditsGiveSmallChanges) {
+  open();
+  const auto nodesOf = [&](const std::string& file, const std::string& text) {
+    stagesOf(file, text);
+    return earlyNodes(heard_->frames, version_);
+  };
+  // The share of nodes that move by less than half a voxel.
+  const auto kept = [](const auto& a, const auto& b) {
+    std::size_t near = 0;
+    for (const auto& [node, at] : a) {
+      const auto other = b.find(node);
+      if (other != b.end() && glm::distance(at, other->second) < 0.025) ++near;
+    }
+    EXPECT_GT(a.size(), 10u);
+    return static_cast<double>(near) / static_cast<double>(a.size());
+  };
+  const auto before = earlyNodes(heard_->frames, 1);
+  const auto nudged = nodesOf("vine.yaml", replaced(kSmallRules, "up: 0.1", "up: 0.101"));
+  nodesOf("vine.yaml", kSmallRules);
+  const auto other = nodesOf("scene.yaml", replaced(kSmallScene, "seed: 5", "seed: 6"));
+  EXPECT_NE(before, nudged);
+  EXPECT_GT(kept(before, nudged), 0.6);
+  EXPECT_LT(kept(before, other), 0.2) << "another seed is another plant";
 }
 
 TEST_F(Studio, ANodeSaysWhyItIsThere) {

@@ -73,7 +73,7 @@ const lastTab = remembered("tab", "", isText);
 const world = new World(byId<HTMLCanvasElement>("canvas"), byId("stage"), drawn, (why) => notices.fault(`The scene's meshes: ${why}`));
 const live = new Live(workspace, {
   scene: (scene) => {
-    world.describe(scene, project?.name ?? "", !hands.holdsSeed);
+    world.describe(scene, !hands.holdsSeed);
     hands.voxel = scene.voxel_m;
   },
   grown: (changed) => {

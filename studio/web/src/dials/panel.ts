@@ -120,7 +120,7 @@ export class DialPanel {
     row.element.dataset["source"] = dial.source;
     row.element.classList.toggle("is-other", dial.other);
     row.value.textContent = dialWords(dial);
-    row.reset.hidden = dial.source !== "text";
+    row.reset.disabled = dial.source !== "text";
     const inside = pictureOf(dial);
     row.element.classList.toggle("has-picture", inside !== "");
     if (inside) refill(row.picture, drawing(40, 32, inside));

@@ -61,6 +61,7 @@ export interface SceneSeed {
 export interface SceneEvent {
   event: "scene";
   version: number;
+  name: string;
   site: string;
   low_m: Vec3;
   high_m: Vec3;
@@ -113,7 +114,7 @@ export interface GrowthEvent {
   ending?: string;
   plants: { name?: string; segments: number; elements: number; failure?: string | null }[];
   /** With `done`: a few lines on plants that did not thrive. */
-  poor?: string[];
+  poor?: string | string[];
   outcomes?: { buds?: Record<string, number>; trials?: Record<string, number> };
 }
 

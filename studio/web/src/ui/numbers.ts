@@ -7,6 +7,9 @@ const stageColours: Record<string, string> = {
   reading: "#8a8f88", tiling: "#b98a4a", preparing: "#9c7fb0", growing: "#6f9a3c", dressing: "#4f9a8a", lighting: "#e0a21f",
 };
 
+/** What is no fault of the rules has quiet colours. */
+const known: Record<string, string> = { grown: "#6f9a3c", resting: "#a9b39a" };
+
 export class Numbers {
   private readonly figures: Record<string, HTMLElement> = {};
   private readonly stages = make("div", { class: "strip", "aria-label": "Time by stage", role: "group" });
@@ -46,11 +49,12 @@ export class Numbers {
   private outcomes(growth: GrowthEvent): void {
     const buds = Object.entries(growth.outcomes?.buds ?? {}).filter(([, count]) => count > 0).sort((a, b) => b[1] - a[1]);
     const sum = buds.reduce((total, [, count]) => total + count, 0);
-    const failed = [...(growth.ending ? [growth.ending] : []), ...growth.plants.flatMap((plant) => (plant.failure ? [`${plant.name ?? "a plant"}: ${plant.failure}`] : [])), ...(growth.poor ?? [])];
-    const colour = (i: number) => outcomeColours[i % outcomeColours.length] ?? "#888";
+    const failed = [...(growth.ending ? [growth.ending] : []), ...growth.plants.flatMap((plant) => (plant.failure ? [`${plant.name ?? "a plant"}: ${plant.failure}`] : [])), ...lines(growth.poor)];
+    const others = buds.map(([name]) => name).filter((name) => !(name in known));
+    const colour = (name: string) => known[name] ?? outcomeColours[others.indexOf(name) % outcomeColours.length] ?? "#888";
     refill(this.buds,
-      make("div", { class: "bar", "aria-hidden": "true" }, ...buds.map(([, count], i) => piece(colour(i), count / (sum || 1)))),
-      make("ul", {}, make("li", {}, "Buds"), ...buds.map(([name, count], i) => make("li", {}, swatch(colour(i)), `${grouped(count)} ${name.replaceAll("_", " ")}`))),
+      make("div", { class: "bar", "aria-hidden": "true" }, ...buds.map(([name, count]) => piece(colour(name), count / (sum || 1)))),
+      make("ul", {}, make("li", {}, "Buds"), ...buds.map(([name, count]) => make("li", {}, swatch(colour(name)), `${grouped(count)} ${name.replaceAll("_", " ")}`))),
       failed.length ? make("p", { class: "failure", title: failed.join("\n") }, failed.join(" · ")) : null);
   }
 
@@ -61,6 +65,10 @@ export class Numbers {
   private put(name: string, words: string): void {
     this.figure(name).textContent = words;
   }
+}
+
+function lines(text: string | string[] | undefined): string[] {
+  return [text ?? []].flat().flatMap((each) => each.split("\n")).map((each) => each.replace(/^note: /, "").trim()).filter(Boolean);
 }
 
 function piece(colour: string, share: number): HTMLElement {

@@ -15,7 +15,10 @@ interface Stand {
 const isStand = (value: unknown): value is Stand =>
   typeof value === "object" && value !== null && Array.isArray((value as Stand).eye_m) && Array.isArray((value as Stand).target_m);
 
-const still: Stand = { scene: "", eye_m: [0, 0, 0], target_m: [0, 0, 0], fov_deg: 37 };
+/** Of images, where a scene says nothing else. */
+const pictureAspect = 4 / 3;
+
+const still: Stand = { scene: "\u0000", eye_m: [0, 0, 0], target_m: [0, 0, 0], fov_deg: 37 };
 
 export class Eye {
   readonly camera = new THREE.PerspectiveCamera(37, 1, 0.01, 1000);
@@ -24,6 +27,8 @@ export class Eye {
   private placed = false;
   private size_m = 1;
   private flight = 0;
+  private fov_deg = 37;
+  private sceneName = "";
 
   constructor(canvas: HTMLCanvasElement, private readonly changed: () => void) {
     this.controls = new OrbitControls(this.camera, canvas);
@@ -37,9 +42,7 @@ export class Eye {
     canvas.addEventListener("keydown", (event) => this.key(event));
   }
 
-  private project = "";
-
-  scene(scene: SceneEvent, project: string): void {
+  scene(scene: SceneEvent): void {
     const low = new THREE.Vector3(...scene.low_m);
     this.size_m = Math.max(1e-3, low.distanceTo(new THREE.Vector3(...scene.high_m)));
     this.camera.near = this.size_m / 2000;
@@ -47,11 +50,11 @@ export class Eye {
     this.controls.minDistance = this.size_m / 400;
     this.controls.maxDistance = this.size_m * 6;
     this.camera.updateProjectionMatrix();
-    this.project = project;
+    this.sceneName = scene.name;
     if (this.placed) return;
     this.placed = true;
     const kept = this.stand.value;
-    if (kept.scene === project) this.place(kept.eye_m, kept.target_m, kept.fov_deg);
+    if (kept.scene === scene.name) this.place(kept.eye_m, kept.target_m, kept.fov_deg);
     else this.jump(scene.cameras[0] ?? around(scene), false);
   }
 
@@ -70,14 +73,21 @@ export class Eye {
 
   resize(width: number, height: number): void {
     this.camera.aspect = width / Math.max(1, height);
+    this.widen();
+  }
+
+  /** In a view that is narrower than pictures are, as much is seen from side to side as there. */
+  private widen(): void {
+    const narrow = Math.max(1, pictureAspect / this.camera.aspect);
+    this.camera.fov = (360 / Math.PI) * Math.atan(narrow * Math.tan((this.fov_deg * Math.PI) / 360));
     this.camera.updateProjectionMatrix();
   }
 
   private place(eye_m: Vec3, target_m: Vec3, fov_deg: number): void {
     this.camera.position.set(...eye_m);
     this.controls.target.set(...target_m);
-    this.camera.fov = fov_deg;
-    this.camera.updateProjectionMatrix();
+    this.fov_deg = fov_deg;
+    this.widen();
     this.controls.update();
     this.changed();
   }
@@ -85,7 +95,7 @@ export class Eye {
   private fly(to: SceneCamera): void {
     this.stop();
     const { eye_m, target_m } = this.here;
-    const fov = this.camera.fov;
+    const fov = this.fov_deg;
     const began = performance.now();
     const step = (now: number): void => {
       const t = Math.min(1, (now - began) / 420);
@@ -104,7 +114,7 @@ export class Eye {
   }
 
   private remember(): void {
-    this.stand.value = { scene: this.project, ...this.here, fov_deg: this.camera.fov };
+    this.stand.value = { scene: this.sceneName, ...this.here, fov_deg: this.fov_deg };
   }
 
   private key(event: KeyboardEvent): void {

@@ -55,11 +55,11 @@ export class World {
   }
 
   /** With `moveSeeds` false markers stay where the hand holds them. */
-  describe(scene: SceneEvent, project: string, moveSeeds: boolean): void {
+  describe(scene: SceneEvent, moveSeeds: boolean): void {
     this.described = scene;
     this.lights.scene(scene, this.site.box);
     this.uniforms.uSunLight.value.copy(this.lights.sunLight);
-    this.eye.scene(scene, project);
+    this.eye.scene(scene);
     if (moveSeeds) this.seeds.set(scene.seeds);
     void this.site.show(scene.site);
     this.changedScene();

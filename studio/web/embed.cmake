@@ -1,6 +1,6 @@
 # Bundles the page and writes PAGE/page_files.cpp, which holds its files: cmake -DNODE= -DWEB= -DPAGE= -P embed.cmake.
 # Without node, or where nothing could be fetched, the table is empty. The assembler puts the bytes in as they are.
-file(READ ${PAGE}/fetched.txt fetched LIMIT 3)
+file(STRINGS ${PAGE}/fetched.txt fetched LIMIT_COUNT 1)
 set(assembly "")
 set(declared "")
 set(rows "")

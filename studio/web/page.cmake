@@ -18,7 +18,7 @@ endif()
 
 # What failed for want of a network is tried again with the next configuration.
 if(EXISTS ${ESPALIER_PAGE}/fetched.txt)
-  file(READ ${ESPALIER_PAGE}/fetched.txt fetched LIMIT 2)
+  file(STRINGS ${ESPALIER_PAGE}/fetched.txt fetched LIMIT_COUNT 1)
   if(fetched STREQUAL "no")
     file(REMOVE ${ESPALIER_PAGE}/fetched.txt)
   endif()

@@ -31,6 +31,7 @@ import { plantColours, plantsShown, seedsShown, viewBar } from "./ui/view_bar";
 import { showWhy } from "./ui/why_card";
 import { Hands } from "./view/hands";
 import { World, type DrawnCounts } from "./view/world";
+import { letTestsIn } from "./handle";
 
 const byId = <T extends HTMLElement>(id: string): T => document.getElementById(id) as T;
 const words = (error: unknown): string => (error instanceof Error ? error.message : String(error));
@@ -260,11 +261,4 @@ const stream = new Stream({
 stream.open();
 begin().catch((error) => notices.fault(words(error)));
 
-/** For tests, and for the curious: what is drawn, and where things are on the screen. */
-Object.assign(window, {
-  studio: {
-    counts: () => ({ ...counts, segments: live.growth.shown.segments, elements: live.growth.shown.elementCount, version: live.growth.shown.version, done: live.done.value?.version ?? 0, memory: { ...world.renderer.info.memory } }),
-    seedPoint: (index: number) => world.seedPoint(index),
-    limbPoint: (plant: number, node: number) => world.pointOf(live.growth.shown, plant, node),
-  },
-});
+letTestsIn({ world, live, editor, workspace, counts: () => counts, dragging: () => hands.holdsSeed || placing.busy });

@@ -35,6 +35,10 @@ export class Placing {
     if (!this.running) this.finish();
   }
 
+  get busy(): boolean {
+    return this.running || this.wanted !== null;
+  }
+
   private async run(): Promise<void> {
     if (this.running) return;
     this.running = true;

@@ -149,7 +149,7 @@ export class Editor {
         autocompletion({ override: [this.parts.completion(name)], icons: false }), this.parts.hover(name),
         tooltips({ parent: document.body }),
         EditorState.readOnly.of(readOnly),
-        EditorView.contentAttributes.of({ "aria-label": readOnly ? `${name}, of the library, to be read` : `The text of ${name}` }),
+        EditorView.contentAttributes.of({ tabindex: "0", "aria-label": readOnly ? `${name}, of the library, to be read` : `The text of ${name}` }),
         keymap.of([
           { key: "Mod-s", run: () => (this.parts.save(), true), preventDefault: true },
           ...closeBracketsKeymap, ...defaultKeymap, ...searchKeymap, ...historyKeymap, ...completionKeymap, ...lintKeymap, indentWithTab,

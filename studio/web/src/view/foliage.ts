@@ -7,9 +7,6 @@ import type { LeafShape, PlantLooks } from "../protocol/types";
 import { plantMaterials, type PlantMaterials, type PlantUniforms } from "./plant_material";
 import type { Textures } from "./textures";
 
-/** Of all leaves together; stems and the site have the rest of two million. */
-const budget_triangles = 1_150_000;
-
 interface Kind {
   materials: PlantMaterials;
   near: THREE.InstancedMesh;
@@ -27,7 +24,7 @@ export class Foliage {
   private readonly kinds = new Map<string, Kind>();
   private sortedFrom = new THREE.Vector3(NaN, 0, 0);
 
-  constructor(private readonly uniforms: PlantUniforms, private readonly textures: Textures) {}
+  constructor(private readonly uniforms: PlantUniforms, private readonly textures: Textures, private readonly budget_triangles: number) {}
 
   get triangles(): number {
     let sum = 0;
@@ -57,10 +54,10 @@ export class Foliage {
   sort(eye: THREE.Vector3, always = false): boolean {
     const kinds = [...this.kinds.values()];
     const all = kinds.reduce((sum, kind) => sum + kind.count * kind.trianglesNear, 0);
-    if (!always && all <= budget_triangles) return false;
+    if (!always && all <= this.budget_triangles) return false;
     if (!always && this.sortedFrom.distanceTo(eye) < 0.05 * eye.length() + 0.02) return false;
     this.sortedFrom.copy(eye);
-    for (const kind of kinds) deal(kind, eye, (budget_triangles * kind.count * kind.trianglesNear) / Math.max(all, 1));
+    for (const kind of kinds) deal(kind, eye, (this.budget_triangles * kind.count * kind.trianglesNear) / Math.max(all, 1));
     return true;
   }
 

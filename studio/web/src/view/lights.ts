@@ -38,9 +38,9 @@ export class Lights {
   readonly way = new THREE.Vector3(0.4, 0.8, 0.5).normalize();
   readonly sunLight = new THREE.Color(1, 1, 1);
 
-  constructor() {
+  constructor(shadow_px: number) {
     this.sun.castShadow = true;
-    this.sun.shadow.mapSize.set(2048, 2048);
+    this.sun.shadow.mapSize.set(shadow_px, shadow_px);
     this.sun.shadow.radius = 3.2;
     this.sun.shadow.blurSamples = 12;
     this.ground = new THREE.Mesh(new THREE.CircleGeometry(1, 96), groundMaterial());

@@ -15,7 +15,8 @@ export class Stems {
   private readonly groups = new Map<string, Group>();
   triangles = 0;
 
-  constructor(private readonly uniforms: PlantUniforms) {}
+  /** `fineness` 1 is as fine as it comes. */
+  constructor(private readonly uniforms: PlantUniforms, private readonly fineness: number) {}
 
   update(shown: Generation, looks: PlantLooks[], changed: "all" | ReadonlySet<number>): void {
     const wanted = new Map<string, { look: PlantLooks; plants: number[] }>();
@@ -28,7 +29,7 @@ export class Stems {
       entry.plants.push(plant);
     }
     for (const [key, group] of this.groups) if (!wanted.has(key)) this.drop(key, group);
-    const options = optionsFor(shown);
+    const options = optionsFor(shown, this.fineness);
     this.triangles = 0;
     for (const [key, { look, plants }] of wanted) {
       const group = this.groups.get(key) ?? this.add(key, look);
@@ -81,8 +82,8 @@ function geometryOf(skeletons: Skeleton[], options: TubeOptions): THREE.BufferGe
 }
 
 /** The more there is of a plant, the fewer sides each limb gets: about half a million triangles at most. */
-function optionsFor(shown: Generation): TubeOptions {
-  const segments = shown.segments;
+function optionsFor(shown: Generation, fineness: number): TubeOptions {
+  const segments = shown.segments / fineness;
   let [thick, thin] = [0, Infinity];
   for (const skeleton of shown.skeletons.values()) {
     for (let i = 1; i < skeleton.count; i += 7) {

@@ -6,6 +6,7 @@ import { Eye } from "./camera";
 import { Foliage } from "./foliage";
 import { Lights } from "./lights";
 import { coloursNumber, plantUniforms, type PlantColours } from "./plant_material";
+import { qualityHere } from "./quality";
 import { SeedMarkers } from "./seed_markers";
 import { Site } from "./site";
 import { Stems } from "./stems";
@@ -21,6 +22,9 @@ export interface DrawnCounts {
   textures: number;
 }
 
+const rest_ms = 600;
+const coarseRatio = 0.55;
+
 export class World {
   readonly renderer: THREE.WebGLRenderer;
   readonly eye: Eye;
@@ -29,18 +33,21 @@ export class World {
   readonly trials = new TrialLines();
   readonly faces = new SurfaceFaces();
   private readonly scene = new THREE.Scene();
-  private readonly lights = new Lights();
+  private readonly quality = qualityHere();
+  private readonly lights = new Lights(this.quality.shadow_px);
   private readonly uniforms = plantUniforms();
   private readonly textures = new Textures(() => this.changedScene());
-  private readonly stems = new Stems(this.uniforms);
-  private readonly foliage = new Foliage(this.uniforms, this.textures);
+  private readonly stems = new Stems(this.uniforms, this.quality.stems);
+  private readonly foliage = new Foliage(this.uniforms, this.textures, this.quality.leaves_triangles);
   private described: SceneEvent | null = null;
   private pending = 0;
+  private restTimer = 0;
+  private shadowsDue = false;
   private counts: DrawnCounts = { triangles: 0, calls: 0, frame_ms: 0, geometries: 0, textures: 0 };
 
   constructor(readonly canvas: HTMLCanvasElement, private readonly host: HTMLElement, private readonly drawn: (counts: DrawnCounts) => void, failed: (words: string) => void) {
-    this.renderer = new THREE.WebGLRenderer({ canvas, antialias: true, powerPreference: "high-performance" });
-    this.renderer.setPixelRatio(Math.min(2, window.devicePixelRatio));
+    this.renderer = new THREE.WebGLRenderer({ canvas, antialias: !this.quality.painted, powerPreference: "high-performance" });
+    this.renderer.setPixelRatio(this.quality.painted ? coarseRatio : Math.min(2, window.devicePixelRatio));
     this.renderer.shadowMap.enabled = true;
     this.renderer.shadowMap.type = THREE.PCFShadowMap;
     this.renderer.shadowMap.autoUpdate = false;
@@ -99,14 +106,41 @@ export class World {
     this.invalidate();
   }
 
-  /** Shadows too have to be drawn anew. */
+  /** Shadows too have to be drawn anew: at once, or where that takes long, when nothing has changed for a while. */
   changedScene(): void {
-    this.renderer.shadowMap.needsUpdate = true;
+    if (this.quality.painted) this.shadowsDue = true;
+    else this.renderer.shadowMap.needsUpdate = true;
     this.invalidate();
   }
 
   invalidate(): void {
+    if (this.quality.painted) this.coarse();
+    this.soon();
+  }
+
+  private soon(): void {
     if (this.pending === 0) this.pending = requestAnimationFrame(() => this.draw());
+  }
+
+  /** Fewer pixels while something moves or grows, all of them and shadows once it rests. */
+  private coarse(): void {
+    if (this.renderer.getPixelRatio() !== coarseRatio) this.renderer.setPixelRatio(coarseRatio);
+    window.clearTimeout(this.restTimer);
+    this.restTimer = window.setTimeout(() => {
+      this.renderer.setPixelRatio(1);
+      if (this.shadowsDue) this.renderer.shadowMap.needsUpdate = true;
+      this.shadowsDue = false;
+      this.soon();
+    }, rest_ms);
+  }
+
+  /** How long a picture takes until it is there, for measuring. */
+  timeOfPicture_ms(): number {
+    const began = performance.now();
+    this.draw();
+    const gl = this.renderer.getContext();
+    gl.readPixels(0, 0, 1, 1, gl.RGBA, gl.UNSIGNED_BYTE, new Uint8Array(4));
+    return performance.now() - began;
   }
 
   /** The view as it is, as a PNG. */

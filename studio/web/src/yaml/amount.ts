@@ -24,11 +24,11 @@ export function writeNumber(value: number, step: number): string {
   return bare === "-0" ? "0" : bare;
 }
 
-/** 1, 2 or 5 times a power of ten, at most a two-hundredth of the span. */
+/** 1, 2 or 5 times a power of ten, about a hundred or two to the span: whole degrees, hundredths of a weight. */
 export function stepOf(span: number, whole: boolean): number {
-  const raw = span / 200;
+  const raw = span / 180;
   const power = 10 ** Math.floor(Math.log10(raw));
-  const nice = [5, 2, 1].find((factor) => factor * power <= raw * 1.0000001) ?? 1;
+  const nice = [1, 2, 5].find((factor) => factor * power >= raw * 0.9999999) ?? 10;
   const step = nice * power;
   return whole ? Math.max(1, Math.round(step)) : step;
 }

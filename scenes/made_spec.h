@@ -7,6 +7,7 @@
 #include "scenes/problem.h"
 #include "sim/base/vec.h"
 #include "sim/cut/pieces.h"
+#include "sim/relief/meander.h"
 #include "sim/relief/relief.h"
 
 /// What a scene asks to be made of what has grown.
@@ -43,6 +44,7 @@ struct HeightsSpec {
   std::vector<glm::dvec2> over_m;  ///< x and z of two corners; none: the world's
   double spacing_m = 0.0;          ///< between samples; 0: a thousandth of the longer side
   sim::ReliefLaw law;
+  sim::Meander meander;
   std::optional<int> iteration;  ///< of what stands after so many; without: at the end
   std::vector<CoverSpec> cover;
   Place place = {}, plants_place = {};  ///< where a scene file has it, and names its plants

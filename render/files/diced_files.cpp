@@ -60,7 +60,7 @@ void addDiced(GlbFile& file, const DicedMesh& diced) {
 
 }  // namespace
 
-void writeDicedGlb(std::ostream& file, const DicedMeshes& meshes, DicedLight light,
+void writeDicedGlb(std::iostream& file, const DicedMeshes& meshes, DicedLight light,
                    const sim::Provenance& made_by) {
   writeGlbFile(file, made_by, [&](GlbFile& writer) {
     addMaterial(writer, light);

@@ -19,9 +19,9 @@ enum class DicedLight {
 
 /// A glTF 2.0 binary: a node for each mesh that is not empty, in metres, y up. COLOR_0 holds linear light in
 /// 16 bits each; the one material is white, matt and double-sided, and where light is given it is unlit
-/// (KHR_materials_unlit, which readers may do without). Throws InputError as writeGlb does. Asks for the
-/// meshes twice.
-void writeDicedGlb(std::ostream& file, const DicedMeshes& meshes, DicedLight light,
+/// (KHR_materials_unlit, which readers may do without). Throws InputError as writeGlb does, and wants such a
+/// stream. Asks for the meshes once.
+void writeDicedGlb(std::iostream& file, const DicedMeshes& meshes, DicedLight light,
                    const sim::Provenance& made_by = {});
 
 /// The same as OBJ: an object for each mesh, whose vertices have their colours behind their places (v x y z r

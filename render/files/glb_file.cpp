@@ -6,9 +6,9 @@
 #include <cmath>
 #include <cstring>
 #include <initializer_list>
+#include <istream>
 #include <limits>
 #include <nlohmann/json.hpp>
-#include <ostream>
 #include <sstream>
 #include <vector>
 
@@ -34,6 +34,11 @@ void putWords(std::ostream& out, std::initializer_list<std::size_t> words) {
   for (const std::size_t word : words) {
     for (unsigned byte = 0; byte < kGlbWord; ++byte) out.put(static_cast<char>(word >> (8 * byte) & 0xffu));
   }
+}
+
+void requireFits(std::size_t bytes) {
+  if (bytes <= std::numeric_limits<std::uint32_t>::max()) return;
+  throw sim::InputError("the surfaces take more than 4 GB, and a .glb file holds no more");
 }
 
 }  // namespace
@@ -62,7 +67,7 @@ std::vector<glm::vec2> turnedUvs(std::span<const glm::vec2> uvs) {
   return turned;
 }
 
-GlbFile::GlbFile(const sim::Provenance& made_by, std::ostream* buffer) : buffer_(buffer) {
+GlbFile::GlbFile(const sim::Provenance& made_by, std::ostream& buffer) : buffer_(buffer) {
   model_.asset.version = "2.0";
   model_.asset.generator = made_by.software.empty() ? "Espalier" : validUtf8(made_by.software);
   if (!made_by.software.empty()) model_.asset.extras = extras(made_by);
@@ -71,9 +76,7 @@ GlbFile::GlbFile(const sim::Provenance& made_by, std::ostream* buffer) : buffer_
 }
 
 void GlbFile::align() {
-  for (; bytes_ % kGlbWord != 0; ++bytes_) {
-    if (buffer_ != nullptr) buffer_->put('\0');
-  }
+  for (; bytes_ % kGlbWord != 0; ++bytes_) buffer_.put('\0');
 }
 
 void GlbFile::put(const void* data, std::size_t bytes, tinygltf::BufferView& view) {
@@ -81,9 +84,9 @@ void GlbFile::put(const void* data, std::size_t bytes, tinygltf::BufferView& vie
   view.buffer = 0;
   view.byteOffset = bytes_;
   view.byteLength = bytes;
-  if (buffer_ != nullptr)
-    buffer_->write(static_cast<const char*>(data), static_cast<std::streamsize>(view.byteLength));
   bytes_ += view.byteLength;
+  requireFits(bytes_);
+  buffer_.write(static_cast<const char*>(data), static_cast<std::streamsize>(view.byteLength));
 }
 
 int GlbFile::view(const void* data, std::size_t bytes, int target) {
@@ -221,28 +224,44 @@ std::string GlbFile::json() const {
   return json.dump();
 }
 
-void writeGlbFile(std::ostream& file, const sim::Provenance& made_by,
-                  const std::function<void(GlbFile&)>& add_all) {
-  GlbFile measured(made_by, nullptr);
-  add_all(measured);
-  measured.finish();
-  std::string json = measured.json();
-  json.resize((json.size() + kGlbWord - 1) / kGlbWord * kGlbWord, ' ');
-  const std::size_t buffer = measured.bufferBytes();
-  const std::size_t all =
-      kGlbHeader + kGlbChunkHeader + json.size() + (buffer > 0 ? kGlbChunkHeader + buffer : 0);
-  if (all > std::numeric_limits<std::uint32_t>::max()) {
-    throw sim::InputError(fmt::format("the surfaces take {:.1f} GB; a .glb file holds at most 4",
-                                      static_cast<double>(all) / 1e9));
+namespace {
+
+/// Moves the last bytes of a stream on, which is where they end, from the end to the beginning.
+void moveOn(std::iostream& file, std::streamoff begin, std::size_t bytes, std::size_t by) {
+  constexpr std::size_t kBlock = std::size_t{1} << 22u;
+  file << std::string(by, '\0');  // not all streams can be sought in beyond their end
+  std::vector<char> block(std::min(kBlock, bytes));
+  for (std::size_t left = bytes; left > 0;) {
+    const std::size_t size = std::min(kBlock, left);
+    left -= size;
+    const std::streamoff from = begin + static_cast<std::streamoff>(left);
+    file.seekg(from);
+    if (!file.read(block.data(), static_cast<std::streamsize>(size)))
+      throw std::ios_base::failure("what was written cannot be read back");
+    file.seekp(from + static_cast<std::streamoff>(by));
+    file.write(block.data(), static_cast<std::streamsize>(size));
   }
-  putWords(file, {0x46546c67, 2, all, json.size(), 0x4e4f534a});  // "glTF", its version; "JSON"
-  file << json;
-  if (buffer == 0) return;
-  putWords(file, {buffer, 0x004e4942});  // "BIN"
-  GlbFile written(made_by, &file);
+}
+
+}  // namespace
+
+void writeGlbFile(std::iostream& file, const sim::Provenance& made_by,
+                  const std::function<void(GlbFile&)>& add_all) {
+  const std::streamoff begin = file.tellp();
+  GlbFile written(made_by, file);
   add_all(written);
   written.finish();
-  if (written.bufferBytes() != buffer) throw sim::BrokenContract("a model was another the second time");
+  std::string json = written.json();
+  json.resize((json.size() + kGlbWord - 1) / kGlbWord * kGlbWord, ' ');
+  const std::size_t buffer = written.bufferBytes();
+  const std::size_t before = kGlbHeader + kGlbChunkHeader + json.size() + (buffer > 0 ? kGlbChunkHeader : 0);
+  requireFits(before + buffer);
+  moveOn(file, begin, buffer, before);
+  file.seekp(begin);
+  putWords(file, {0x46546c67, 2, before + buffer, json.size(), 0x4e4f534a});  // "glTF", its version; "JSON"
+  file << json;
+  if (buffer > 0) putWords(file, {buffer, 0x004e4942});  // "BIN"
+  file.seekp(begin + static_cast<std::streamoff>(before + buffer));
 }
 
 }  // namespace espalier::render

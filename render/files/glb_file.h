@@ -20,11 +20,10 @@ namespace espalier::render {
 /// Vertices that 16 bits can name: the greatest number is not an index, it restarts strips.
 inline constexpr std::size_t kMostShort = 65535;
 
-/// A .glb file while it is made: its buffer, and what its JSON says of that. Without a stream it measures
-/// alone: the sizes stand before the data in the file.
+/// A .glb file while it is made: its buffer, which goes into a stream, and what its JSON says of that.
 class GlbFile {
  public:
-  GlbFile(const sim::Provenance& made_by, std::ostream* buffer);
+  GlbFile(const sim::Provenance& made_by, std::ostream& buffer);
 
   /// Adds an accessor of the data. Elements of vertices have multiples of 4 bytes, as glTF wants them: of
   /// what is longer than its type the rest is not looked at.
@@ -85,15 +84,16 @@ class GlbFile {
     std::string bytes;
   };
 
-  std::ostream* buffer_;
+  std::ostream& buffer_;
   std::size_t bytes_ = 0;           // of the buffer
   std::vector<Repeated> repeated_;  // none of which begins as another one does, where they are of one kind
   tinygltf::Model model_;
 };
 
-/// Writes a file whose parts `add_all` adds, the very same each time: it is asked once to learn their sizes,
-/// and once more for the data. Throws InputError where the file would have 4 GB or more.
-void writeGlbFile(std::ostream& file, const sim::Provenance& made_by,
+/// Writes a file whose parts `add_all` adds, from where the stream is on; what stands in front of the data is
+/// known only after them, so the stream must be one that can be sought in and read back. Throws InputError
+/// where the file would have 4 GB or more.
+void writeGlbFile(std::iostream& file, const sim::Provenance& made_by,
                   const std::function<void(GlbFile&)>& add_all);
 
 /// Of a VEC3 of places glTF wants to know the box.

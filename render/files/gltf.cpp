@@ -8,7 +8,7 @@
 
 namespace espalier::render {
 
-void writeGlb(std::ostream& file, const std::vector<const sim::Mesh*>& meshes, const PlantModels& plants,
+void writeGlb(std::iostream& file, const std::vector<const sim::Mesh*>& meshes, const PlantModels& plants,
               const sim::Provenance& made_by) {
   writeGlbFile(file, made_by, [&](GlbFile& writer) {
     GltfMaterials materials(writer);
@@ -25,7 +25,7 @@ void writeGlb(std::ostream& file, const std::vector<const sim::Mesh*>& meshes, c
 }
 
 std::string glbBytes(const ModelScene& scene, const sim::Provenance& made_by) {
-  std::ostringstream out(std::ios::binary);
+  std::stringstream out(std::ios::in | std::ios::out | std::ios::binary);
   const auto plants = [&](const std::function<void(const PlantModel&)>& take) {
     for (const PlantModel* plant : scene.plants) take(*plant);
   };

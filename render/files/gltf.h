@@ -29,8 +29,8 @@ using PlantModels = std::function<void(const std::function<void(const PlantModel
 /// what leaves them, and so on. Empty meshes are left out. The same scene gives the same bytes. Throws
 /// InputError when a mesh's index is out of range, and when the file would have 4 GB or more, which the
 /// format cannot hold. `made_by` goes into `asset`: the software as its generator, the rest as its extras.
-/// Asks for the models twice, and keeps none.
-void writeGlb(std::ostream& file, const std::vector<const sim::Mesh*>& meshes, const PlantModels& plants,
+/// The stream must be one that can be sought in and read back. Asks for the models once, and keeps none.
+void writeGlb(std::iostream& file, const std::vector<const sim::Mesh*>& meshes, const PlantModels& plants,
               const sim::Provenance& made_by = {});
 /// The same in memory.
 std::string glbBytes(const ModelScene& scene, const sim::Provenance& made_by = {});

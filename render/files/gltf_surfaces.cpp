@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+
+#include "sim/base/parallel.h"
 
 namespace espalier::render {
 
@@ -50,21 +53,30 @@ namespace {
 
 constexpr std::size_t kRoom = 2048;  // vertices: a part that has no more left ends with a piece
 
-/// Numbers the corners of some of a mesh's triangles anew, among those in use. `number`: room for as many as
-/// the mesh has vertices.
-MeshPart partOf(std::span<const std::array<std::uint32_t, 3>> triangles, const Needed& needed,
-                std::vector<std::uint32_t>& number) {
+/// Numbers the corners of some of a mesh's triangles anew, among those in use.
+MeshPart partOf(std::span<const std::array<std::uint32_t, 3>> triangles, const Needed& needed) {
   MeshPart part;
   part.triangles.assign(triangles.begin(), triangles.end());
+  std::uint32_t low = std::numeric_limits<std::uint32_t>::max(), high = 0;
   for (auto& triangle : part.triangles) {
-    for (std::uint32_t& corner : triangle) corner = needed.standsFor(corner);
-    part.vertices.insert(part.vertices.end(), triangle.begin(), triangle.end());
+    for (std::uint32_t& corner : triangle) {
+      corner = needed.standsFor(corner);
+      low = std::min(low, corner);
+      high = std::max(high, corner);
+    }
   }
-  std::sort(part.vertices.begin(), part.vertices.end());
-  part.vertices.erase(std::unique(part.vertices.begin(), part.vertices.end()), part.vertices.end());
-  for (std::uint32_t i = 0; i < part.vertices.size(); ++i) number[part.vertices[i]] = i;
+  if (part.triangles.empty()) return part;
+  std::vector<std::uint32_t> number(high - low + 1, 0);  // of a vertex; at first 1 for those in use
+  for (const auto& triangle : part.triangles) {
+    for (const std::uint32_t corner : triangle) number[corner - low] = 1;
+  }
+  for (std::uint32_t i = 0; i < number.size(); ++i) {
+    if (number[i] == 0) continue;
+    number[i] = static_cast<std::uint32_t>(part.vertices.size());
+    part.vertices.push_back(low + i);
+  }
   for (auto& triangle : part.triangles) {
-    for (std::uint32_t& corner : triangle) corner = number[corner];
+    for (std::uint32_t& corner : triangle) corner = number[corner - low];
   }
   return part;
 }
@@ -97,8 +109,16 @@ void forEachPart(const ModelMesh& mesh, const Needed& needed,
   }
   if (met > distinct + distinct / 4) begins.resize(1);
   begins.push_back(mesh.triangles.size());
-  for (std::size_t i = 0; i + 1 < begins.size(); ++i)
-    visit(partOf(std::span(mesh.triangles).subspan(begins[i], begins[i + 1] - begins[i]), needed, last_part));
+  constexpr std::size_t kAtOnce = 32;
+  const std::size_t count = begins.size() - 1;
+  for (std::size_t first = 0; first < count; first += kAtOnce) {
+    std::vector<MeshPart> parts(std::min(kAtOnce, count - first));
+    sim::parallelForEach(parts.size(), [&](std::size_t i) {
+      const std::size_t begin = begins[first + i], end = begins[first + i + 1];
+      parts[i] = partOf(std::span(mesh.triangles).subspan(begin, end - begin), needed);
+    });
+    for (const MeshPart& part : parts) visit(part);
+  }
 }
 
 tinygltf::Primitive shapeOf(GlbFile& file, const ModelMesh& mesh, const Needed& needed, const MeshPart& part,

@@ -112,6 +112,7 @@ class Painter {
   void meetGround(float distance_m, Vec3f direction, Fragment& f) const;
   void meet(const SurfaceHit& hit, Vec3f direction, Fragment& f) const;
   void meetClear(const Surface& surface, const SurfaceHit& hit, Fragment& f) const;
+  void smoothen(const sim::Mesh& mesh, const SurfaceHit& hit, Fragment& f) const;
   Vec3f sunPoint(glm::vec2 disc) const;
   Colour lit(const Fragment& f, Vec3f direction, float sun_seen) const;
   Colour mirrored(const Fragment& f, Vec3f direction, float mirror) const;
@@ -129,8 +130,7 @@ class Painter {
   float diagonal_m_ = 1.0f, voxel_m_ = 1.0f;
   float pixel_ = 0.0f;  // how much a pixel spans at a distance of 1
   int width_, height_;
-  // by round and sample
-  std::array<std::array<SamplePoint, kRays>, kClearRounds> points_;
+  std::array<std::array<SamplePoint, kRays>, kClearRounds> points_;  // by round and sample
   std::array<std::array<Vec3f, kRays>, kClearRounds> to_suns_;
 };
 
@@ -158,10 +158,20 @@ void Painter::meetClear(const Surface& surface, const SurfaceHit& hit, Fragment&
   f.blade = true;
   f.look.gloss = 0.0f;  // it mirrors
   f.look.through = glm::max(f.look.through, f.look.albedo * (1.0f - f.look.alpha));
-  if (surface.mesh == nullptr || surface.mesh->normals.empty()) return;
-  const Vec3f smooth = onTriangle(surface.mesh->normals, surface.mesh->triangles[hit.triangle], hit.u, hit.v);
-  if (glm::dot(smooth, smooth) > 1e-6f)
-    f.normal = glm::normalize(glm::dot(smooth, f.flat) < 0.0f ? -smooth : smooth);
+}
+
+/// The normals of a scene's mesh say what smooth surface its facets stand for: they shade what it looks like.
+void Painter::smoothen(const sim::Mesh& mesh, const SurfaceHit& hit, Fragment& f) const {
+  if (mesh.normals.empty()) return;
+  const auto& t = mesh.triangles[hit.triangle];
+  const auto has_none = [&](std::uint32_t v) { return mesh.normals[v] == Vec3f(0.0f); };
+  const Vec3f smooth = onTriangle(mesh.normals, t, hit.u, hit.v);
+  if (std::any_of(t.begin(), t.end(), has_none) || !(glm::dot(smooth, smooth) > 1e-6f)) return;
+  const float side = glm::dot(smooth, f.flat);
+  f.normal = glm::normalize(side < 0.0f ? -smooth : smooth);
+  if (f.look.alpha < 1.0f || side < 0.0f) return;
+  f.round = true;
+  f.raised_m = raised(mesh, hit, f.p_m);
 }
 
 void Painter::meet(const SurfaceHit& hit, Vec3f direction, Fragment& f) const {
@@ -175,6 +185,7 @@ void Painter::meet(const SurfaceHit& hit, Vec3f direction, Fragment& f) const {
     f.look = sceneLook(noise_, surface, hit, f.p_m, pixel_ * hit.distance_m);
     f.look.emits = surface.mesh->materials[surface.mesh->material[hit.triangle]].emissive;
     meetClear(surface, hit, f);
+    smoothen(*surface.mesh, hit, f);
     return;
   }
   if (surface.kind == SurfaceKind::body) {

@@ -12,6 +12,7 @@ using sim::Vec3;
 
 constexpr double kGoodPart = 0.3;   // of the scene's plan
 constexpr double kThinSlab = 0.05;  // of the plan's diagonal
+constexpr sim::Colour kPlain(0.30f, 0.29f, 0.27f);
 
 struct Level {
   double area = 0.0;
@@ -40,7 +41,9 @@ Ground groundOf(const std::vector<const sim::Mesh*>& meshes, double voxel_m) {
       level.area += area;
       level.lowest = std::min(level.lowest, height);
       level.highest = std::max(level.highest, height);
-      level.area_colour += area * Vec3(mesh->materials[mesh->material[t]].colour);
+      // Of what has a picture the colour is a factor alone.
+      const sim::Material& material = mesh->materials[mesh->material[t]];
+      level.area_colour += area * Vec3(material.texture == nullptr ? material.colour : kPlain);
     }
   }
   if (!(low.y <= high.y)) return {};
@@ -58,7 +61,7 @@ Ground groundOf(const std::vector<const sim::Mesh*>& meshes, double voxel_m) {
     const bool uneven = under != levels.end() && floor->lowest - under->second.highest < 0.5 * voxel_m;
     return {uneven ? under->second.lowest : floor->lowest, sim::Colour(floor->area_colour / floor->area)};
   }
-  return {low.y, sim::Colour(0.30f, 0.29f, 0.27f)};
+  return {low.y, kPlain};
 }
 
 }  // namespace espalier::render

@@ -123,15 +123,27 @@ Vec3f bulgedNormal(const ModelMesh& mesh, const SurfaceHit& hit) {
   return normal + sign * (0.9f * (uv.x - 0.5f) / wide * across + 0.6f * (uv.y - 0.45f) / tall * along);
 }
 
-Vec3f raised(const ModelMesh& mesh, const SurfaceHit& hit, Vec3f p_m) {
-  const auto& t = mesh.triangles[hit.triangle];
+namespace {
+
+template <class Places>
+Vec3f raisedOn(const Places& places_m, const std::vector<Vec3f>& normals,
+               const std::array<std::uint32_t, 3>& t, const SurfaceHit& hit, Vec3f p_m) {
   const std::array<float, 3> weights{1.0f - hit.u - hit.v, hit.u, hit.v};
   Vec3f sum = p_m;
   for (std::size_t k = 0; k < 3; ++k) {
-    const Vec3f normal = mesh.normals[t[k]];
-    sum -= weights[k] * std::min(0.0f, glm::dot(p_m - mesh.positions_m[t[k]], normal)) * normal;
+    const Vec3f normal = normals[t[k]];
+    sum -= weights[k] * std::min(0.0f, glm::dot(p_m - Vec3f(places_m[t[k]]), normal)) * normal;
   }
   return sum;
+}
+
+}  // namespace
+
+Vec3f raised(const ModelMesh& mesh, const SurfaceHit& hit, Vec3f p_m) {
+  return raisedOn(mesh.positions_m, mesh.normals, mesh.triangles[hit.triangle], hit, p_m);
+}
+Vec3f raised(const sim::Mesh& mesh, const SurfaceHit& hit, Vec3f p_m) {
+  return raisedOn(mesh.vertices_m, mesh.normals, mesh.triangles[hit.triangle], hit, p_m);
 }
 
 }  // namespace espalier::render

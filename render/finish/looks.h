@@ -36,5 +36,6 @@ sim::Vec3f bulgedNormal(const ModelMesh& mesh, const SurfaceHit& hit);
 /// that touch that at the corners (Hanika, Hacking the shadow terminator, Ray Tracing Gems II, 2021). Shadows
 /// that began on facets would end along their edges.
 sim::Vec3f raised(const ModelMesh& mesh, const SurfaceHit& hit, sim::Vec3f p_m);
+sim::Vec3f raised(const sim::Mesh& mesh, const SurfaceHit& hit, sim::Vec3f p_m);
 
 }  // namespace espalier::render

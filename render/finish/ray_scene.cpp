@@ -112,7 +112,10 @@ struct RayScene::Device {
 };
 
 void RayScene::addTextures(Surface& surface, const KnownPictures& pictures) {
-  constexpr int kMostSide = 1024;  // texels: as much as pictures of that size show
+  // Texels: as much as pictures of that size show, and twice that for few, of which a large one may lie on
+  // all that is seen; each takes 16 bytes, and its halves a third more.
+  constexpr std::size_t kFew = 4;
+  const int most_side = pictures.size() <= kFew ? 2048 : 1024;
   if (surface.mesh->uvs.empty()) return;
   for (const sim::Material& material : surface.mesh->materials) {
     const sim::Texture* const of = material.texture.get();
@@ -120,7 +123,7 @@ void RayScene::addTextures(Surface& surface, const KnownPictures& pictures) {
     const PictureTexture*& texture = surface.textures.emplace_back(nullptr);
     if (of == nullptr || picture == pictures.end()) continue;
     auto& made = scene_textures_[of];
-    if (!made) made = std::make_unique<const PictureTexture>(*picture->second, of->wrap, kMostSide);
+    if (!made) made = std::make_unique<const PictureTexture>(*picture->second, of->wrap, most_side);
     texture = made.get();
   }
 }

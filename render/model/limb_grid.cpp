@@ -16,7 +16,7 @@ constexpr double kSameRing = 0.5;        // of a foot's length: a ring so near s
 constexpr double kPart = 0.95;           // of the way between two feet that they may take up
 constexpr double kLeastShare = 0.5;      // that is left of a foot which gives way to another
 constexpr std::size_t kMostBeside = 64;  // feet at one place that are looked at
-constexpr double kMiddle = 10.0;          // errors that a foot's half is to be worth a ring in its middle
+constexpr double kMiddle = 10.0;         // errors that a foot's half is to be worth a ring in its middle
 constexpr double kFine = 4.0;            // errors that a radius is to be worth more columns
 constexpr int kMostSides = 48;           // to which columns are doubled for the sake of feet
 constexpr double kYield = 0.4;  // of a quad: how far a rim may leave its corners' own places outwards
@@ -123,16 +123,27 @@ class Places {
     const Patch wish = patch;
     const double row = wish.row + 0.5 * wish.rows - 0.5, column = wish.column + 0.5 * wish.columns - 0.5;
     double best = -1.0;
-    for (int r = 0; r < rows_; ++r) {
-      const double along = (r - row) * (r - row);
+    const auto look = [&](int r, double along) {
       for (int c = 0; c < sides_; ++c) {
         if (taken_[index(r, c)]) continue;
         const double around = std::remainder(c - column, sides_);
         const double distance = along + around * around;
-        if (best >= 0.0 && distance >= best) continue;
+        const bool first = r < patch.row || (r == patch.row && c < patch.column);
+        if (best >= 0.0 && (distance > best || (distance == best && !first))) continue;
         best = distance;
         patch = {r, 1, c, 1, wish.foot};
       }
+    };
+    // From the middle to both sides, as far as a row can have a nearer one.
+    const auto alongTo = [&](int r) { return (r - row) * (r - row); };
+    int below = std::clamp(static_cast<int>(std::floor(row)), 0, rows_ - 1), above = below + 1;
+    while (below >= 0 || above < rows_) {
+      const bool down = above >= rows_ || (below >= 0 && alongTo(below) <= alongTo(above));
+      int& next = down ? below : above;
+      const double along = alongTo(next);
+      if (best >= 0.0 && along > best) break;
+      look(next, along);
+      next += down ? -1 : 1;
     }
     if (best < 0.0) return false;
     const auto widen = [&](Patch wider, bool wanted) {

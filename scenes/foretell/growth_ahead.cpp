@@ -159,9 +159,12 @@ double segmentsAhead(std::span<const sim::Plant> plants, const sim::Bricks& near
   for (int i = 0; i < more; ++i) gained.push_back(kSlowing * gained.back());
   double segments = 0.0;
   for (const sim::Plant& plant : plants) segments += static_cast<double>(plant.skeleton.parent.size()) - 1.0;
-  for (std::size_t t = static_cast<std::size_t>(iterations) + 1; t < newly.size(); ++t) {
-    for (std::size_t age = 0; age <= t; ++age) segments += newly[t - age] * gained[age];
-  }
+  // All that a brick gains until an age, so that each is asked once, however many iterations are ahead.
+  std::vector<double> until{0.0};
+  for (const double gain : gained) until.push_back(until.back() + gain);
+  const auto known = static_cast<std::size_t>(iterations) + 1;
+  for (std::size_t since = 0; since < newly.size(); ++since)
+    segments += newly[since] * (until[newly.size() - since] - until[known - std::min(known, since)]);
   return segments;
 }
 

@@ -38,7 +38,7 @@ ChildLimits limitsFor(std::uintmax_t bytes) {
   return limits;
 }
 
-std::string readInChild(const Reading& reading, const ChildLimits& limits, const std::string& what) {
+std::string readInChild(const FileReading& reading, const ChildLimits& limits, const std::string& what) {
   ChildResult result = readBeside(reading, limits);
   switch (result.end) {
     case ChildEnd::finished:

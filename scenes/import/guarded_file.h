@@ -25,12 +25,12 @@ ChildLimits limitsFor(std::uintmax_t bytes);
 /// What a reader makes of a file in a child process. `what` the file is, in words. Throws sim::InputError,
 /// without the file's name, with what the reader throws there, or that it crashed, took too long or too much
 /// memory.
-std::string readInChild(const Reading& reading, const ChildLimits& limits, const std::string& what);
+std::string readInChild(const FileReading& reading, const ChildLimits& limits, const std::string& what);
 
 /// What `unpack` makes of that: it does not trust the bytes, and throws a std::exception where they make no
 /// sense. Throws sim::InputError then too.
 template <class Unpack>
-auto readInChild(const Reading& reading, const ChildLimits& limits, const std::string& what, Unpack unpack) {
+auto readInChild(const FileReading& reading, const ChildLimits& limits, const std::string& what, Unpack unpack) {
   const std::string bytes = readInChild(reading, limits, what);
   try {
     return unpack(bytes);

@@ -97,7 +97,7 @@ sim::Mesh importMesh(const std::filesystem::path& file, RegionsFrom regions_from
   try {
     const std::uintmax_t bytes = sizeOfFile(file, "mesh");
     requireMeshFormat(file);
-    const Reading reading{"mesh",
+    const FileReading reading{"mesh",
                           {file.string(), regions_from == RegionsFrom::material ? "material" : "group"}};
     MeshSources read;
     sim::Mesh mesh = meshFromChild(readInChild(reading, limits.value_or(limitsFor(bytes)), "mesh"), read);

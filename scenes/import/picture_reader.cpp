@@ -5,7 +5,10 @@
 #include <algorithm>
 #include <fstream>
 #include <iterator>
+#include <map>
+#include <mutex>
 #include <stdexcept>
+#include <utility>
 
 #include "render/image/oiio.h"
 #include "render/model/leaf_picture.h"
@@ -83,7 +86,37 @@ sim::Picture pictureFromChild(std::string_view bytes, sim::InputFile& read) {
   return picture;
 }
 
+namespace {
+
+/// Pictures that somebody still has, by the hash of their files: who reads a scene again and again, as it is
+/// being written, decodes none twice.
+class StillHeld {
+ public:
+  std::shared_ptr<const sim::Picture> find(const sim::InputFile& read) {
+    const std::lock_guard lock(mutex_);
+    const auto at = held_.find({read.hash, read.name});
+    return at == held_.end() ? nullptr : at->second.lock();
+  }
+  void add(const sim::InputFile& read, const std::shared_ptr<const sim::Picture>& picture) {
+    const std::lock_guard lock(mutex_);
+    std::erase_if(held_, [](const auto& one) { return one.second.expired(); });
+    held_[{read.hash, read.name}] = picture;
+  }
+
+ private:
+  std::mutex mutex_;
+  std::map<std::pair<std::uint64_t, std::string>, std::weak_ptr<const sim::Picture>> held_;
+};
+
+std::uint64_t hashOfFile(const std::filesystem::path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  return sim::hashOf(std::string{std::istreambuf_iterator<char>(stream), {}});
+}
+
+}  // namespace
+
 std::shared_ptr<const sim::Picture> readPicture(const std::filesystem::path& file, sim::InputFile& read) {
+  static StillHeld held;
   return namingFile(file, [&]() -> std::shared_ptr<const sim::Picture> {
     const std::uintmax_t size = sizeOfFile(file, "picture");
     if (size > kMostPngBytes)
@@ -91,7 +124,8 @@ std::shared_ptr<const sim::Picture> readPicture(const std::filesystem::path& fil
           fmt::format("it has {} MB; a picture may have at most {} MB", size >> 20, kMostPngBytes >> 20));
     render::makeReadyToDraw();  // the child would load it for itself, and say less of why it cannot
     const std::string name = cleanText(file.filename().string());
-    read = {name, "picture", 0};
+    read = {name, "picture", hashOfFile(file)};
+    if (auto known = held.find(read)) return known;
     const auto picture = std::make_shared<sim::Picture>(
         readInChild({"picture", {file.string()}}, limitsFor(size), "picture",
                     [&](std::string_view bytes) { return pictureFromChild(bytes, read); }));
@@ -100,6 +134,7 @@ std::shared_ptr<const sim::Picture> readPicture(const std::filesystem::path& fil
           "nothing of it is opaque: its alpha is below a half everywhere; expected a picture of "
           "something");
     picture->name = name;
+    held.add(read, picture);
     return picture;
   });
 }

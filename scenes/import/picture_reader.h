@@ -15,8 +15,9 @@ namespace espalier::scenes {
 inline constexpr int kMostPicturePixels = 1 << 24, kMostPictureSide = 8192;
 
 /// Reads a PNG file, in a child process as meshes are (scenes/import/guarded_file.h). One without alpha is
-/// opaque. Throws sim::InputError that begins with the file's path: missing, no regular file, above 64 MB, no
-/// PNG, damaged or cut, of more pixels than above (asked before any is read), or wholly transparent.
+/// opaque. Of a file with the same bytes and name, a picture that somebody still has is handed out again.
+/// Throws sim::InputError that begins with the file's path: missing, no regular file, above 64 MB, no PNG,
+/// damaged or cut, of more pixels than above (asked before any is read), or wholly transparent.
 std::shared_ptr<const sim::Picture> readPicture(const std::filesystem::path& file, sim::InputFile& read);
 
 /// The work of the child.

@@ -40,14 +40,14 @@ constexpr std::array kReaders{
     Reader{"volume", [](const Ask& ask) { return packedLattice(ask.at(0), ask.at(1)); }},
 };
 
-const Reader& readerOf(const Reading& reading) {
+const Reader& readerOf(const FileReading& reading) {
   const auto* const at = std::find_if(kReaders.begin(), kReaders.end(),
                                       [&](const Reader& reader) { return reader.name == reading.reader; });
   if (at == kReaders.end()) throw std::logic_error("there is no reader '" + reading.reader + "'");
   return *at;
 }
 
-std::string packed(const Reading& reading) {
+std::string packed(const FileReading& reading) {
   Packer out;
   out.putText(reading.reader);
   out.put(static_cast<std::uint64_t>(reading.ask.size()));
@@ -55,9 +55,9 @@ std::string packed(const Reading& reading) {
   return out.take();
 }
 
-Reading readingIn(std::string_view bytes) {
+FileReading readingIn(std::string_view bytes) {
   Unpacker in(bytes);
-  Reading reading;
+  FileReading reading;
   reading.reader = in.getText();
   reading.ask.resize(in.getCount(sizeof(std::uint64_t)));
   for (std::string& one : reading.ask) one = in.getText();
@@ -70,11 +70,11 @@ std::filesystem::path program_that_reads;
 
 }  // namespace
 
-std::string readHere(const Reading& reading) {
+std::string readHere(const FileReading& reading) {
   return readerOf(reading).read(reading.ask);
 }
 
-ChildResult readBeside(const Reading& reading, const ChildLimits& limits) {
+ChildResult readBeside(const FileReading& reading, const ChildLimits& limits) {
   const std::filesystem::path program = [] {
     const std::lock_guard lock(program_lock);
     return program_that_reads;
@@ -90,7 +90,7 @@ void readInProgram(const std::filesystem::path& program) {
 
 void readForParent() {
   answerParent([](const std::string& ask) -> std::function<std::string()> {
-    const Reading reading = readingIn(ask);
+    const FileReading reading = readingIn(ask);
     // A forked child has it from its parent: what a library takes to be loaded is no fault of the file.
     if (readerOf(reading).decodes) render::makeReadyToDraw();
     return [reading] { return readHere(reading); };

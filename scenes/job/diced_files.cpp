@@ -86,7 +86,7 @@ std::vector<OutputFile> dicedFiles(const ModelsWanted& wanted, const ModelSource
   const auto light =
       *wanted.diced == ImageKind::first_pass ? render::DicedLight::given : render::DicedLight::wanted;
   std::vector<OutputFile> files;
-  files.push_back({kDicedGlb, [meshes, light, &made_by = sources.made_by](std::ostream& out) {
+  files.push_back({kDicedGlb, [meshes, light, &made_by = sources.made_by](std::iostream& out) {
                      render::writeDicedGlb(out, meshes, light, made_by);
                    }});
   if (!wanted.obj) return files;

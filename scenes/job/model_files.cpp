@@ -52,7 +52,7 @@ std::vector<OutputFile> modelFiles(const ModelsWanted& wanted, const ModelSource
                                    std::function<void(std::size_t, const render::PlantModel&)> modelled) {
   std::vector<OutputFile> files;
   const bool instances = wanted.instances;
-  files.push_back({kPlantFile, [sources, instances, modelled = std::move(modelled)](std::ostream& out) {
+  files.push_back({kPlantFile, [sources, instances, modelled = std::move(modelled)](std::iostream& out) {
                      const auto heard = [&](const std::function<void(const render::PlantModel&)>& take) {
                        std::size_t number = 0;
                        modelsFrom(sources, 0, instances)([&](const render::PlantModel& model) {
@@ -63,7 +63,7 @@ std::vector<OutputFile> modelFiles(const ModelsWanted& wanted, const ModelSource
                      render::writeGlb(out, meshesOf(sources.site), heard, sources.made_by);
                    }});
   for (int level = 1; level <= wanted.coarser; ++level) {
-    files.push_back({levelFile(level), [sources, level, instances](std::ostream& out) {
+    files.push_back({levelFile(level), [sources, level, instances](std::iostream& out) {
                        render::writeGlb(out, meshesOf(sources.site), modelsFrom(sources, level, instances),
                                         sources.made_by);
                      }});

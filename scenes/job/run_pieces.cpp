@@ -59,7 +59,7 @@ RunPieces cutPieces(const Scene& scene, const Site& site, const sim::Growth& gro
 
 void addPiecesFiles(const RunPieces& pieces, const sim::Provenance& made_by, std::vector<OutputFile>& files) {
   for (const PiecesMade& made : pieces.made) {
-    files.push_back({fileNameOf(made.name), [&made, &made_by](std::ostream& out) {
+    files.push_back({fileNameOf(made.name), [&made, &made_by](std::iostream& out) {
                        std::vector<const sim::Mesh*> meshes;
                        for (const sim::Piece& piece : made.cut.pieces) meshes.push_back(&piece.mesh);
                        render::writeGlb(

@@ -99,8 +99,8 @@ sim::InputError damaged(const std::filesystem::path& folder, const sim::BrokenCo
 sim::Inputs inputsOf(const Scene& scene, const Site& site) {
   sim::Inputs inputs = {{"espalier", ESPALIER_VERSION}};
   for (auto& [path, value] : settings(scene)) {
-    if (startsWith(path, {"name", "iterations", "image", "images", "pieces", "heights", "film", "cameras", "exposure",
-                          "sun.shadow_hour", "sun.brightness", "sky.brightness", "sky.tint"}) ||
+    if (startsWith(path, {"name", "iterations", "image", "images", "pieces", "heights", "film", "cameras",
+                          "exposure", "sun.shadow_hour", "sun.brightness", "sky.brightness", "sky.tint"}) ||
         namesAFile(path) || ofLooksAlone(path))
       continue;
     inputs.emplace_back(path, value);

@@ -21,7 +21,7 @@ namespace espalier::scenes {
 namespace {
 
 constexpr double kSamples = 1000.0;      // along the longer side, where the scene does not say
-constexpr double kDrawnVoxels = 240.0;   // likewise, of the world that pictures are lit in
+constexpr double kDrawnVoxels = 360.0;   // likewise, of the world that pictures are lit in
 constexpr double kBytesASample = 350.0;  // of mesh, texture and files
 
 /// The lines of a planting's skeletons in plan, of what stood after so many iterations.
@@ -76,6 +76,15 @@ sim::HeightRaster rasterOf(const HeightsSpec& spec, const sim::Frame& frame) {
   return raster;
 }
 
+void requireMemory(double bytes) {
+  const double left = sim::memoryBudget() - sim::memoryInUse();
+  if (bytes <= left) return;
+  throw sim::InputError(
+      fmt::format("these heights take {} of memory, and {} are left; expected a larger spacing, or noise and "
+                  "meanders of a larger scale",
+                  sim::inGigabytes(bytes), sim::inGigabytes(std::max(0.0, left))));
+}
+
 /// Lines that never come over the land have no outlet there.
 void requireLines(const HeightsSpec& spec, const sim::PlanLines& lines, const sim::HeightRaster& raster) {
   std::size_t segments = 0, over = 0;
@@ -127,18 +136,15 @@ MadeHeights makeOne(const Scene& scene, const HeightsSpec& spec, const sim::Grow
     throw sim::InputError(
         fmt::format("there are no plants {}; expected one of the scene's", inQuotes(spec.plants)));
   sim::HeightRaster raster = rasterOf(spec, frame);
-  const sim::PlanLines lines = linesOf(growth, growth.stands[number], frame, spec.iteration);
+  sim::PlanLines lines = linesOf(growth, growth.stands[number], frame, spec.iteration);
+  const std::uint64_t stream = sim::streamOf(scene.seed, spec.name);
+  requireMemory(sim::meanderBytes(lines, spec.meander, raster.spacing_m));
+  lines = sim::meandering(lines, spec.meander, raster.spacing_m, stream);
   requireLines(spec, lines, raster);
-  const double bytes = sim::reliefBytes(raster, lines, spec.law.noise),
-               left = sim::memoryBudget() - sim::memoryInUse();
-  if (bytes > left)
-    throw sim::InputError(
-        fmt::format("these heights take {} of memory, and {} are left; expected a larger "
-                    "spacing, or noise of a larger scale",
-                    sim::inGigabytes(bytes), sim::inGigabytes(std::max(0.0, left))));
+  requireMemory(sim::reliefBytes(raster, lines, spec.law.noise));
   MadeHeights made;
   made.name = spec.name;
-  made.relief = sim::makeRelief(std::move(raster), lines, spec.law, sim::streamOf(scene.seed, spec.name));
+  made.relief = sim::makeRelief(std::move(raster), lines, spec.law, stream);
   addMeshes(made, spec);
   return made;
 }
@@ -188,7 +194,7 @@ std::vector<OutputFile> heightFiles(const std::vector<MadeHeights>& made, const 
       metadata.emplace_back("espalier:first_z_m", fmt::format("{}", raster.low_m.y));
       return render::encodeExr(image, {"height"}, metadata);
     }));
-    files.push_back({one.name + ".glb", [&one, &made_by](std::ostream& out) {
+    files.push_back({one.name + ".glb", [&one, &made_by](std::iostream& out) {
                        std::vector<const sim::Mesh*> meshes;
                        for (const sim::Mesh& mesh : one.meshes) meshes.push_back(&mesh);
                        render::writeGlb(

@@ -36,6 +36,26 @@ std::shared_ptr<const rules::Table> noiseKeys() {
       .shared();
 }
 
+std::shared_ptr<const rules::Table> meanderKeys() {
+  return TableOf<sim::Meander>()
+      .metres(
+          "amplitude", &sim::Meander::amplitude_m,
+          {.unit = kMetres,
+           .limits = kLength,
+           .meaning = "Its standard deviation along x and z, of the longest waves; a thirtieth of the scale "
+                      "at most keeps lines from crossing.",
+           .required = true})
+      .metres("scale", &sim::Meander::scale_m,
+              {.unit = kMetres, .limits = kMore, .meaning = "The longest waves.", .required = true})
+      .whole("octaves", &sim::Meander::octaves,
+             {.unit = "octaves",
+              .limits = {1.0, 16.0},
+              .meaning =
+                  "Each with waves half as long and a quarter as wide; those that the spacing cannot show "
+                  "are left out."})
+      .shared();
+}
+
 std::shared_ptr<const rules::Table> coverKeys() {
   return TableOf<CoverSpec>()
       .colour("colour", &CoverSpec::colour, {.meaning = "What it looks like.", .required = true})
@@ -108,6 +128,11 @@ std::shared_ptr<const rules::Table> heightsKeys() {
               {.unit = kMetres,
                .limits = kLength,
                .meaning = "Of a line that drains one tip, level from rim to rim; of n tips: n^0.5 times."})
+      .metres("floor", [](auto& h) -> auto& { return h.law.floor_m; },
+              {.unit = kMetres, .limits = kHeight, .meaning = "No land is lower: a sea, or a plain."})
+      .section("meander", &HeightsSpec::meander, meanderKeys(),
+               {.meaning = "Lines stray from their straight ways in plan, those that lie together together."},
+               "amplitude")
       .whole("iteration", &HeightsSpec::iteration,
              {.unit = "iterations",
               .limits = {1.0, 100'000.0},

@@ -13,9 +13,9 @@ namespace espalier::scenes {
 /// A file to be written.
 struct OutputFile {
   std::string name;
-  /// Writes it into a stream that can be sought in. May run on any thread, as long as what it is made from
-  /// lives.
-  std::function<void(std::ostream& out)> write;
+  /// Writes it into a stream that can be sought in and read back, as sim::NewFile says. May run on any
+  /// thread, as long as what it is made from lives.
+  std::function<void(std::iostream& out)> write;
 };
 
 /// One whose bytes are made in memory.

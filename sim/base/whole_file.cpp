@@ -10,8 +10,8 @@
 #include <cerrno>
 #include <charconv>
 #include <cstring>
+#include <istream>
 #include <mutex>
-#include <ostream>
 #include <set>
 #include <streambuf>
 #include <utility>
@@ -32,16 +32,27 @@ class Descriptor {
   ~Descriptor() { close(); }
 
   bool ok() const { return fd_ >= 0; }
-  bool write(std::string_view bytes) {
+  bool write(std::string_view bytes, off_t at) {
     while (!bytes.empty()) {
-      const ssize_t n = ::write(fd_, bytes.data(), bytes.size());
+      const ssize_t n = ::pwrite(fd_, bytes.data(), bytes.size(), at);
       if (n < 0 && errno == EINTR) continue;
       if (n <= 0) return false;
       bytes.remove_prefix(static_cast<std::size_t>(n));
+      at += n;
     }
     return true;
   }
-  bool seek(off_t to) const { return ::lseek(fd_, to, SEEK_SET) == to; }
+  /// How many of so many bytes there are.
+  std::size_t read(char* bytes, std::size_t count, off_t at) const {
+    std::size_t got = 0;
+    while (got < count) {
+      const ssize_t n = ::pread(fd_, bytes + got, count - got, at + static_cast<off_t>(got));
+      if (n < 0 && errno == EINTR) continue;
+      if (n <= 0) break;
+      got += static_cast<std::size_t>(n);
+    }
+    return got;
+  }
   bool sync() const { return ::fsync(fd_) == 0; }
   bool close() {
     const int fd = fd_;
@@ -53,7 +64,7 @@ class Descriptor {
   int fd_;
 };
 
-/// Writes into a descriptor, and can be sought in from its beginning.
+/// Writes into a descriptor, reads back from it in blocks, and can be sought in from its beginning.
 class FileBuffer : public std::streambuf {
  public:
   explicit FileBuffer(Descriptor& file) : file_(file) { setp(room_.data(), room_.data() + room_.size()); }
@@ -77,6 +88,12 @@ class FileBuffer : public std::streambuf {
     begin_ += count;
     return count;
   }
+  std::streamsize xsgetn(char* bytes, std::streamsize count) override {
+    if (sync() != 0) return 0;
+    const auto got = static_cast<std::streamsize>(file_.read(bytes, static_cast<std::size_t>(count), begin_));
+    begin_ += got;
+    return got;
+  }
   int sync() override {
     const std::string_view waiting(pbase(), static_cast<std::size_t>(pptr() - pbase()));
     if (!put(waiting)) return -1;
@@ -87,18 +104,18 @@ class FileBuffer : public std::streambuf {
   pos_type seekoff(off_type off, std::ios_base::seekdir from, std::ios_base::openmode) override {
     if (from == std::ios_base::end) return pos_type(off_type(-1));
     if (from == std::ios_base::cur) off += begin_ + (pptr() - pbase());
-    return seekpos(off, std::ios_base::out);
+    return seekpos(off, std::ios_base::in | std::ios_base::out);
   }
   pos_type seekpos(pos_type to, std::ios_base::openmode) override {
     if (off_type(to) == begin_ + (pptr() - pbase())) return to;  // where it is
-    if (sync() != 0 || !file_.seek(to)) return pos_type(off_type(-1));
+    if (sync() != 0) return pos_type(off_type(-1));
     begin_ = to;
     return to;
   }
 
  private:
   bool put(std::string_view bytes) {
-    if (reason_ == 0 && !file_.write(bytes)) reason_ = errno;
+    if (reason_ == 0 && !file_.write(bytes, begin_)) reason_ = errno;
     return reason_ == 0;
   }
 
@@ -161,7 +178,7 @@ Descriptor newPart(const std::filesystem::path& path, std::filesystem::path& par
   const std::lock_guard lock(parts().mutex);
   for (;;) {
     part = folder / fmt::format("{}{}-{}-{}", kMark, path.filename().string(), ++parts().made, ::getpid());
-    Descriptor file(part, O_WRONLY | O_CREAT | O_EXCL);
+    Descriptor file(part, O_RDWR | O_CREAT | O_EXCL);
     if (file.ok()) parts().paths.insert(part);
     if (file.ok() || errno != EEXIST) return file;
   }
@@ -169,7 +186,7 @@ Descriptor newPart(const std::filesystem::path& path, std::filesystem::path& par
 
 }  // namespace
 
-NewFile::NewFile(const std::filesystem::path& path, const std::function<void(std::ostream&)>& write)
+NewFile::NewFile(const std::filesystem::path& path, const std::function<void(std::iostream&)>& write)
     : path_(path) {
   Descriptor file = newPart(path, part_);
   const auto fail = [&](const char* what) {
@@ -180,7 +197,7 @@ NewFile::NewFile(const std::filesystem::path& path, const std::function<void(std
   if (!file.ok())
     throw InputError(fmt::format("{}: cannot create the file: {}", path.string(), std::strerror(errno)));
   FileBuffer buffer(file);
-  std::ostream out(&buffer);
+  std::iostream out(&buffer);
   try {
     write(out);
   } catch (const std::ios_base::failure&) {  // from writers that want to hear of it at once
@@ -221,7 +238,8 @@ void NewFile::putInPlace() {
 // that another is about to make something in, that one begins again.
 NewFolder::NewFolder(const std::filesystem::path& path) : path_(path) {
   std::error_code error;
-  for (int tries = 0; tries < 10; ++tries) {
+  constexpr int kMostTries = 1000;  // of others that make and remove them under our hands
+  for (int tries = 0; tries < kMostTries; ++tries) {
     error.clear();
     std::vector<std::filesystem::path> missing;
     for (auto folder = std::filesystem::absolute(path, error).lexically_normal();
@@ -233,10 +251,10 @@ NewFolder::NewFolder(const std::filesystem::path& path) : path_(path) {
       if (std::filesystem::create_directory(*folder, error)) made_.insert(made_.begin(), *folder);
     }
     if (!error) std::filesystem::create_directories(path, error);
+    if (!error && !std::filesystem::is_directory(path, error) && !error)
+      error = std::make_error_code(std::errc::not_a_directory);
     if (error != std::errc::no_such_file_or_directory) break;
   }
-  if (!error && !std::filesystem::is_directory(path, error) && !error)
-    error = std::make_error_code(std::errc::not_a_directory);
   if (error) {
     removeEmpty(made_);
     throw InputError(fmt::format("{}: cannot make the folder: {}", path.string(), error.message()));
@@ -257,7 +275,7 @@ void NewFolder::keep() {
 }
 
 void writeWhole(const std::filesystem::path& path, std::string_view bytes) {
-  NewFile(path, [&](std::ostream& out) {
+  NewFile(path, [&](std::iostream& out) {
     out.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
   }).putInPlace();
 }

@@ -15,9 +15,10 @@ void writeWhole(const std::filesystem::path& path, std::string_view bytes);
 /// beside it, which is removed with this object unless it was put in its place.
 class NewFile {
  public:
-  /// Calls write(stream) and flushes what it wrote to the disk. The stream can be sought in. Throws
-  /// InputError with the path and the system's reason, and what `write` throws.
-  NewFile(const std::filesystem::path& path, const std::function<void(std::ostream&)>& write);
+  /// Calls write(stream) and flushes what it wrote to the disk. The stream can be sought in, and what was
+  /// written be read back in blocks (read); both go on from one place. Throws InputError with the path and
+  /// the system's reason, and what `write` throws.
+  NewFile(const std::filesystem::path& path, const std::function<void(std::iostream&)>& write);
   NewFile(const NewFile&) = delete;
   NewFile& operator=(const NewFile&) = delete;
   ~NewFile();

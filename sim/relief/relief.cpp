@@ -133,6 +133,9 @@ Relief makeRelief(HeightRaster raster, const PlanLines& lines, const ReliefLaw& 
     carve(raster, relief.water);
   }
   fillPits(raster, relief.water);
+  if (law.floor_m) {
+    for (float& height_m : raster.height_m) height_m = std::max(height_m, static_cast<float>(*law.floor_m));
+  }
   relief.raster = std::move(raster);
   return relief;
 }

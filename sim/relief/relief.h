@@ -1,5 +1,6 @@
 #pragma once
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "sim/relief/drain.h"
@@ -21,6 +22,7 @@ struct ReliefLaw {
   Flank flank;
   bool falls = false;    ///< lines lie highest: they fall from their roots, and land falls beside them
   double width_m = 0.0;  ///< of a line that drains one tip
+  std::optional<double> floor_m = {};  ///< no land is lower: a sea, or a plain
   ReliefNoise noise;
 };
 
@@ -38,8 +40,8 @@ double reliefBytes(const HeightRaster& raster, const PlanLines& lines, const Rel
 
 /// Land of lines, of which there is at least one: `raster` says where, its heights are made. Where lines lie
 /// low, one that would lie above the land beside it is lowered to it, and so is what it flows into; and water
-/// runs down to outlets from everywhere, along each line without leaving it. The same on any number of
-/// threads. Throws BrokenContract without a line; Stopped.
+/// runs down to outlets from everywhere, or to the floor, along each line without leaving it. The same on any
+/// number of threads. Throws BrokenContract without a line; Stopped.
 Relief makeRelief(HeightRaster raster, const PlanLines& lines, const ReliefLaw& law, std::uint64_t stream);
 
 }  // namespace espalier::sim

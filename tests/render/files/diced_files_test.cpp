@@ -20,7 +20,7 @@ class DicedFiles : public testing::Test {
     };
   }
   std::string glb(DicedLight light) const {
-    std::ostringstream out;
+    std::stringstream out;
     writeDicedGlb(out, meshes(), light, {"Espalier 9", 7, {}});
     return std::move(out).str();
   }
@@ -98,7 +98,7 @@ TEST_F(DicedFiles, TheKhronosValidatorFindsNoFault) {
       GTEST_SKIP() << "gltf-validator is not installed: tests/support/install_gltf_validator.sh";
     EXPECT_EQ(status, 0);
   }
-  std::ostringstream empty;
+  std::stringstream empty;
   writeDicedGlb(
       empty, [](const auto&) {}, DicedLight::given);
   EXPECT_EQ(tests::khronosStatus(std::move(empty).str()), 0);

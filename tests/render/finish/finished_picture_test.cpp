@@ -162,6 +162,38 @@ TEST_F(FinishedPicture, TrunksAreRoundInTheSun) {
   EXPECT_LT(steepest, 0.05);
 }
 
+/// A roof of two slopes whose normals turn from the one to the other is a vault: light has no edge at its
+/// ridge.
+TEST_F(FinishedPicture, ScenesAreAsSmoothAsTheirNormals) {
+  sim::Mesh roof;
+  roof.vertices_m = {{-1, 0, -2}, {-1, 0, 2}, {0, 0.5, -2}, {0, 0.5, 2}, {1, 0, -2}, {1, 0, 2}};
+  roof.triangles = {{0, 1, 3}, {0, 3, 2}, {2, 3, 5}, {2, 5, 4}};
+  roof.materials = {{.name = "clay", .colour = Colour(0.5f)}};
+  roof.regions = {"roof"};
+  roof.material.assign(4, 0);
+  roof.region.assign(4, 0);
+  scene_.model = {{&roof}, {}};
+  scene_.to_sun = {-0.9, 0.5, 0.0};
+  camera_ = {{0.0, 4.0, 0.1}, {0.0, 0.4, 0.0}, 20};
+  // How much brighter it is just to the sunny side of the ridge than to the other, of the light there.
+  const auto edge = [&] {
+    const Image linear = draw(80, 60);
+    double left = 0.0, right = 0.0;
+    for (int y = 10; y < 50; ++y) {
+      left += static_cast<double>(linear.at(37, y)[1]);
+      right += static_cast<double>(linear.at(42, y)[1]);
+    }
+    return (left - right) / left;
+  };
+  EXPECT_GT(edge(), 0.4);
+  const auto leaning = [](float x) { return glm::normalize(Vec3f(x, 2.0f, 0.0f)); };
+  roof.normals = {leaning(-1), leaning(-1), leaning(0), leaning(0), leaning(1), leaning(1)};
+  EXPECT_LT(edge(), 0.15);
+  roof.normals[2] = Vec3f(0.0f);  // of no direction: not known
+  roof.normals[3] = Vec3f(0.0f);
+  EXPECT_GT(edge(), 0.4);
+}
+
 TEST_F(FinishedPicture, FragmentsAreLitByTheirVoxels) {
   const double open = [&] {
     scene_.to_sun = {0, -1, 0};

@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <memory>
+#include <utility>
+
 #include "render/image/image_io.h"
 #include "scenes/import/wire.h"
 #include "sim/base/error.h"
@@ -52,6 +55,22 @@ TEST_F(PictureReader, WithoutAlphaIsOpaqueAndGreyIsGrey) {
   EXPECT_EQ(grey->texels[0], (std::array<std::uint8_t, 4>{51, 51, 51, 255}));
   const auto rgb = readPicture(scratch_.write("c.png", pngOf(2, 2, 3, {0.0f, 1.0f, 0.2f})), read_);
   EXPECT_EQ(rgb->texels[3], (std::array<std::uint8_t, 4>{0, 255, 51, 255}));
+}
+
+TEST_F(PictureReader, WhatSomebodyStillHasIsDecodedOnce) {
+  const auto file = scratch_.write("leaf.png", pngOf(2, 2, 1, {0.2f}));
+  auto first = readPicture(file, read_);
+  const sim::InputFile noted = read_;
+  EXPECT_EQ(readPicture(file, read_), first);
+  EXPECT_EQ(read_, noted);
+  // Other bytes are another picture, and so is another name; one that nobody has is not kept.
+  scratch_.write("leaf.png", pngOf(2, 2, 1, {0.4f}));
+  const auto other = readPicture(file, read_);
+  EXPECT_NE(other, first);
+  EXPECT_EQ(other->texels[0][0], 102);
+  EXPECT_NE(readPicture(scratch_.write("b.png", pngOf(2, 2, 1, {0.4f})), read_), other);
+  const std::weak_ptr<const sim::Picture> gone = std::exchange(first, nullptr);
+  EXPECT_TRUE(gone.expired());
 }
 
 TEST_F(PictureReader, RefusesWhatIsNoPicture) {

@@ -64,11 +64,11 @@ class Readings : public testing::Test {
   }
 
   tests::Scratch scratch_;
-  std::vector<Reading> sound_, broken_;
+  std::vector<FileReading> sound_, broken_;
 };
 
 TEST_F(Readings, AreTheSameInAForkedChildInAnExecutedOneAndHere) {
-  for (const Reading& reading : sound_) {
+  for (const FileReading& reading : sound_) {
     const ChildResult forked = readBeside(reading, {});
     const ByProgram by_program;
     const ChildResult executed = readBeside(reading, {});
@@ -81,7 +81,7 @@ TEST_F(Readings, AreTheSameInAForkedChildInAnExecutedOneAndHere) {
 }
 
 TEST_F(Readings, FailInTheSameWords) {
-  for (const Reading& reading : broken_) {
+  for (const FileReading& reading : broken_) {
     const ChildResult forked = readBeside(reading, {});
     const ByProgram by_program;
     const ChildResult executed = readBeside(reading, {});

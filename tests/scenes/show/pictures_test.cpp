@@ -100,7 +100,7 @@ class Ground : public testing::Test {
     std::map<std::string, std::string> files;
     for (const OutputFile& file :
          drawPictures(wanted_, {no_meshes, world_, bare_, growth_, light_, no_models})) {
-      std::ostringstream out;
+      std::stringstream out;
       file.write(out);
       files[file.name] = std::move(out).str();
     }

@@ -129,6 +129,30 @@ TEST_F(NewFiles, OfTheSameNameAreWrittenBesideEachOther) {
   EXPECT_EQ(files(), 1);
 }
 
+/// As who learns only in the end what stands in front does: everything is moved on by what that takes.
+TEST_F(NewFiles, CanBeReadBackWhileTheyAreWritten) {
+  NewFile file(path_, [](std::iostream& out) {
+    const std::string first(100'000, 'a');
+    out << first << "bc";
+    std::string block(first.size() + 2, ' ');
+    out.seekg(0);
+    EXPECT_TRUE(out.read(block.data(), static_cast<std::streamsize>(block.size())));
+    EXPECT_TRUE(block == first + "bc");
+    EXPECT_EQ(out.tellp(), 100'002);
+    out.seekp(3);
+    out << block;
+    out.seekp(0);
+    out << "in front";
+    out.seekg(100'001);
+    EXPECT_FALSE(out.read(block.data(), 5)) << "four are left";
+    EXPECT_EQ(out.gcount(), 4);
+    EXPECT_EQ(block.substr(0, 4), "aabc");
+    out.clear();
+  });
+  file.putInPlace();
+  EXPECT_TRUE(in(path_) == "in front" + std::string(99'995, 'a') + "bc");
+}
+
 TEST_F(NewFiles, ThatCannotBeMadeLeaveNothing) {
   EXPECT_THROW(NewFile(path_, [](std::ostream&) { throw std::runtime_error("no"); }), std::runtime_error);
   EXPECT_EQ(files(), 0);

@@ -184,6 +184,24 @@ TEST(Relief, LinesThatLieHighestAreRidges) {
   }
 }
 
+TEST(Relief, NoLandIsLowerThanItsFloor) {
+  ReliefLaw of = law();
+  const PlanLines lines = drawnTree(8, 60);
+  for (const bool falls : {false, true}) {
+    of.falls = falls;
+    of.floor_m.reset();
+    const Relief without = makeRelief(square(1.0), lines, of, 8);
+    of.floor_m = 24.0;
+    const Relief with = makeRelief(square(1.0), lines, of, 8);
+    std::size_t lower = 0;
+    for (std::size_t i = 0; i < with.raster.height_m.size(); ++i) {
+      lower += without.raster.height_m[i] < 24.0f;
+      ASSERT_EQ(with.raster.height_m[i], std::max(24.0f, without.raster.height_m[i]));
+    }
+    EXPECT_GT(lower, 0u);
+  }
+}
+
 TEST(Relief, NoiseLeavesLinesAlone) {
   ReliefLaw of = law();
   const PlanLines lines = drawnTree(9, 80);

@@ -64,7 +64,9 @@ async function bundleTests(out, files) {
       entryPoints: [file],
       outfile: join(out, basename(file).replace(/\.ts$/, ".mjs")),
       format: "esm",
-      platform: "node",
+      platform: "neutral", // what the page has of each package, not what node would have
+      mainFields: ["module", "main"],
+      external: ["node:*"],
       target: "node18",
       write: true,
     });

@@ -165,6 +165,20 @@ async function main() {
       await page.screenshot({ path: join(scratch, "sky.png") });
     });
 
+    await step("how near things are is shown in a cut, which can be moved", async () => {
+      await page.getByRole("button", { name: "What is drawn on surfaces" }).click();
+      await page.getByRole("menuitemradio", { name: /Boundary layers/ }).click();
+      await page.locator("#legend .axis").first().waitFor({ timeout: 20_000 });
+      await page.getByRole("button", { name: "At right angles to y" }).click();
+      await page.getByRole("slider", { name: "Where the cut lies" }).fill("200");
+      await page.waitForTimeout(900);
+      await page.screenshot({ path: join(scratch, "layers.png") });
+      assert.match(await page.locator("#legend output").textContent(), /^\d+\.\d\d m$/);
+      await page.getByRole("button", { name: "What is drawn on surfaces" }).click();
+      await page.getByRole("menuitemradio", { name: /As they are/ }).click();
+      await page.locator("#legend").waitFor({ state: "hidden", timeout: 5000 });
+    });
+
     await step("the model goes out", async () => {
       const coming = page.waitForEvent("download", { timeout: 60_000 });
       await page.getByRole("button", { name: "Export", exact: true }).click();

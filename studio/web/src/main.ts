@@ -9,7 +9,7 @@ import { keyHover } from "./editor/hover";
 import { Workspace } from "./editor/workspace";
 import { Live } from "./live";
 import { Overlays } from "./overlays";
-import { askLibrary, askProject, askSchema, askWhy } from "./protocol/api";
+import { askLibrary, askProject, askSchema, askWhy, isOvertaken } from "./protocol/api";
 import { Stream } from "./protocol/stream";
 import type { LibraryRules, Project } from "./protocol/types";
 import { SchemaBook } from "./schema/schema";
@@ -100,7 +100,9 @@ const scrubber = new Scrubber(byId("scrubber"), (iteration) => {
   until = iteration;
   world.until(iteration);
 });
-const overlays = new Overlays(world, byId("legend"), () => live.done.value?.version ?? workspace.version.value, (why) => notices.fault(why));
+const overlays = new Overlays(world, byId("legend"), {
+  version: () => live.done.value?.version ?? workspace.version.value, scene: () => live.scene.value, failed: (why) => notices.fault(why),
+});
 const placing = new Placing(workspace, editor, (why) => notices.fault(why));
 const hands = new Hands(world, {
   shown: () => live.growth.shown,
@@ -133,7 +135,7 @@ async function why(plant: number, node: number): Promise<void> {
       close: leave,
     });
   } catch (error) {
-    notices.fault(words(error));
+    if (!isOvertaken(error)) notices.fault(words(error));
   }
 }
 

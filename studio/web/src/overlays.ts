@@ -1,9 +1,23 @@
-// What is measured on surfaces, asked for when it is wanted and again when it may have changed, with its legend.
-import { askSurfaces } from "./protocol/api";
+// What is measured on surfaces and how near things are, asked for when it is wanted and again when it may have changed,
+// with its legend.
+import { isNumber, oneOf, remembered } from "./base/settings";
+import { askLayers, askSurfaces, isOvertaken } from "./protocol/api";
+import { axes, type Axis } from "./protocol/layers";
 import type { Surfaces, SurfaceChannel } from "./protocol/surfaces";
+import type { SceneEvent } from "./protocol/types";
+import { showCutLegend } from "./ui/cut_legend";
 import { showLegend } from "./ui/legend";
-import { plantColours, surfaceChannel } from "./ui/view_bar";
+import { layersChoice, plantColours, surfaceChannel } from "./ui/view_bar";
 import type { World } from "./view/world";
+
+export interface OverlayHost {
+  version(): number;
+  scene(): SceneEvent | null;
+  failed(words: string): void;
+}
+
+const cutAxis = remembered<Axis>("cut_axis", "z", oneOf(...axes));
+const cutShare = remembered("cut_share", 0.5, isNumber);
 
 export class Overlays {
   channels: string[] = [];
@@ -12,7 +26,7 @@ export class Overlays {
   private cut: number | null = null;
   private iterations = 1;
 
-  constructor(private readonly world: World, private readonly legend: HTMLElement, private readonly version: () => number, private readonly failed: (words: string) => void) {
+  constructor(private readonly world: World, private readonly legend: HTMLElement, private readonly host: OverlayHost) {
     surfaceChannel.onChange(() => void this.refresh());
     plantColours.onChange(() => this.draw());
   }
@@ -20,20 +34,23 @@ export class Overlays {
   /** A plant is done: what light is left for the surfaces may be another. */
   async refresh(always = false): Promise<void> {
     const name = surfaceChannel.value;
+    if (name !== layersChoice) this.world.cut.clear();
     if (name === "" && !always) {
       this.draw();
       return;
     }
     this.abort?.abort();
-    const abort = (this.abort = new AbortController());
+    const { signal } = (this.abort = new AbortController());
     try {
-      const surfaces = await askSurfaces(this.version(), abort.signal);
-      if (abort.signal.aborted) return;
+      if (name === layersChoice) await this.layers(signal);
+      if (name === layersChoice && !always) return;
+      const surfaces = await askSurfaces(this.host.version(), signal);
+      if (signal.aborted) return;
       this.surfaces = surfaces;
       this.channels = surfaces.channels.map((channel) => channel.name);
-      this.draw();
+      if (name !== layersChoice) this.draw();
     } catch (error) {
-      if (!abort.signal.aborted) this.failed(error instanceof Error ? error.message : String(error));
+      if (!signal.aborted && !isOvertaken(error)) this.host.failed(error instanceof Error ? error.message : String(error));
     }
   }
 
@@ -41,9 +58,33 @@ export class Overlays {
     this.iterations = iterations;
   }
 
-  private draw(): void {
-    const channel = this.surfaces?.channels.find((each) => each.name === surfaceChannel.value);
+  private async layers(signal: AbortSignal): Promise<void> {
+    const scene = this.host.scene();
+    if (!scene) return;
+    const k = axes.indexOf(cutAxis.value);
+    const [low, voxels] = [scene.low_m[k] ?? 0, scene.size[k] ?? 1];
+    const at_m = (share: number) => low + (Math.min(voxels - 1, Math.floor(share * voxels)) + 0.5) * scene.voxel_m;
+    const cut = await askLayers(this.host.version(), cutAxis.value, at_m(cutShare.value), signal);
+    if (signal.aborted) return;
+    this.world.faces.clear();
+    this.world.cut.show(cut);
     this.world.colours(plantColours.value);
+    const moved = this.legend.contains(document.activeElement) && document.activeElement instanceof HTMLInputElement;
+    if (moved) return; // the hand is on its slider, which says already where the cut is
+    showCutLegend(this.legend, {
+      axis: cutAxis.value, share: cutShare.value, at_m, layers: cut.layers,
+      move: (axis, share) => {
+        cutAxis.value = axis;
+        cutShare.value = share;
+        void this.refresh();
+      },
+    });
+  }
+
+  private draw(): void {
+    this.world.colours(plantColours.value);
+    if (surfaceChannel.value === layersChoice) return;
+    const channel = this.surfaces?.channels.find((each) => each.name === surfaceChannel.value);
     if (this.surfaces && channel) this.world.faces.show(this.surfaces, channel.name, this.cut);
     else this.world.faces.clear();
     this.world.invalidate();

@@ -9,6 +9,7 @@ import { EditorState, Transaction, type Extension, type TransactionSpec } from "
 import { drawSelection, EditorView, highlightActiveLine, highlightActiveLineGutter, keymap, lineNumbers, tooltips } from "@codemirror/view";
 import { Signal } from "../base/signal";
 import type { Change } from "../yaml/edit";
+import { indentation } from "./indent";
 import { look } from "./look";
 import { diagnosticsOf } from "./problems";
 import type { Workspace } from "./workspace";
@@ -145,7 +146,7 @@ export class Editor {
       doc: text,
       extensions: [
         lineNumbers(), highlightActiveLine(), highlightActiveLineGutter(), drawSelection(), history(), indentOnInput(),
-        bracketMatching(), closeBrackets(), highlightSelectionMatches(), indentUnit.of("  "), yaml(), look,
+        bracketMatching(), closeBrackets(), highlightSelectionMatches(), indentUnit.of("  "), indentation, yaml(), look,
         autocompletion({ override: [this.parts.completion(name)], icons: false }), this.parts.hover(name),
         tooltips({ parent: document.body }),
         EditorState.readOnly.of(readOnly),

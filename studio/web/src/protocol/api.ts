@@ -1,5 +1,6 @@
 // Questions to the program, each one function. What goes wrong is told in the program's own words.
 import type { ExportAnswer, LibraryRules, PlaceAnswer, Problem, Project, Vec3, WhyAnswer } from "./types";
+import { readLayers, type Axis, type Layers } from "./layers";
 import { readSurfaces, type Surfaces } from "./surfaces";
 
 export class ApiError extends Error {
@@ -7,6 +8,9 @@ export class ApiError extends Error {
     super(message);
   }
 }
+
+/** What was asked of has been overtaken by an edit: what comes next answers better. */
+export const isOvertaken = (error: unknown): boolean => error instanceof ApiError && error.status === 409;
 
 async function ask<T>(address: string, body?: unknown, signal?: AbortSignal): Promise<T> {
   const answer = await fetch(address, {
@@ -51,11 +55,15 @@ export type ExportWish = { what: "glb" | "vdb" | "skeleton" } | { what: "image";
 
 export const askExport = (wish: ExportWish) => ask<ExportAnswer>("/api/export", wish);
 
-export async function askSurfaces(version: number, signal: AbortSignal): Promise<Surfaces> {
-  const answer = await fetch(`/api/surfaces?version=${version}`, { signal, cache: "no-store" });
-  if (!answer.ok) {
-    const body = (await answer.json().catch(() => ({}))) as Record<string, unknown>;
-    throw new ApiError(String(body["error"] ?? answer.statusText), answer.status, body);
-  }
-  return readSurfaces(await answer.arrayBuffer());
+async function askBytes(address: string, signal: AbortSignal): Promise<ArrayBuffer> {
+  const answer = await fetch(address, { signal, cache: "no-store" });
+  if (answer.ok) return answer.arrayBuffer();
+  const body = (await answer.json().catch(() => ({}))) as Record<string, unknown>;
+  throw new ApiError(String(body["error"] ?? answer.statusText), answer.status, body);
 }
+
+export const askSurfaces = async (version: number, signal: AbortSignal): Promise<Surfaces> =>
+  readSurfaces(await askBytes(`/api/surfaces?version=${version}`, signal));
+
+export const askLayers = async (version: number, axis: Axis, at_m: number, signal: AbortSignal): Promise<Layers> =>
+  readLayers(await askBytes(`/api/layers?version=${version}&axis=${axis}&at=${at_m}`, signal));

@@ -20,7 +20,7 @@ export interface Surfaces {
   channels: SurfaceChannel[];
   /** Three for each voxel; 0 is the one whose middle is low_m. */
   voxels: Uint16Array;
-  /** Bits +x, -x, +y, -y, +z, -z: which faces are open. */
+  /** Bits from the lowest: -x, +x, -y, +y, -z, +z: which faces are open. */
   faces: Uint8Array;
 }
 

@@ -6,6 +6,8 @@ import type { PlantColours } from "../view/plant_material";
 import { menuButton, type MenuPart } from "./menu";
 
 export const surfaceChannel = remembered("surfaces", "", isText);
+/** A choice of surfaces that is none of the measured ones. */
+export const layersChoice = "boundary layers";
 export const plantColours = remembered<PlantColours>("colours", "natural", oneOf("natural", "age", "exposure"));
 export const seedsShown = remembered("seeds", true, isBoolean);
 export const plantsShown = remembered("plants", true, isBoolean);
@@ -27,6 +29,7 @@ export function viewBar(place: HTMLElement, host: ViewBarHost): void {
   ]);
   const surfaces = menuButton(make("span", {}, "Surfaces"), "What is drawn on surfaces", () => [
     radio("As they are", surfaceChannel.value === "", () => (surfaceChannel.value = "")),
+    radio("Boundary layers", surfaceChannel.value === layersChoice, () => (surfaceChannel.value = layersChoice), "A cut through how near things are"),
     { kind: "title", words: "measured" },
     ...host.channels().map((name) => radio(name, surfaceChannel.value === name, () => (surfaceChannel.value = name))),
   ]);

@@ -4,6 +4,7 @@ import type { Generation } from "../growth/plants";
 import type { LooksEvent, SceneEvent } from "../protocol/types";
 import { Eye } from "./camera";
 import { Foliage } from "./foliage";
+import { LayerCut } from "./layer_cut";
 import { Lights } from "./lights";
 import { coloursNumber, plantUniforms, type PlantColours } from "./plant_material";
 import { qualityHere } from "./quality";
@@ -32,6 +33,7 @@ export class World {
   readonly seeds = new SeedMarkers();
   readonly trials = new TrialLines();
   readonly faces = new SurfaceFaces();
+  readonly cut = new LayerCut();
   private readonly scene = new THREE.Scene();
   private readonly quality = qualityHere();
   private readonly lights = new Lights(this.quality.shadow_px);
@@ -55,7 +57,7 @@ export class World {
     this.renderer.toneMappingExposure = 1.25;
     this.eye = new Eye(canvas, () => this.invalidate());
     this.site = new Site(() => this.siteCame(), failed);
-    this.scene.add(this.lights.root, this.site.root, this.stems.root, this.foliage.root, this.faces.root, this.seeds.root, this.trials.root);
+    this.scene.add(this.lights.root, this.site.root, this.stems.root, this.foliage.root, this.faces.root, this.cut.root, this.seeds.root, this.trials.root);
     new ResizeObserver(() => this.resize()).observe(host);
     canvas.addEventListener("webglcontextrestored", () => this.changedScene());
     this.resize();

@@ -31,7 +31,7 @@ add_custom_command(OUTPUT ${ESPALIER_PAGE}/fetched.txt
   DEPENDS ${web}/package.json ${web}/package-lock.json ${web}/.npmrc ${web}/fetch.cmake
   COMMENT "Fetching what the studio's page is made from" VERBATIM)
 
-file(GLOB_RECURSE page_sources CONFIGURE_DEPENDS ${web}/src/*)
+file(GLOB_RECURSE page_sources CONFIGURE_DEPENDS ${web}/src/* ${web}/presets/*)
 add_custom_command(OUTPUT ${ESPALIER_PAGE}/page_files.cpp
   COMMAND ${CMAKE_COMMAND} -DNODE=${page_node} -DWEB=${web} -DPAGE=${ESPALIER_PAGE} -P ${web}/embed.cmake
   DEPENDS ${ESPALIER_PAGE}/fetched.txt ${page_sources} ${web}/build.mjs ${web}/tsconfig.json ${web}/embed.cmake

@@ -185,7 +185,9 @@ async function main() {
       await page.getByRole("menuitem", { name: /Model/ }).click();
       const download = await coming;
       const file = await readFile(await download.path());
-      assert.equal(file.subarray(0, 4).toString("latin1"), "glTF");
+      const report = await require("gltf-validator").validateBytes(new Uint8Array(file));
+      assert.equal(report.issues.numErrors, 0, JSON.stringify(report.issues.messages.slice(0, 5)));
+      assert.ok(report.info.totalTriangleCount > 10_000, `${report.info.totalTriangleCount} triangles`);
     });
 
     await step("saving, and another hand's change", async () => {

@@ -1,11 +1,13 @@
 import assert from "node:assert/strict";
+import { readFileSync } from "node:fs";
+import { join } from "node:path";
 import { test } from "node:test";
 import { parse } from "yaml";
 import { dialAt, turned } from "../../../studio/web/src/dials/dial";
 import { planOf } from "../../../studio/web/src/dials/plan";
 import { offersAt } from "../../../studio/web/src/schema/complete";
 import { parseYaml } from "../../../studio/web/src/yaml/tree";
-import { libraryTexts, scalarsOf, schemaBook } from "./support";
+import { libraryTexts, scalarsOf, schemaBook, source } from "./support";
 
 const books = { rules: schemaBook("rules"), scene: schemaBook("scene") };
 
@@ -45,6 +47,13 @@ test("every key of the library is one of the schema", () => {
         assert.ok(book.at(path).length > 0, `${name}: ${path.join(".")}`);
       }
     }
+  }
+});
+
+test("every rule set of the library has a picture", () => {
+  for (const { name } of libraryTexts("rules")) {
+    const picture = join(source, "studio/web/presets", name.replace(".yaml", ".jpg"));
+    assert.deepEqual([...readFileSync(picture).subarray(0, 3)], [0xff, 0xd8, 0xff], picture);
   }
 });
 

@@ -6,6 +6,8 @@ export interface MenuItem {
   label: string;
   about?: string;
   hint?: string;
+  /** The address of a picture; a menu of items with pictures is a board of cards. */
+  picture?: string;
   ticked?: boolean;
   /** With it the item is one of several, of which one is ticked. */
   radio?: boolean;
@@ -46,6 +48,7 @@ function open(button: HTMLButtonElement, name: string, parts: MenuPart[]): void 
     if (!menu.contains(event.target as Node) && !button.contains(event.target as Node)) close(false);
   };
   for (const part of parts) menu.append(element(part, close));
+  menu.classList.toggle("has-pictures", parts.some((part) => part.kind === "item" && part.picture));
   document.body.append(menu);
   place(menu, button.getBoundingClientRect());
   button.setAttribute("aria-expanded", "true");
@@ -67,7 +70,7 @@ function element(part: MenuPart, close: (focus: boolean) => void): HTMLElement {
       part.act();
     },
   },
-  make("span", { class: "tick", "aria-hidden": "true" }, part.ticked ? "✓" : ""),
+  part.picture ? make("img", { src: part.picture, alt: "", width: 208, height: 132, loading: "lazy" }) : make("span", { class: "tick", "aria-hidden": "true" }, part.ticked ? "✓" : ""),
   make("span", { class: "label" }, part.label),
   make("span", { class: "hint" }, part.hint ?? ""),
   part.about ? make("span", { class: "about" }, part.about) : null);

@@ -9,7 +9,7 @@ import type { Notices } from "./notices";
 
 export function presetMenu(library: () => LibraryRules[], workspace: Workspace, editor: Editor, notices: Notices): HTMLButtonElement {
   return menuButton("Presets", "Rule sets of the library", () =>
-    library().map((rules): MenuPart => ({ kind: "item", label: rules.name.replaceAll("_", " "), about: rules.about, act: () => put(rules, workspace, editor, notices) })));
+    library().map((rules): MenuPart => ({ kind: "item", label: rules.name.replaceAll("_", " "), about: rules.about, picture: `/presets/${rules.name}.jpg`, act: () => put(rules, workspace, editor, notices) })));
 }
 
 function put(rules: LibraryRules, workspace: Workspace, editor: Editor, notices: Notices): void {

@@ -13,6 +13,7 @@
 #include "sim/base/provenance.h"
 #include "sim/base/stop.h"
 #include "studio/session/looked_at.h"
+#include "studio/session/refused.h"
 #include "studio/session/touched.h"
 #include "studio/wire/frame.h"
 #include "studio/wire/looks.h"
@@ -284,7 +285,7 @@ std::vector<std::string> Regrowth::all() const {
 
 void Regrowth::requireGrown(Version version) const {
   if (grown_version_ == 0 || version != grown_version_)
-    throw sim::InputError("what has grown is of another version of the texts");
+    throw Refused(409, "what has grown is of another version of the texts");
 }
 
 std::string Regrowth::surfaces(Version version) {

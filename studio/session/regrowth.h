@@ -40,7 +40,8 @@ class Regrowth {
   /// All that stands, as frames for somebody new.
   std::vector<std::string> all() const;
 
-  /// What falls on surfaces, as README.md has it. Throws InputError where nothing has grown for that version.
+  /// What falls on surfaces, as README.md has it. Throws Refused (409) where what has grown is of
+  /// another version.
   std::string surfaces(Version version);
   /// A cut through the boundary layers, likewise; `axis` 0: x.
   std::string layers(Version version, int axis, double at_m);

@@ -1,0 +1,18 @@
+# npm ci in the build tree: cmake -DNODE= -DNPM= -DWEB= -DPAGE= -DTESTS= -P fetch.cmake. Writes PAGE/fetched.txt: yes or no.
+file(MAKE_DIRECTORY ${PAGE})
+if(NODE)
+  file(COPY ${WEB}/package.json ${WEB}/package-lock.json ${WEB}/.npmrc DESTINATION ${PAGE})
+  set(without "")
+  if(NOT TESTS)
+    set(without --omit=dev)
+  endif()
+  execute_process(COMMAND ${NPM} ci --prefer-offline ${without} WORKING_DIRECTORY ${PAGE}
+    RESULT_VARIABLE failed OUTPUT_VARIABLE said ERROR_VARIABLE said TIMEOUT 600)
+  if(NOT failed)
+    file(WRITE ${PAGE}/fetched.txt "yes\n")
+    return()
+  endif()
+  string(REGEX MATCH "[^\n]*" line "${said}")
+  message(NOTICE "espalier studio without its page: npm could not fetch what it is made from (${line}); configure again to try again")
+endif()
+file(WRITE ${PAGE}/fetched.txt "no\n")

@@ -12,6 +12,8 @@ endforeach()
 install(FILES cmake/espalier.h DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/espalier)
 install(DIRECTORY rules/library DESTINATION ${CMAKE_INSTALL_DATADIR}/espalier/rules)
 install(DIRECTORY scenes/library scenes/meshes scenes/skeletons DESTINATION ${CMAKE_INSTALL_DATADIR}/espalier/scenes)
+# Of what the studio's page is made of; not there where the page was left out.
+install(FILES ${PROJECT_BINARY_DIR}/studio/page/files/licences.txt DESTINATION ${CMAKE_INSTALL_DOCDIR} OPTIONAL)
 install(EXPORT espalier NAMESPACE espalier:: DESTINATION ${package_folder} FILE espalierTargets.cmake)
 write_basic_package_version_file(${PROJECT_BINARY_DIR}/espalierConfigVersion.cmake COMPATIBILITY SameMinorVersion)
 install(FILES ${PROJECT_BINARY_DIR}/espalierConfigVersion.cmake cmake/espalierConfig.cmake

@@ -375,6 +375,13 @@ TEST_F(EveryFlag, OfInspectAndInitChangesWhatIsMade) {
   EXPECT_TRUE(fs::exists(scratch_.path("project/scene.yaml")));
 }
 
+/// What each does is seen where the studio is run: studio_test.cpp.
+TEST_F(EveryFlag, OfStudioIsKnown) {
+  cli::addStudio(app_, status_);
+  EXPECT_EQ(optionsOf(*app_.get_subcommand("studio")),
+            (std::set<std::string>{"scene", "port", "threads", "no-open"}));
+}
+
 TEST_F(EveryFlag, OfTheProgramItselfAndEverySubcommandIsAmongThese) {
   const std::string help = tests::espalier("--help").output;
   EXPECT_NE(help, tests::espalier("--version").output);
@@ -386,7 +393,7 @@ TEST_F(EveryFlag, OfTheProgramItselfAndEverySubcommandIsAmongThese) {
     if (line.starts_with("  ") && line[2] != ' ') told.insert(line.substr(2, line.find(' ', 2) - 2));
   }
   EXPECT_EQ(told, (std::set<std::string>{"certify", "check", "explain", "expose", "gallery", "grow", "init",
-                                         "inspect", "render", "rules", "schema"}));
+                                         "inspect", "render", "rules", "schema", "studio"}));
   EXPECT_EQ(help.substr(0, help.find("Subcommands:")).find("--", help.find("--version") + 2),
             std::string::npos)
       << "an option of the program itself that no test knows:\n"

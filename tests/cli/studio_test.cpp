@@ -7,6 +7,8 @@
 #include <array>
 #include <chrono>
 #include <cstdio>
+#include <cstdlib>
+#include <filesystem>
 #include <string>
 
 #include "tests/cli/plot.h"
@@ -24,13 +26,19 @@ struct Studio {
   int out = -1;
   std::string said;
 
-  explicit Studio(const std::string& scene) {
+  /// `programs`: a folder that is looked into first for programs; with it the page is opened as on a desktop.
+  explicit Studio(const std::string& scene, const std::string& programs = "") {
     std::array<int, 2> ends{};
     if (::pipe(ends.data()) != 0) return;
     child = ::fork();
     if (child == 0) {
       ::dup2(ends[1], STDOUT_FILENO);
       ::close(ends[0]);
+      if (!programs.empty()) {
+        ::setenv("PATH", (programs + ":" + std::getenv("PATH")).c_str(), 1);
+        ::setenv("DISPLAY", ":0", 1);
+        ::execl(ESPALIER_PROGRAM, "espalier", "studio", scene.c_str(), "--threads", "1", nullptr);
+      }
       ::execl(ESPALIER_PROGRAM, "espalier", "studio", scene.c_str(), "--no-open", nullptr);
       ::_exit(127);
     }
@@ -68,6 +76,19 @@ TEST_F(StudioCommand, SaysWhereItIsAndEndsByCtrlC) {
     EXPECT_EQ(studio.endedBy(signal, seconds), 0);
     EXPECT_LT(seconds, kSoon_s);
   }
+}
+
+TEST_F(StudioCommand, OpensItsPageWhereThereIsADesktop) {
+  const auto opener = scratch_.write("xdg-open", "#!/bin/sh\necho \"$1\" > \"$(dirname \"$0\")/opened\"\n");
+  std::filesystem::permissions(opener, std::filesystem::perms::owner_all);
+  const Studio studio(scratch_.path("scene.yaml").string(), opener.parent_path().string());
+  const auto opened = scratch_.path("opened");
+  for (int i = 0; i < 100 && (!std::filesystem::exists(opened) || std::filesystem::file_size(opened) == 0);
+       ++i)
+    ::usleep(50'000);
+  ASSERT_TRUE(std::filesystem::exists(opened));
+  const std::string address = fileText(opened);
+  EXPECT_NE(studio.said.find(address.substr(0, address.find('\n'))), std::string::npos) << address;
 }
 
 TEST_F(StudioCommand, EndsWhileItGrows) {

@@ -78,7 +78,9 @@ class Server::Routes {
     http_.set_payload_max_length(kMostBody);
     http_.set_read_timeout(10);
     http_.set_write_timeout(0, 100'000);
-    http_.set_keep_alive_timeout(5);
+    // The library waits out an idle connection before it stops; on one machine a new one costs nothing.
+    http_.set_keep_alive_max_count(1);
+    http_.set_keep_alive_timeout(1);
     http_.set_default_headers(headersOfAll());
     http_.set_pre_routing_handler([this](const httplib::Request& request, httplib::Response& response) {
       return judge(request, response);

@@ -375,13 +375,6 @@ TEST_F(EveryFlag, OfInspectAndInitChangesWhatIsMade) {
   EXPECT_TRUE(fs::exists(scratch_.path("project/scene.yaml")));
 }
 
-/// What each does is seen where the studio is run: studio_test.cpp.
-TEST_F(EveryFlag, OfStudioIsKnown) {
-  cli::addStudio(app_, status_);
-  EXPECT_EQ(optionsOf(*app_.get_subcommand("studio")),
-            (std::set<std::string>{"scene", "port", "threads", "no-open"}));
-}
-
 TEST_F(EveryFlag, OfTheProgramItselfAndEverySubcommandIsAmongThese) {
   const std::string help = tests::espalier("--help").output;
   EXPECT_NE(help, tests::espalier("--version").output);

@@ -4,13 +4,18 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <CLI/App.hpp>
+#include <CLI/Config.hpp>
+#include <CLI/Formatter.hpp>
 #include <array>
 #include <chrono>
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
+#include <set>
 #include <string>
 
+#include "cli/commands.h"
 #include "tests/cli/plot.h"
 
 namespace espalier::tests {
@@ -66,6 +71,16 @@ struct Studio {
 };
 
 class StudioCommand : public Plot {};
+
+TEST_F(StudioCommand, HasNoOtherOptionsThanAreTriedHere) {
+  CLI::App app;
+  int status = 0;
+  cli::addStudio(app, status);
+  std::set<std::string> names;
+  for (const CLI::Option* const option : app.get_subcommand("studio")->get_options())
+    names.insert(option->get_single_name());
+  EXPECT_EQ(names, (std::set<std::string>{"help", "scene", "port", "threads", "no-open"}));
+}
 
 TEST_F(StudioCommand, SaysWhereItIsAndEndsByCtrlC) {
   for (const int signal : {SIGINT, SIGTERM}) {

@@ -35,6 +35,7 @@ async function makeProject() {
 
 async function serve(scene) {
   const child = spawn(program, ["studio", scene, "--no-open"], { stdio: ["ignore", "pipe", "inherit"] });
+  process.on("exit", () => child.kill("SIGINT")); // however this ends
   const address = await new Promise((resolve, reject) => {
     let said = "";
     child.stdout.on("data", (piece) => {

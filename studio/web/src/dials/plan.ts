@@ -31,7 +31,7 @@ const wanted = new Set([
 
 export const planKey = (path: Path): string => path.map((step) => (typeof step === "number" ? "#" : step)).join(".");
 
-/** The whole file's own numbers come last, as in a rule file there are none. */
+/** The whole file's own numbers come first; a rule file has none. */
 export function planOf(book: SchemaBook, kind: "rules" | "scene", root: YamlNode | null, bases: (YamlNode | null)[]): Section[] {
   const top = book.keys([]);
   const process = processOf(root, bases);

@@ -6,10 +6,6 @@ export interface NumberKind {
   low: number;
   high: number;
   whole: boolean;
-  /** May also be written with mm, cm, m. */
-  length: boolean;
-  /** May be a range [a, b]. */
-  range: boolean;
   /** In the reference's words: degrees, voxel widths, weight. */
   unit: string;
 }
@@ -19,15 +15,10 @@ export function numberKind(info: KeyInfo): NumberKind | null {
   if (!plain) return null;
   const low = plain.minimum ?? plain.exclusiveMinimum ?? -Infinity;
   const high = plain.maximum ?? plain.exclusiveMaximum ?? Infinity;
-  const pair = info.choices.find((each) => typesOf(each).includes("array") && each.minItems === 2 && each.maxItems === 2);
-  const items = pair && typeof pair.items === "object" ? pair.items : undefined;
-  const numericItems = !!items && [items, ...(items.anyOf ?? [])].some((each) => isNumeric(each));
   return {
     low,
     high,
     whole: typesOf(plain).includes("integer"),
-    length: info.choices.some((each) => /mm\|cm\|m/.test(each.pattern ?? "")),
-    range: numericItems,
     unit: describe(info.schema).unit,
   };
 }

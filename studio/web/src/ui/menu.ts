@@ -5,7 +5,6 @@ export interface MenuItem {
   kind: "item";
   label: string;
   about?: string;
-  hint?: string;
   /** The address of a picture; a menu of items with pictures is a board of cards. */
   picture?: string;
   ticked?: boolean;
@@ -18,8 +17,8 @@ export type MenuPart = MenuItem | { kind: "title"; words: string } | { kind: "li
 
 let openMenu: { close: (focus: boolean) => void } | null = null;
 
-export function menuButton(label: Child, name: string, parts: () => MenuPart[], extra = ""): HTMLButtonElement {
-  const button = make("button", { class: `button ${extra}`, type: "button", "aria-haspopup": "menu", "aria-expanded": "false", "aria-label": name },
+export function menuButton(label: Child, name: string, parts: () => MenuPart[]): HTMLButtonElement {
+  const button = make("button", { class: "button", type: "button", "aria-haspopup": "menu", "aria-expanded": "false", "aria-label": name },
     label, make("span", { class: "turn", "aria-hidden": "true" }, "▾"));
   button.addEventListener("click", () => {
     const wasOpen = button.getAttribute("aria-expanded") === "true";
@@ -72,7 +71,6 @@ function element(part: MenuPart, close: (focus: boolean) => void): HTMLElement {
   },
   part.picture ? make("img", { src: part.picture, alt: "", width: 208, height: 132, loading: "lazy" }) : make("span", { class: "tick", "aria-hidden": "true" }, part.ticked ? "✓" : ""),
   make("span", { class: "label" }, part.label),
-  make("span", { class: "hint" }, part.hint ?? ""),
   part.about ? make("span", { class: "about" }, part.about) : null);
 }
 

@@ -26,12 +26,6 @@ export class Foliage {
 
   constructor(private readonly uniforms: PlantUniforms, private readonly textures: Textures, private readonly budget_triangles: number) {}
 
-  get triangles(): number {
-    let sum = 0;
-    for (const kind of this.kinds.values()) sum += kind.near.count * kind.trianglesNear + (kind.far?.count ?? 0) * kind.trianglesFar;
-    return sum;
-  }
-
   update(shown: Generation, looks: PlantLooks[], eye: THREE.Vector3): void {
     const wanted = new Map<string, { shape: LeafShape; sources: Leaves[]; count: number }>();
     for (const [plant, shapes] of shown.leaves) {
@@ -59,10 +53,6 @@ export class Foliage {
     this.sortedFrom.copy(eye);
     for (const kind of kinds) deal(kind, eye, (this.budget_triangles * kind.count * kind.trianglesNear) / Math.max(all, 1));
     return true;
-  }
-
-  dispose(): void {
-    for (const [key, kind] of this.kinds) this.drop(key, kind);
   }
 
   private add(key: string, shape: LeafShape): Kind {

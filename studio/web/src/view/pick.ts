@@ -7,7 +7,6 @@ import type { SceneSeed } from "../protocol/types";
 export interface Picked {
   plant: number;
   node: number;
-  distance_m: number;
 }
 
 const reach_px = 11;
@@ -42,7 +41,7 @@ export function pickLimb(shown: Generation, camera: THREE.PerspectiveCamera, x_p
       const cost = off / reach_px + distance / (limit_m === Infinity ? 1e4 : limit_m);
       if (cost < bestCost) {
         bestCost = cost;
-        best = { plant, node: along < 0.5 ? from : i, distance_m: distance };
+        best = { plant, node: along < 0.5 ? from : i };
       }
     }
   }

@@ -43,14 +43,6 @@ export class Site {
     return ray.intersectObject(this.root, true)[0] ?? null;
   }
 
-  get triangles(): number {
-    let sum = 0;
-    this.root.traverse((object) => {
-      if (object instanceof THREE.Mesh) sum += (object.geometry.index?.count ?? object.geometry.getAttribute("position").count) / 3;
-    });
-    return sum;
-  }
-
   private replace(next: THREE.Object3D): void {
     if (this.current) {
       this.root.remove(this.current);

@@ -13,7 +13,6 @@ interface Group {
 export class Stems {
   readonly root = new THREE.Group();
   private readonly groups = new Map<string, Group>();
-  triangles = 0;
 
   /** `fineness` 1 is as fine as it comes. */
   constructor(private readonly uniforms: PlantUniforms, private readonly fineness: number) {}
@@ -30,7 +29,6 @@ export class Stems {
     }
     for (const [key, group] of this.groups) if (!wanted.has(key)) this.drop(key, group);
     const options = optionsFor(shown, this.fineness);
-    this.triangles = 0;
     for (const [key, { look, plants }] of wanted) {
       const group = this.groups.get(key) ?? this.add(key, look);
       if (changed === "all" || plants.some((plant) => changed.has(plant)) || !group.mesh.geometry.index) {
@@ -38,12 +36,7 @@ export class Stems {
         group.mesh.geometry.dispose();
         group.mesh.geometry = geometryOf(skeletons, options);
       }
-      this.triangles += (group.mesh.geometry.index?.count ?? 0) / 3;
     }
-  }
-
-  dispose(): void {
-    for (const [key, group] of this.groups) this.drop(key, group);
   }
 
   private add(key: string, look: PlantLooks): Group {
